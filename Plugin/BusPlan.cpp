@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses channel sets whose order a plug-in format preserves.
+// Chooses channel sets whose order a plug-in format preserves, and maps actuators to the host's channels.
 #include "BusPlan.h"
 #include "Scene/LayoutFile.h"
 #include <algorithm>
@@ -20,12 +20,12 @@ bool keepsItsOrder(const Set& set) {
 }
 
 bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
-    if (set.size() < 1 || set.size() > BusPlan::widestBus) return false;
+    if (set.size() < 1 || set.size() > BusPlan::maxBusChannels) return false;
     return format != Processor::wrapperType_VST3 || keepsItsOrder(set);
 }
 
 juce::String labelOf(int enchanter) {
-    return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).enchanters.back().label};
+    return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).actuators.back().label};
 }
 
 bool isSideChain(const juce::Array<Set>& inputs) {
@@ -54,7 +54,7 @@ std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType forma
     std::vector<OutputBus> buses;
     for (int b = 0; b < BusPlan::busCount; ++b) {
         buses.push_back(
-            {labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::busesOfANewInstance});
+            {labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::initialBusCount});
     }
     return buses;
 }
@@ -82,12 +82,12 @@ BusMap::BusMap(const Processor& processor)
     }
 }
 
-int BusMap::connected(int enchanters) const noexcept {
+int BusMap::connectedCount(int enchanters) const noexcept {
     return static_cast<int>(
         std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
 }
 
-int BusMap::leading() const noexcept {
+int BusMap::leadingConnected() const noexcept {
     return static_cast<int>(std::ranges::find(channelOf, -1) - channelOf.begin());
 }
 

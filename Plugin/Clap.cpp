@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CLAP by its ABI, around the same processor, where a build names the folder of clap/clap.h (Modules.cmake):
-// notes with what is said of them and points of parameters from the host's list. Hosts show parameters.
+// The CLAP entry, for builds that name the folder of clap/clap.h (Modules.cmake): PluginProcessor with
+// parameter points and note expressions from the host's event list. It has no window.
 #include "PluginProcessor.h"
 #include <clap/clap.h>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t channels = 4;
 
-/// Runs JUCE's messages while any instance lives: a host's own threads know nothing of them.
+/// Runs JUCE's message loop while any instance exists, because hosts of CLAP do not.
 class MessageThread final : public juce::Thread {
 public:
     MessageThread()
@@ -34,20 +34,20 @@ private:
     juce::WaitableEvent isReady_;
 };
 
-/// A block's events, which the host has in the order of frames. R, wait-free.
+/// The events of a block, which hosts send in the order of frames. R, wait-free.
 class ClapEvents final : public PointSource, public NoteSource {
 public:
     ClapEvents(const clap_input_events_t* events, PluginProcessor& processor) noexcept
         : events_{events}
         , count_{events ? events->size(events) : 0}
         , processor_{processor} {
-        processor.expectPoints(*this);
-        processor.expectNotes(*this);
+        processor.setPointSource(*this);
+        processor.setNoteSource(*this);
     }
 
     bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
-        for (auto& at = at_[parameter]; at < count_;) {
-            const auto* const event = get<clap_event_param_value_t>(at++, CLAP_EVENT_PARAM_VALUE);
+        for (auto& index = nextIndex_[parameter]; index < count_;) {
+            const auto* const event = get<clap_event_param_value_t>(index++, CLAP_EVENT_PARAM_VALUE);
             if (!event || event->param_id != parameter || !std::isfinite(event->value)) continue;
             point.frame = static_cast<int>(event->header.time);
             point.normal = processor_.parameter(static_cast<Parameter>(parameter))
@@ -56,59 +56,60 @@ public:
         }
         return false;
     }
-    int lastOfLine(std::size_t) noexcept override { return -1; }
+    int lastPointFrame(std::size_t) noexcept override { return -1; }
 
     bool next(NoteEvent& note) noexcept override {
-        while (noteAt_ < count_) {
-            const auto at = noteAt_++;
+        while (nextNoteIndex_ < count_) {
+            const auto index = nextNoteIndex_++;
             note = {};
-            note.frame = static_cast<int>(events_->get(events_, at)->time);
-            if (read(at, note)) return true;
+            note.frame = static_cast<int>(events_->get(events_, index)->time);
+            if (read(index, note)) return true;
         }
         return false;
     }
 
 private:
     template <class Event>
-    const Event* get(std::uint32_t at, std::uint16_t type) const noexcept {
-        const auto* const header = events_->get(events_, at);
+    const Event* get(std::uint32_t index, std::uint16_t type) const noexcept {
+        const auto* const header = events_->get(events_, index);
         return header->space_id == CLAP_CORE_EVENT_SPACE_ID && header->type == type
                    ? reinterpret_cast<const Event*>(header)
                    : nullptr;
     }
-    bool read(std::uint32_t at, NoteEvent& note) const noexcept {
-        if (const auto* const on = get<clap_event_note_t>(at, CLAP_EVENT_NOTE_ON))
-            return strike(*on, 0x90, on->velocity > 0.0 ? std::min(on->velocity, 1.0) : 0.0, note);
+    bool read(std::uint32_t index, NoteEvent& note) const noexcept {
+        if (const auto* const on = get<clap_event_note_t>(index, CLAP_EVENT_NOTE_ON))
+            return readNoteOn(*on, 0x90, on->velocity > 0.0 ? std::min(on->velocity, 1.0) : 0.0, note);
         for (const std::uint16_t end : {CLAP_EVENT_NOTE_OFF, CLAP_EVENT_NOTE_CHOKE})
-            if (const auto* const off = get<clap_event_note_t>(at, end)) return let(*off, note);
-        if (const auto* const midi = get<clap_event_midi_t>(at, CLAP_EVENT_MIDI)) {
+            if (const auto* const off = get<clap_event_note_t>(index, end)) return readNoteOff(*off, note);
+        if (const auto* const midi = get<clap_event_midi_t>(index, CLAP_EVENT_MIDI)) {
             std::copy_n(midi->data, 3, note.midi.begin());
             return true;
         }
-        const auto* const said = get<clap_event_note_expression_t>(at, CLAP_EVENT_NOTE_EXPRESSION);
-        return said && express(*said, note);
+        const auto* const expression = get<clap_event_note_expression_t>(index, CLAP_EVENT_NOTE_EXPRESSION);
+        return expression && readExpression(*expression, note);
     }
-    static bool strike(const clap_event_note_t& from, int status, double velocity, NoteEvent& note) noexcept {
+    static bool readNoteOn(const clap_event_note_t& from, int status, double velocity,
+                           NoteEvent& note) noexcept {
         if (from.channel < 0 || from.channel > 15 || from.key < 0 || from.key > 127) return false;
         note.midi = {static_cast<std::uint8_t>(status | from.channel), static_cast<std::uint8_t>(from.key),
                      static_cast<std::uint8_t>(127.0 * velocity + 0.5)};
         note.id = from.note_id;
         return true;
     }
-    static bool let(const clap_event_note_t& from, NoteEvent& note) noexcept {
+    static bool readNoteOff(const clap_event_note_t& from, NoteEvent& note) noexcept {
         note.kind = NoteEvent::Kind::off;
-        address(from, note);
+        readTarget(from, note);
         return true;
     }
     template <class From>
-    static void address(const From& from, NoteEvent& note) noexcept {
+    static void readTarget(const From& from, NoteEvent& note) noexcept {
         note.id = from.note_id;
         note.channel = from.channel < 0 ? -1 : from.channel + 1;
         note.number = from.key;
     }
-    static bool express(const clap_event_note_expression_t& from, NoteEvent& note) noexcept {
+    static bool readExpression(const clap_event_note_expression_t& from, NoteEvent& note) noexcept {
         using enum NoteEvent::Kind;
-        address(from, note);
+        readTarget(from, note);
         note.value = from.value;
         switch (from.expression_id) {
         case CLAP_NOTE_EXPRESSION_VOLUME: note.kind = volume; return true;
@@ -122,23 +123,23 @@ private:
     const clap_input_events_t* const events_;
     const std::uint32_t count_;
     PluginProcessor& processor_;
-    std::array<std::uint32_t, parameterCount> at_{};
-    std::uint32_t noteAt_ = 0;
+    std::array<std::uint32_t, parameterCount> nextIndex_{};
+    std::uint32_t nextNoteIndex_ = 0;
 };
 
 struct HostTransport final : juce::AudioPlayHead {
-    const clap_event_transport_t* now = nullptr; // of this block
+    const clap_event_transport_t* event = nullptr; // of this block
     double rateHz = 0.0;
     juce::Optional<PositionInfo> getPosition() const override {
-        if (!now) return {};
+        if (!event) return {};
         PositionInfo info;
-        info.setIsPlaying((now->flags & CLAP_TRANSPORT_IS_PLAYING) != 0);
-        if ((now->flags & CLAP_TRANSPORT_HAS_SECONDS_TIMELINE) != 0)
+        info.setIsPlaying((event->flags & CLAP_TRANSPORT_IS_PLAYING) != 0);
+        if ((event->flags & CLAP_TRANSPORT_HAS_SECONDS_TIMELINE) != 0)
             info.setTimeInSamples(
-                std::llround(static_cast<double>(now->song_pos_seconds) / CLAP_SECTIME_FACTOR * rateHz));
-        if ((now->flags & CLAP_TRANSPORT_HAS_TEMPO) != 0) info.setBpm(now->tempo);
-        if ((now->flags & CLAP_TRANSPORT_HAS_BEATS_TIMELINE) != 0)
-            info.setPpqPosition(static_cast<double>(now->song_pos_beats) / CLAP_BEATTIME_FACTOR);
+                std::llround(static_cast<double>(event->song_pos_seconds) / CLAP_SECTIME_FACTOR * rateHz));
+        if ((event->flags & CLAP_TRANSPORT_HAS_TEMPO) != 0) info.setBpm(event->tempo);
+        if ((event->flags & CLAP_TRANSPORT_HAS_BEATS_TIMELINE) != 0)
+            info.setPpqPosition(static_cast<double>(event->song_pos_beats) / CLAP_BEATTIME_FACTOR);
         return info;
     }
 };
@@ -157,17 +158,16 @@ public:
         if (block.audio_outputs_count < 1 || !block.audio_outputs[0].data32 ||
             block.audio_outputs[0].channel_count < channels)
             return CLAP_PROCESS_ERROR;
-        transport.now = block.transport;
+        transport.event = block.transport;
         const ClapEvents events{block.in_events, processor};
         juce::AudioBuffer<float> buffer{block.audio_outputs[0].data32, static_cast<int>(channels),
                                         static_cast<int>(block.frames_count)};
-        processor.processBlock(buffer, none_);
-        transport.now = nullptr;
+        processor.processBlock(buffer, noMidi_);
+        transport.event = nullptr;
         return CLAP_PROCESS_CONTINUE;
     }
-    // On the host's main thread.
-    void tell() {
-        if (wantsRestart_.exchange(false)) host_->request_restart(host_);
+    void notifyHost() { // on the host's main thread
+        if (isRestartNeeded_.exchange(false)) host_->request_restart(host_);
         const auto* const parameters =
             static_cast<const clap_host_params_t*>(host_->get_extension(host_, CLAP_EXT_PARAMS));
         if (parameters) parameters->rescan(host_, CLAP_PARAM_RESCAN_VALUES);
@@ -184,16 +184,18 @@ private:
         host_->request_callback(host_);
     }
     void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override {
-        if (details.latencyChanged) wantsRestart_ = true; // hosts read it while they activate
+        if (details.latencyChanged) isRestartNeeded_ = true; // hosts read it while they activate
         host_->request_callback(host_);
     }
     const clap_host_t* const host_;
-    std::atomic<bool> wantsRestart_{false};
-    juce::MidiBuffer none_;
+    std::atomic<bool> isRestartNeeded_{false};
+    juce::MidiBuffer noMidi_;
 };
 
-Instance& of(const clap_plugin_t* plugin) noexcept { return *static_cast<Instance*>(plugin->plugin_data); }
-PluginProcessor& processorOf(const clap_plugin_t* plugin) noexcept { return of(plugin).processor; }
+Instance& instanceOf(const clap_plugin_t* plugin) noexcept {
+    return *static_cast<Instance*>(plugin->plugin_data);
+}
+PluginProcessor& processorOf(const clap_plugin_t* plugin) noexcept { return instanceOf(plugin).processor; }
 void write(char* to, std::size_t size, const juce::String& text) { text.copyToUTF8(to, size); }
 bool isParameter(clap_id id) noexcept { return id < parameterCount; }
 
@@ -238,13 +240,13 @@ constexpr clap_plugin_params_t parameters{
     },
     [](const clap_plugin_t* plugin, const clap_input_events_t* in, const clap_output_events_t*) {
         auto& processor = processorOf(plugin);
-        juce::AudioBuffer<float> nothing;
-        juce::MidiBuffer none;
+        juce::AudioBuffer<float> noAudio;
+        juce::MidiBuffer noMidi;
         ClapEvents events{in, processor};
         for (std::size_t p = 0; p < parameterCount; ++p)
             for (ParameterPoint point; events.next(p, point);)
                 processor.parameter(static_cast<Parameter>(p)).setValue(static_cast<float>(point.normal));
-        processor.processBlock(nothing, none); // of no frames: notes are heard, and the events forgotten
+        processor.processBlock(noAudio, noMidi); // an empty block handles notes
     }};
 
 constexpr clap_plugin_state_t state{
@@ -252,9 +254,9 @@ constexpr clap_plugin_state_t state{
         juce::MemoryBlock chunk;
         processorOf(plugin).getStateInformation(chunk);
         for (std::size_t done = 0; done < chunk.getSize();) {
-            const auto wrote = to->write(to, chunk.begin() + done, chunk.getSize() - done);
-            if (wrote <= 0) return false;
-            done += static_cast<std::size_t>(wrote);
+            const auto writtenBytes = to->write(to, chunk.begin() + done, chunk.getSize() - done);
+            if (writtenBytes <= 0) return false;
+            done += static_cast<std::size_t>(writtenBytes);
         }
         return true;
     },
@@ -266,7 +268,7 @@ constexpr clap_plugin_state_t state{
             chunk.append(part.data(), static_cast<std::size_t>(read));
         if (read < 0) return false;
         processorOf(plugin).setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
-        return !processorOf(plugin).keepsRefused();
+        return !processorOf(plugin).hasRefusedChunk();
     }};
 
 constexpr clap_plugin_audio_ports_t audioPorts{
@@ -334,27 +336,27 @@ constexpr clap_plugin_descriptor_t descriptor{
 const clap_plugin_t* create(const clap_plugin_factory_t*, const clap_host_t* host, const char* id) {
     if (!clap_version_is_compatible(host->clap_version) || std::strcmp(id, descriptor.id) != 0)
         return nullptr;
-    auto* const one = new Instance{host};
-    auto& clap = one->clap;
+    auto* const created = new Instance{host};
+    auto& clap = created->clap;
     clap.desc = &descriptor;
     clap.init = [](const clap_plugin_t*) { return true; };
-    clap.destroy = [](const clap_plugin_t* plugin) { delete &of(plugin); };
-    clap.activate = [](const clap_plugin_t* plugin, double rate, std::uint32_t, std::uint32_t most) {
-        auto& instance = of(plugin);
+    clap.destroy = [](const clap_plugin_t* plugin) { delete &instanceOf(plugin); };
+    clap.activate = [](const clap_plugin_t* plugin, double rate, std::uint32_t, std::uint32_t maxFrames) {
+        auto& instance = instanceOf(plugin);
         instance.transport.rateHz = rate;
-        instance.processor.setRateAndBufferSizeDetails(rate, static_cast<int>(most));
-        instance.processor.prepareToPlay(rate, static_cast<int>(most));
+        instance.processor.setRateAndBufferSizeDetails(rate, static_cast<int>(maxFrames));
+        instance.processor.prepareToPlay(rate, static_cast<int>(maxFrames));
         return true;
     };
     clap.deactivate = [](const clap_plugin_t* plugin) { processorOf(plugin).releaseResources(); };
     clap.start_processing = [](const clap_plugin_t*) { return true; };
     clap.stop_processing = [](const clap_plugin_t*) {};
-    clap.reset = [](const clap_plugin_t* plugin) { processorOf(plugin).silenceNext(); };
+    clap.reset = [](const clap_plugin_t* plugin) { processorOf(plugin).silenceNextBlock(); };
     clap.process = [](const clap_plugin_t* plugin, const clap_process_t* block) {
-        return of(plugin).process(*block);
+        return instanceOf(plugin).process(*block);
     };
     clap.get_extension = extension;
-    clap.on_main_thread = [](const clap_plugin_t* plugin) { of(plugin).tell(); };
+    clap.on_main_thread = [](const clap_plugin_t* plugin) { instanceOf(plugin).notifyHost(); };
     return &clap;
 }
 

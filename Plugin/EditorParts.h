@@ -8,23 +8,24 @@
 namespace physvib {
 
 constexpr int panelInset = 12, panelGap = 8;
-constexpr auto number = readable::words;
+constexpr auto number = readable::numberString;
 
-inline juce::String words(std::string_view utf8) {
+inline juce::String fromUtf8(std::string_view utf8) {
     return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
 }
 
-constexpr int toOpen = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-              toSave = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles |
-                       juce::FileBrowserComponent::warnAboutOverwriting;
+constexpr int openFlags = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+              saveFlags = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles |
+                          juce::FileBrowserComponent::warnAboutOverwriting;
 
-/// Asks for a file `toOpen` or `toSave`, and hands it to `use`; `chooser` lives as long as its window. M.
-template <class Use>
-void askFile(std::unique_ptr<juce::FileChooser>& chooser, const juce::String& title, int how, Use use,
-             const juce::File& initial = {}, const juce::String& endings = "*.json") {
+/// Asks for a file `openFlags` or `saveFlags`, and hands it to `onFile`; `chooser` lives as long as its
+/// window. M.
+template <class OnFile>
+void chooseFile(std::unique_ptr<juce::FileChooser>& chooser, const juce::String& title, int flags,
+                OnFile onFile, const juce::File& initial = {}, const juce::String& endings = "*.json") {
     chooser = std::make_unique<juce::FileChooser>(title, initial, endings, false);
-    chooser->launchAsync(how, [use](const juce::FileChooser& chosen) {
-        if (const auto file = chosen.getResult(); file != juce::File{}) use(file);
+    chooser->launchAsync(flags, [onFile](const juce::FileChooser& chosen) {
+        if (const auto file = chosen.getResult(); file != juce::File{}) onFile(file);
     });
 }
 

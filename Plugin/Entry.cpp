@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a format's wrapper creates a plug-in instance; each build defines its name and its buses.
+// Creates a plug-in instance for a format's wrapper; each build defines its name and its buses.
 #include "PluginProcessor.h"
 
 namespace physvib {
 
-Making& making() noexcept {
-    static thread_local Making now;
-    return now;
+InstanceCreation& instanceCreation() noexcept {
+    static thread_local InstanceCreation creation;
+    return creation;
 }
 
 } // namespace physvib
@@ -14,9 +14,9 @@ Making& making() noexcept {
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter();
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter() {
     using namespace physvib;
-    auto& now = making();
-    now.instance = new PluginProcessor{
+    auto& creation = instanceCreation();
+    creation.instance = new PluginProcessor{
         JucePlugin_Name, {BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS, PHYSVIB_MUSIC_PORTS > 0}};
-    now.instance->expectBlocksOf(now.usualBlockFrames);
-    return now.instance;
+    creation.instance->setNominalBlockFrames(creation.nominalBlockFrames);
+    return creation.instance;
 }

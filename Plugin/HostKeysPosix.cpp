@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The key as an event of X11 to the top-level window. X11 is loaded, as by JUCE: nothing is linked with it.
+// HostKeys by X11 events to the host's top-level window. X11 is loaded at run time, as JUCE loads it.
 #include "HostKeys.h"
 #ifdef __linux__
 #include <X11/Xlib.h>
@@ -10,8 +10,8 @@
 namespace physvib {
 
 #ifdef __linux__
-/// Functions of X11, on a connection of its own.
-class HostConnection {
+/// Functions of libX11 and a connection of its own to the X server.
+class X11Connection {
     struct Found {
         void* at;
         template <class Function>
@@ -37,18 +37,18 @@ public:
     decltype(&XSendEvent) send = find("XSendEvent");
     decltype(&XSetInputFocus) focus = find("XSetInputFocus");
     Display* const display = library_ ? open_(nullptr) : nullptr;
-    Window own = None;
+    Window pluginWindow = None;
 
-    HostConnection() = default;
-    ~HostConnection() {
+    X11Connection() = default;
+    ~X11Connection() {
         if (display) close_(display);
         if (library_ != nullptr) dlclose(library_);
     }
-    HostConnection(const HostConnection&) = delete;
+    X11Connection(const X11Connection&) = delete;
 
-    /// `call`, while no window has to be there any more.
+    /// Runs `call` while X11 errors are ignored: a window may have been closed meanwhile.
     template <class Call>
-    void quietly(const Call& call) const noexcept {
+    void ignoringErrors(const Call& call) const noexcept {
         const auto before = onError_([](Display*, XErrorEvent*) { return 0; });
         call();
         sync(display, False);
@@ -58,22 +58,22 @@ public:
         const Atom state = atom_(display, "WM_STATE", True);
         Atom type = None;
         int format = 0;
-        unsigned long count = 0, rest = 0;
+        unsigned long count = 0, bytesAfter = 0;
         unsigned char* data = nullptr;
         if (state != None)
-            property_(display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count, &rest,
-                      &data);
+            property_(display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count,
+                      &bytesAfter, &data);
         if (data) free_(data);
         return type != None;
     }
-    /// The window that a window manager holds, above `own`; without one the last below the root.
+    /// The window above `pluginWindow` that the window manager manages; without one, the last below the root.
     Window host() const noexcept {
-        for (Window at = own; !isManaged(own);) { // else that is a frame
+        for (Window at = pluginWindow; !isManaged(pluginWindow);) { // else that is a frame
             Window root = None, parent = None, *children = nullptr;
             unsigned int count = 0;
             if (!tree_(display, at, &root, &parent, &children, &count)) break;
             if (children) free_(children);
-            if (parent == root || parent == None) return at == own ? None : at;
+            if (parent == root || parent == None) return at == pluginWindow ? None : at;
             if (isManaged(parent)) return parent;
             at = parent;
         }
@@ -81,24 +81,24 @@ public:
     }
 };
 
-void HostKeys::watch(void* nativeWindow) {
-    const auto own = reinterpret_cast<Window>(nativeWindow);
-    if (connection_ == nullptr) connection_ = std::make_shared<HostConnection>();
+void HostKeys::setWindow(void* nativeWindow) {
+    const auto newWindow = reinterpret_cast<Window>(nativeWindow);
+    if (connection_ == nullptr) connection_ = std::make_shared<X11Connection>();
     auto& x = *connection_;
-    if (x.own == own || !x.display) return;
-    x.own = own;
-    x.quietly([&] { x.select(x.display, own, KeyPressMask); });
+    if (x.pluginWindow == newWindow || !x.display) return;
+    x.pluginWindow = newWindow;
+    x.ignoringErrors([&] { x.select(x.display, newWindow, KeyPressMask); });
 }
 
-bool HostKeys::send(unsigned long symbol) noexcept {
-    if (connection_ == nullptr || connection_->own == None) return false;
+bool HostKeys::forward(unsigned long symbol) noexcept {
+    if (connection_ == nullptr || connection_->pluginWindow == None) return false;
     const auto& x = *connection_;
     XEvent typed{};
-    x.quietly([&] {
+    x.ignoringErrors([&] {
         const KeyCode code = x.code(x.display, symbol);
         x.sync(x.display, False);
         for (XEvent event; x.next(x.display, KeyPress, &event);)
-            if (event.xkey.keycode == code && event.xkey.window == x.own && !event.xkey.send_event)
+            if (event.xkey.keycode == code && event.xkey.window == x.pluginWindow && !event.xkey.send_event)
                 typed = event;
         typed.xkey.window = typed.type == KeyPress ? x.host() : None;
         if (typed.xkey.window == None) return;
@@ -109,16 +109,16 @@ bool HostKeys::send(unsigned long symbol) noexcept {
     return typed.type == KeyRelease;
 }
 
-// JUCE asks by the time of its last event; the server ignores what is older than another's.
-void HostKeys::take() noexcept {
-    if (connection_ == nullptr || connection_->own == None) return;
+// JUCE would ask with the time of its last event, which the server ignores if the host's is newer.
+void HostKeys::grabKeyboard() noexcept {
+    if (connection_ == nullptr || connection_->pluginWindow == None) return;
     const auto& x = *connection_;
-    x.quietly([&] { x.focus(x.display, x.own, RevertToParent, CurrentTime); });
+    x.ignoringErrors([&] { x.focus(x.display, x.pluginWindow, RevertToParent, CurrentTime); });
 }
 #else
-void HostKeys::watch(void*) {}
-void HostKeys::take() noexcept {}
-bool HostKeys::send(unsigned long) noexcept { return false; }
+void HostKeys::setWindow(void*) {}
+void HostKeys::grabKeyboard() noexcept {}
+bool HostKeys::forward(unsigned long) noexcept { return false; }
 #endif
 
 } // namespace physvib

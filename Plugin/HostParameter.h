@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Entries of the table as host parameters, each one atomic float, and a block's sample-accurate changes.
+// HostParameter: an entry of the table as a host's parameter, one atomic float; ParameterPoints: the
+// sample-accurate changes of a block. R: the host's audio thread; M: the message thread.
 #pragma once
 #include "Parameters.h"
 #include <algorithm>
@@ -12,34 +13,34 @@
 
 namespace physvib {
 
-class HostParameter final : public juce::RangedAudioParameter { // LV2 tells real ranges of this kind only
+class HostParameter final : public juce::RangedAudioParameter { // LV2 publishes the ranges of this kind only
 public:
     explicit HostParameter(const ParameterRow& row)
         : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name)}
-        // no label: texts have the unit, and hosts append it
+        // no label, which hosts would append, because texts have the unit
         , row_{row}
         , range_{rangeOf(row)}
         , normal_{static_cast<float>(normalised(row, row.initial))} {}
 
     const ParameterRow& row() const noexcept { return row_; }
 
-    /// In the parameter's unit. Any thread, wait-free.
+    /// The present value, in the parameter's unit. Any thread, wait-free.
     double value() const noexcept { return denormalised(row_, normal_); }
 
-    /// By a MIDI controller: acts at once; the host is told when notifyHost() is called. R, wait-free.
+    /// Sets it as by a MIDI controller, at once; notifyHost() reports it to the host later. R, wait-free.
     void setByController(float normal) noexcept {
         normal_ = normal;
         sentToHost_ = false;
     }
-    /// M.
+    /// Reports changes by a controller since the last call to the host. M.
     void notifyHost() {
         if (!sentToHost_.exchange(true)) sendValueChangedMessageToListeners(normal_);
     }
 
-    /// The short name where the long one has no room: cut off, those of strikes would be alike.
-    juce::String getName(int longest) const override {
-        const auto& fits = static_cast<int>(row_.name.size()) <= longest ? row_.name : row_.shortName;
-        return text(fits).substring(0, longest);
+    /// The short name if the long one does not fit: the names of strikes begin alike.
+    juce::String getName(int maxLength) const override {
+        const auto& fits = static_cast<int>(row_.name.size()) <= maxLength ? row_.name : row_.shortName;
+        return text(fits).substring(0, maxLength);
     }
     float getValue() const override { return normal_; }
     void setValue(float normal) override {
@@ -52,12 +53,12 @@ public:
         return isDiscrete() ? static_cast<int>(row_.choices.size()) : AudioProcessorParameter::getNumSteps();
     }
     const juce::NormalisableRange<float>& getNormalisableRange() const override { return range_; }
-    juce::String getText(float normal, int longest) const override {
+    juce::String getText(float normal, int maxLength) const override {
         const auto words = text(valueText(row_, denormalised(row_, normal)));
-        return longest > 0 ? words.substring(0, longest) : words;
+        return maxLength > 0 ? words.substring(0, maxLength) : words;
     }
     float getValueForText(const juce::String& words) const override {
-        return static_cast<float>(normalised(row_, valueOf(row_, words.toStdString())));
+        return static_cast<float>(normalised(row_, valueFromText(row_, words.toStdString())));
     }
 
 private:
@@ -69,10 +70,10 @@ private:
         const auto to = [&row](float, float, float value) {
             return static_cast<float>(normalised(row, value));
         };
-        const auto snap = [from, to](float least, float most, float value) {
-            return from(least, most, to(least, most, value));
+        const auto snap = [from, to](float minimum, float maximum, float value) {
+            return from(minimum, maximum, to(minimum, maximum, value));
         };
-        return {static_cast<float>(row.least), static_cast<float>(row.most), from, to, snap};
+        return {static_cast<float>(row.minimum), static_cast<float>(row.maximum), from, to, snap};
     }
     static juce::String text(std::string_view words) {
         return juce::String::fromUTF8(words.data(), static_cast<int>(words.size()));
@@ -83,74 +84,73 @@ private:
     std::atomic<bool> sentToHost_{true};
 };
 
-/// A value from 0 to 1 at a frame of the coming block.
+/// A value, 0 to 1, at a frame of the next block.
 struct ParameterPoint {
     int frame = 0;
     double normal = 0.0;
 };
 
-/// The points of a block as a format hands them over. R, wait-free; valid until that block has been rendered.
+/// The points of a block from a plug-in format. R, wait-free; valid until that block has been rendered.
 class PointSource {
 public:
-    /// The next of that parameter, in frame order; false: there are no more.
+    /// Reads the next point of that parameter, in frame order; false if there is none.
     virtual bool next(std::size_t parameter, ParameterPoint& point) noexcept = 0;
 
-    /// The frame of its last one, if a host of this format may draw lines; -1: each point is a step.
-    virtual int lastOfLine(std::size_t parameter) noexcept = 0;
+    /// The frame of its last point, if hosts of this format may draw lines; -1: each point is a step.
+    virtual int lastPointFrame(std::size_t parameter) noexcept = 0;
 
 protected:
     ~PointSource() = default;
 };
 
-/// The points of all parameters, one block after the other. R only.
-///
-/// A point is a step at its frame: then it does not matter how the host cuts its blocks. A host that tells
-/// a parameter's value at a block's first and last frame, or one frame behind, draws lines (VST3 lets it
-/// leave out what lies on them): between points of such a block that are further than `longestStep` apart,
-/// values on the line are told as well, at multiples of `longestStep` from the start on.
+/// Reads the points of all parameters, block by block. R only.
+/// A point is a step at its frame, so that the size of the host's blocks does not matter. A host that sends a
+/// parameter's value at the first frame of a block and at the last one or one beyond means a line (VST3 lets
+/// it omit points on lines). Between points of such a block that are more than `maxStepFrames` apart, values
+/// on the line are added, at multiples of `maxStepFrames` since reset().
 class ParameterPoints {
 public:
-    static constexpr int none = std::numeric_limits<int>::max();
-    static constexpr int longestStep = 64; ///< frames; level and law move in ramps of 10 ms
+    static constexpr int noFrame = std::numeric_limits<int>::max();
+    static constexpr int maxStepFrames = 64; ///< well below the ramps of level and law, 10 ms
 
     void reset() noexcept { *this = {}; }
 
-    /// A block of so many frames; without a source, or where it says nothing, there are no points.
+    /// Called before a block of `frames` frames; `source` is null if it has no points.
     void begin(PointSource* source, int frames) noexcept;
 
-    /// The frame of the next point, of one parameter or of any; none: there are no more. A point behind the
-    /// block is one at the next block's first frame: Ardour says there where a line leads.
+    /// The frame of the next point of one parameter or of any; noFrame if there is none. A point beyond the
+    /// block counts at the next block's first frame: Ardour sends the end of a line so.
     int nextOf(Parameter which) const noexcept { return lines_[static_cast<std::size_t>(which)].next(); }
     int next() const noexcept {
-        int first = none;
+        int first = noFrame;
         for (const Line& line : lines_) first = std::min(first, line.next());
         return first;
     }
 
-    /// Calls `act(std::size_t parameter, double normal)` for what is told of frames up to `frame`.
-    template <class Act>
-    void takeUntil(int frame, Act act) noexcept {
+    /// Calls `visit(std::size_t parameter, double normal)` for each point up to `frame`, and removes it.
+    template <class Visit>
+    void readPointsUntil(int frame, Visit visit) noexcept {
         for (std::size_t p = 0; p < lines_.size(); ++p)
-            while (lines_[p].next() <= frame) act(p, take(p));
+            while (lines_[p].next() <= frame) visit(p, nextValue(p));
     }
 
-    /// After the block, and after `takeUntil` its length.
+    /// Called after the block, when readPointsUntil() has read all of its points.
     void end() noexcept;
 
 private:
     struct Line {
-        ParameterPoint from{none, 0.0}, corner{none, 0.0}; // the host's last point, and its next
-        int step = none;                          // a frame between them at which the line's value is told
-        bool isDrawn = false, wasEndTold = false; // the latter: of the block before
-        int next() const noexcept { return std::min(step, corner.frame); }
+        ParameterPoint last{noFrame, 0.0}, nextPoint{noFrame, 0.0}; // points of the host
+        int stepFrame = noFrame;                   // the next frame between them with a value on the line
+        bool isDrawn = false, hadEndPoint = false; // hadEndPoint: in the block before
+        int next() const noexcept { return std::min(stepFrame, nextPoint.frame); }
     };
-    double take(std::size_t parameter) noexcept;
+    double nextValue(std::size_t parameter) noexcept;
     ParameterPoint read(std::size_t parameter) noexcept;
-    void draw(Line& line, int after) const noexcept;
+    void setNextStep(Line& line, int after) const noexcept;
 
     PointSource* source_ = nullptr;
     int frames_ = 0;
-    int phase_ = 0; // of the block's first frame, from the last multiple of longestStep on
+    int phase_ = 0; // the block's first frame modulo maxStepFrames
     std::array<Line, parameterCount> lines_{};
 };
 
@@ -160,51 +160,52 @@ inline void ParameterPoints::begin(PointSource* source, int frames) noexcept {
     if (!source) return;
     for (std::size_t p = 0; p < lines_.size(); ++p) {
         Line& line = lines_[p];
-        line.corner = read(p);
-        const bool isEndTold = source->lastOfLine(p) >= frames - 1;
-        line.isDrawn =
-            isEndTold && allParameters()[p].choices.empty() && (line.wasEndTold || line.corner.frame == 0);
-        if (line.wasEndTold) {
-            line.from.frame -= before;
-            draw(line, -1);
+        line.nextPoint = read(p);
+        const bool hasEndPoint = source->lastPointFrame(p) >= frames - 1;
+        line.isDrawn = hasEndPoint && allParameters()[p].choices.empty() &&
+                       (line.hadEndPoint || line.nextPoint.frame == 0);
+        if (line.hadEndPoint) {
+            line.last.frame -= before;
+            setNextStep(line, -1);
         }
-        line.wasEndTold = isEndTold;
+        line.hadEndPoint = hasEndPoint;
     }
 }
 
 inline void ParameterPoints::end() noexcept {
-    phase_ = (phase_ + frames_) % longestStep;
+    phase_ = (phase_ + frames_) % maxStepFrames;
     if (source_) return;
-    for (Line& line : lines_) line.wasEndTold = false;
+    for (Line& line : lines_) line.hadEndPoint = false;
 }
 
-inline double ParameterPoints::take(std::size_t parameter) noexcept {
+inline double ParameterPoints::nextValue(std::size_t parameter) noexcept {
     Line& line = lines_[parameter];
-    if (line.step < line.corner.frame) {
-        const int at = line.step;
-        draw(line, at);
-        return line.from.normal + (line.corner.normal - line.from.normal) * (at - line.from.frame) /
-                                      (line.corner.frame - line.from.frame);
+    if (line.stepFrame < line.nextPoint.frame) {
+        const int at = line.stepFrame;
+        setNextStep(line, at);
+        return line.last.normal + (line.nextPoint.normal - line.last.normal) * (at - line.last.frame) /
+                                      (line.nextPoint.frame - line.last.frame);
     }
-    line.from = line.corner;
-    line.corner = read(parameter);
-    draw(line, line.from.frame);
-    return line.from.normal;
+    line.last = line.nextPoint;
+    line.nextPoint = read(parameter);
+    setNextStep(line, line.last.frame);
+    return line.last.normal;
 }
 
 inline ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
     for (ParameterPoint point; source_->next(parameter, point);)
         if (std::isfinite(point.normal)) return {std::clamp(point.frame, 0, frames_), point.normal};
-    return {none, 0.0};
+    return {noFrame, 0.0};
 }
 
-// The next multiple of the longest step behind `after`, if the line needs it.
-inline void ParameterPoints::draw(Line& line, int after) const noexcept {
-    line.step = none;
-    if (!line.isDrawn || line.corner.frame == none || line.corner.frame - line.from.frame <= longestStep)
+// Sets the step frame to the next multiple of maxStepFrames after `after`, if the line needs one.
+inline void ParameterPoints::setNextStep(Line& line, int after) const noexcept {
+    line.stepFrame = noFrame;
+    if (!line.isDrawn || line.nextPoint.frame == noFrame ||
+        line.nextPoint.frame - line.last.frame <= maxStepFrames)
         return;
-    const int step = (phase_ + after + longestStep) / longestStep * longestStep - phase_;
-    if (step < line.corner.frame) line.step = step;
+    const int step = (phase_ + after + maxStepFrames) / maxStepFrames * maxStepFrames - phase_;
+    if (step < line.nextPoint.frame) line.stepFrame = step;
 }
 
 } // namespace physvib

@@ -24,59 +24,59 @@ struct Lv2Parts {
     std::uint32_t firstControl = 0; ///< the first parameter's port
 };
 
-/// By the handle that the host has of an instance that lives. Any thread.
+/// Parts of the live instance that the host knows by this handle. Any thread.
 Lv2Parts lv2PartsOf(void* instance) noexcept;
 
-/// A port counts where its value is another than it was: in the block before, or, once a state was restored,
-/// when that was saved. So the last change stays, whether the host made it by the port, or the window, a
-/// controller or an event: hosts that save ports beside a state restore what they held then, others do not.
+/// The control ports. A port sets its parameter only if its value differs from that in the block before or,
+/// after a state was restored, from that saved with it. So the last change counts, whether by the port, the
+/// window, a controller or an event, and whether or not a host restores its ports with a state.
 class Lv2Controls {
 public:
-    /// One for each parameter, and behind them `lv2:enabled`, which is bypass the other way round.
-    static constexpr std::size_t enabled = parameterCount, count = parameterCount + 1;
+    /// There is a port for each parameter, and after them `lv2:enabled`, the inverse of bypass.
+    static constexpr std::size_t enabled = parameterCount, portCount = parameterCount + 1;
 
     Lv2Controls() {
-        for (std::size_t p = 0; p < count; ++p) seen_[p] = normalOf(p, initialOf(p));
-        saved_.fill(none);
+        for (std::size_t p = 0; p < portCount; ++p) lastRead_[p] = normalOf(p, initialOf(p));
+        saved_.fill(noValue);
     }
 
-    /// The host's, in the parameter's unit; null: not connected.
+    /// Sets a port's data, which is in the parameter's unit; null: not connected.
     void connect(std::size_t port, const void* data) noexcept {
         ports_[port] = static_cast<const float*>(data);
     }
 
-    /// Before each block. R, wait-free.
+    /// Applies changed ports; called before each block. R, wait-free.
     void read(PluginProcessor& processor) noexcept {
         const bool isRestored = isRestored_.exchange(false, std::memory_order_acquire);
-        for (std::size_t p = 0; p < count; ++p) {
+        for (std::size_t p = 0; p < portCount; ++p) {
             if (!ports_[p] || !std::isfinite(*ports_[p])) continue;
             const float now = normalOf(p, *ports_[p]);
-            if (isSame(now, seen_[p])) continue;
+            if (isSame(now, lastRead_[p])) continue;
             auto& parameter = processor.parameter(parameterOf(p));
             const bool isUndone = isRestored && isSame(now, saved_[p]);
             if (!isUndone && !isSame(now, parameter.getValue())) parameter.setByController(now);
-            seen_[p] = now; // last: a window compares
+            lastRead_[p] = now; // last, because valueToWrite() compares with it
         }
         wasRead_.store(true, std::memory_order_release);
     }
 
-    /// What a window has to write to the port so that the host shows the value that counts; nothing where the
-    /// port says so already, or before the first block. Thread of the window, wait-free.
-    std::optional<float> owed(std::size_t p, PluginProcessor& processor) const noexcept {
+    /// The value that the window has to write to the port so that the host shows the parameter's value; none
+    /// if the port has it already, and before the first block. M, wait-free.
+    std::optional<float> valueToWrite(std::size_t p, PluginProcessor& processor) const noexcept {
         if (!wasRead_.load(std::memory_order_acquire)) return std::nullopt;
-        const float seen = seen_[p]; // before the value: what the port moves meanwhile is no news
+        const float lastRead = lastRead_[p]; // before the value: read() may change both meanwhile
         const float now = processor.parameter(parameterOf(p)).getValue();
-        if (isSame(now, seen)) return std::nullopt;
+        if (isSame(now, lastRead)) return std::nullopt;
         return p == enabled ? (now > 0.5f ? 0.0f : 1.0f)
                             : static_cast<float>(denormalised(allParameters()[p], now));
     }
 
-    /// What the ports held in the last block, as text for a state; and that of a restored one. Not R.
+    /// The ports' values in the last block as text for a state; and reading that of a restored one. Not R.
     std::string text() const {
         std::string all;
-        for (const auto& seen : seen_) {
+        for (const auto& lastRead : lastRead_) {
             std::array<char, 32> digits{};
-            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), seen.load()).ptr;
+            const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), lastRead.load()).ptr;
             all.append(digits.data(), end);
             all += ' ';
         }
@@ -86,7 +86,7 @@ public:
         const char* at = text.data();
         const char* const end = at + text.size();
         for (float& saved : saved_) {
-            saved = none;
+            saved = noValue;
             const auto [next, error] = std::from_chars(at, end, saved);
             at = next == end ? end : next + 1;
         }
@@ -94,24 +94,24 @@ public:
     }
 
 private:
-    static constexpr float none = std::numeric_limits<float>::quiet_NaN();
-    static constexpr float closest = 1e-6f; // hosts keep values with six digits
-    static bool isSame(float a, float b) noexcept { return std::abs(a - b) < closest; }
+    static constexpr float noValue = std::numeric_limits<float>::quiet_NaN();
+    static constexpr float tolerance = 1e-6f; // hosts keep values with six digits
+    static bool isSame(float a, float b) noexcept { return std::abs(a - b) < tolerance; }
     static Parameter parameterOf(std::size_t port) noexcept {
         return port == enabled ? Parameter::bypass : static_cast<Parameter>(port);
     }
     static float initialOf(std::size_t port) noexcept {
         return port == enabled ? 1.0f : static_cast<float>(allParameters()[port].initial);
     }
-    /// What a port holds as its parameter's 0 to 1.
+    /// A port's value as its parameter's 0 to 1.
     static float normalOf(std::size_t port, float value) noexcept {
         if (port == enabled) return value > 0.5f ? 0.0f : 1.0f;
         return static_cast<float>(normalised(allParameters()[port], static_cast<double>(value)));
     }
 
-    std::array<const float*, count> ports_{};
-    std::array<std::atomic<float>, count> seen_{}; // 0 to 1
-    std::array<float, count> saved_{};
+    std::array<const float*, portCount> ports_{};
+    std::array<std::atomic<float>, portCount> lastRead_{}; // 0 to 1
+    std::array<float, portCount> saved_{};
     std::atomic<bool> isRestored_{false}, wasRead_{false};
 };
 

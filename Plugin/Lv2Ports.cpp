@@ -48,7 +48,7 @@ std::string scaleOf(const ParameterRow& row) {
         if (row.choices[i] == before) continue;
         before = row.choices[i];
         const double part = static_cast<double>(i) / static_cast<double>(row.choices.size() - 1);
-        const double value = row.least + (row.most - row.least) * part;
+        const double value = row.minimum + (row.maximum - row.minimum) * part;
         points += points.empty() ? " [" : " , [";
         points += " rdfs:label \"" + std::string{before} + "\" ; rdf:value " + number(value) + " ]";
     }
@@ -63,8 +63,8 @@ void print(const ParameterRow& row, int index) {
     line("lv2:name \"" + std::string{row.name} + "\"");
     line("lv2:shortName \"" + std::string{row.shortName} + "\"");
     line("lv2:default " + number(row.initial));
-    line("lv2:minimum " + number(row.least));
-    line("lv2:maximum " + number(row.most));
+    line("lv2:minimum " + number(row.minimum));
+    line("lv2:maximum " + number(row.maximum));
     line("rdfs:comment \"" + std::string{row.help} + "\"");
     if (const auto unit = unitOf(row); !unit.empty()) line("units:unit " + unit);
     if (const auto all = propertiesOf(row); !all.empty()) line("lv2:portProperty " + all);

@@ -25,8 +25,8 @@ public:
         , host_{host} {}
 
     void idle() {
-        for (std::size_t p = 0; p < Lv2Controls::count; ++p) {
-            const auto value = parts_.controls->owed(p, *parts_.processor);
+        for (std::size_t p = 0; p < Lv2Controls::portCount; ++p) {
+            const auto value = parts_.controls->valueToWrite(p, *parts_.processor);
             const auto port = p == Lv2Controls::enabled ? parts_.firstControl - 1
                                                         : parts_.firstControl + static_cast<std::uint32_t>(p);
             if (value && value != written_[p]) write_(host_, port, sizeof *value, 0, &*value);
@@ -38,7 +38,7 @@ private:
     Lv2Parts parts_;
     LV2UI_Write_Function write_;
     LV2UI_Controller host_;
-    std::array<std::optional<float>, Lv2Controls::count> written_{};
+    std::array<std::optional<float>, Lv2Controls::portCount> written_{};
 };
 
 /// By JUCE's handles; only on the thread of the host's windows.
@@ -50,8 +50,9 @@ std::map<LV2UI_Handle, PortWriter>& writers() {
 LV2UI_Handle openWindow(const LV2UI_Descriptor*, const char* plugin, const char* bundle,
                         LV2UI_Write_Function write, LV2UI_Controller host, LV2UI_Widget* widget,
                         const LV2_Feature* const* features) {
-    const auto* const juces = juceLv2UiDescriptor(0);
-    const LV2UI_Handle window = juces->instantiate(juces, plugin, bundle, write, host, widget, features);
+    const auto* const juceDescriptor = juceLv2UiDescriptor(0);
+    const LV2UI_Handle window =
+        juceDescriptor->instantiate(juceDescriptor, plugin, bundle, write, host, widget, features);
     if (!window || !write) return window;
     for (; *features; ++features)
         if (std::strcmp((*features)->URI, LV2_INSTANCE_ACCESS_URI) == 0)
@@ -80,11 +81,11 @@ const void* windowExtension(const char* uri) {
     return std::strcmp(uri, LV2_UI__idleInterface) == 0 ? &idle : juceLv2UiDescriptor(0)->extension_data(uri);
 }
 
-LV2UI_Descriptor followed(LV2UI_Descriptor juces) {
-    juces.instantiate = openWindow;
-    juces.cleanup = closeWindow;
-    juces.extension_data = windowExtension;
-    return juces;
+LV2UI_Descriptor withPortUpdates(LV2UI_Descriptor juceDescriptor) {
+    juceDescriptor.instantiate = openWindow;
+    juceDescriptor.cleanup = closeWindow;
+    juceDescriptor.extension_data = windowExtension;
+    return juceDescriptor;
 }
 
 } // namespace
@@ -92,7 +93,7 @@ LV2UI_Descriptor followed(LV2UI_Descriptor juces) {
 } // namespace physvib
 
 LV2_SYMBOL_EXPORT const LV2UI_Descriptor* lv2ui_descriptor(uint32_t index) {
-    static const LV2UI_Descriptor ours = physvib::followed(*juceLv2UiDescriptor(0));
+    static const LV2UI_Descriptor ours = physvib::withPortUpdates(*juceLv2UiDescriptor(0));
     return index == 0 ? &ours : nullptr;
 }
 #endif

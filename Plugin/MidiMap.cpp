@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds the lookup table of MIDI notes from the rules of a state.
+// Builds the tables of notes and controllers and the action groups from the rules of a state.
 #include "MidiMap.h"
 #include "Core/PortableMath.h"
 #include <algorithm>
@@ -19,28 +19,28 @@ std::vector<int> vibratingMaterials(const Scene& scene) {
     return found;
 }
 
-constexpr double lowestPitchHz = 20.0, highestPitchHz = 500.0;
+constexpr double minPitchHz = 20.0, maxPitchHz = 500.0;
 
 double pitchHz(int note) {
     double frequencyHz = 440.0 * portable::pow(2.0, (note - 69) / 12.0);
-    while (frequencyHz < lowestPitchHz) frequencyHz *= 2.0;
-    while (frequencyHz > highestPitchHz) frequencyHz /= 2.0;
+    while (frequencyHz < minPitchHz) frequencyHz *= 2.0;
+    while (frequencyHz > maxPitchHz) frequencyHz /= 2.0;
     return frequencyHz;
 }
 
-/// In parts of the field.
-Vector placeOf(int note, NotePlaces places, const EnchanterLayout& layout) noexcept {
+/// Place of a note without a rule, as shares of the field, 0 to 1.
+Vector placeOf(int note, NotePlacement places, const ActuatorLayout& layout) noexcept {
     const auto& place = layout.places[static_cast<std::size_t>(note % std::max(1, layout.count))];
     switch (places) {
-    case NotePlaces::octave: return {(note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
-    case NotePlaces::actuators:
+    case NotePlacement::octave: return {(note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
+    case NotePlacement::actuators:
         return {place.xMetres / layout.extentWidthMetres, place.yMetres / layout.extentHeightMetres};
-    case NotePlaces::middle: break;
+    case NotePlacement::middle: break;
     }
     return {0.5, 0.5};
 }
 
-CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
+CollisionEvent strikeFor(const NoteRule& rule, const Scene& scene) {
     CollisionEvent strike;
     if (rule.material < 0 || rule.material >= static_cast<int>(scene.materials.size())) return strike;
     const Material& material = scene.materials[static_cast<std::size_t>(rule.material)];
@@ -52,14 +52,14 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
     return strike;
 }
 
-// What no rule names; frequency 0: it strikes nothing.
-CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<int>& materials) {
+// The strike of a note without a rule; frequency 0: it strikes nothing.
+CollisionEvent strikeFor(int note, const PluginState& state, const std::vector<int>& materials) {
     const Vector place = placeOf(note, state.voice.places, state.layout.geometry);
     const auto octave = static_cast<std::size_t>(note / notesPerOctave);
     const NoteRule rule{.material = materials.empty() ? -1 : materials[octave % materials.size()],
                         .x = place.x,
                         .y = place.y};
-    CollisionEvent strike = strikeBy(rule, state.scene);
+    CollisionEvent strike = strikeFor(rule, state.scene);
     if (state.voice.pitch == NotePitch::material) return strike;
     strike.frequencyHz = pitchHz(note);
     strike.decayPerSecond = state.voice.decayPerSecond;
@@ -69,9 +69,9 @@ CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<in
     return strike;
 }
 
-constexpr int asTheScene = -1;
+constexpr int sceneMaterial = -1;
 
-// A material for every fixture that is felt; asTheScene: its own.
+// Gives `material` to every fixture that is felt; sceneMaterial: each its own.
 std::vector<Action> materialActions(const Scene& scene, int material) {
     std::vector<Action> actions;
     for (const auto& body : scene.bodies)
@@ -79,7 +79,7 @@ std::vector<Action> materialActions(const Scene& scene, int material) {
             if (body.fixtures[f].isCamera)
                 actions.push_back(
                     MaterialAction{body.name, static_cast<int>(f),
-                                   material == asTheScene ? body.fixtures[f].material : material});
+                                   material == sceneMaterial ? body.fixtures[f].material : material});
     return actions;
 }
 
@@ -99,11 +99,10 @@ std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
 
 std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
     std::vector<std::vector<Action>> groups;
-    for (int m = asTheScene; m < static_cast<int>(state.scene.materials.size()); ++m) {
-        // a camera needs a sound
-        const bool isFelt =
-            m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
-        groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{});
+    for (int m = sceneMaterial; m < static_cast<int>(state.scene.materials.size()); ++m) {
+        const bool canVibrate =
+            m == sceneMaterial || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
+        groups.push_back(canVibrate ? materialActions(state.scene, m) : std::vector<Action>{});
     }
     for (const auto& rule : state.notes) groups.push_back(noteActions(rule, state.scene));
     return groups;
@@ -111,22 +110,22 @@ std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
 
 MidiTable::MidiTable(const PluginState& state)
     : voice_{state.voice}
-    , width_{state.scene.fieldWidthMetres}
-    , height_{state.scene.fieldHeightMetres} {
+    , fieldWidthMetres_{state.scene.fieldWidthMetres}
+    , fieldHeightMetres_{state.scene.fieldHeightMetres} {
     const auto materials = vibratingMaterials(state.scene);
     for (int note = 0; note < 128; ++note)
-        strikes_[static_cast<std::size_t>(note)] = strikeBy(note, state, materials);
-    held_.fill(voice_.isHeld && voice_.pitch == NotePitch::note);
+        strikes_[static_cast<std::size_t>(note)] = strikeFor(note, state, materials);
+    isHeld_.fill(voice_.isHeld && voice_.pitch == NotePitch::note);
     for (std::size_t m = 0; m < std::min(state.scene.materials.size(), sounds_.size() - 1); ++m)
         sounds_[m + 1] = {state.scene.materials[m].frequencyHz, state.scene.materials[m].decayPerSecond};
-    groups_.fill(-1);
-    materials_ = static_cast<int>(state.scene.materials.size());
-    for (int group = materials_ + 1; const auto& rule : state.notes) {
+    actionGroups_.fill(-1);
+    materialCount_ = static_cast<int>(state.scene.materials.size());
+    for (int group = materialCount_ + 1; const auto& rule : state.notes) {
         const auto note = static_cast<std::size_t>(rule.note & 127);
-        if (rule.kind == NoteKind::strike) strikes_[note] = strikeBy(rule, state.scene);
-        held_[note] = false;
-        ruled_[note] = true;
-        groups_[note] = rule.kind == NoteKind::strike ? -1 : group;
+        if (rule.kind == NoteKind::strike) strikes_[note] = strikeFor(rule, state.scene);
+        isHeld_[note] = false;
+        hasRule_[note] = true;
+        actionGroups_[note] = rule.kind == NoteKind::strike ? -1 : group;
         ++group;
     }
     parameters_.fill(-1);
@@ -135,9 +134,9 @@ MidiTable::MidiTable(const PluginState& state)
 }
 
 CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
-                                   const EnchanterLayout& layout) const noexcept {
+                                   const ActuatorLayout& layout) const noexcept {
     CollisionEvent strike = strikeOf(note);
-    if (!ruled_[static_cast<std::size_t>(note & 127)]) {
+    if (!hasRule_[static_cast<std::size_t>(note & 127)]) {
         if (const Sound& sound = sounds_[static_cast<std::size_t>(knobs.material)]; sound.frequencyHz > 0.0) {
             strike.frequencyHz = sound.frequencyHz;
             strike.decayPerSecond = sound.decayPerSecond;
@@ -145,10 +144,10 @@ CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
         }
         if (knobs.placement > 0 || strikeOf(note).frequencyHz <= 0.0) {
             const auto places =
-                knobs.placement > 0 ? static_cast<NotePlaces>(knobs.placement - 1) : voice_.places;
+                knobs.placement > 0 ? static_cast<NotePlacement>(knobs.placement - 1) : voice_.places;
             const Vector place = placeOf(note, places, layout);
-            strike.x = place.x * width_;
-            strike.y = place.y * height_;
+            strike.x = place.x * fieldWidthMetres_;
+            strike.y = place.y * fieldHeightMetres_;
         }
     }
     if (knobs.decay != 1.0)
@@ -156,9 +155,9 @@ CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
     return strike;
 }
 
-NoteVoice voiceBy(NoteVoice voice, const NoteKnobs& knobs) noexcept {
+NoteVoice adjustedVoice(NoteVoice voice, const NoteKnobs& knobs) noexcept {
     voice.isHeld = knobs.hold == 0 ? voice.isHeld && voice.pitch == NotePitch::note : knobs.hold == 2;
-    if (knobs.placement > 0) voice.places = static_cast<NotePlaces>(knobs.placement - 1);
+    if (knobs.placement > 0) voice.places = static_cast<NotePlacement>(knobs.placement - 1);
     if (knobs.bend > 0)
         voice.bendSemitones = parameterTable::bendSemitones[static_cast<std::size_t>(knobs.bend)];
     voice.decayPerSecond = std::min(voice.decayPerSecond / knobs.decay, limits::maxDecayPerSecond);

@@ -15,7 +15,7 @@ juce::String noteName(int note) { return juce::MidiMessage::getMidiNoteName(note
 template <class List, class Name>
 juce::StringArray namesOf(const List& list, Name name) {
     juce::StringArray names;
-    for (const auto& item : list) names.add(words(item.*name));
+    for (const auto& item : list) names.add(fromUtf8(item.*name));
     return names;
 }
 
@@ -31,73 +31,74 @@ double numberIn(juce::AlertWindow& form, const juce::String& id) {
 
 } // namespace
 
-juce::String wordsOf(const NoteRule& rule, const Scene& scene) {
+juce::String describe(const NoteRule& rule, const Scene& scene) {
     const auto at = " at " + percent(rule.x) + ", " + percent(rule.y);
     const auto vector = number(rule.atFullVelocity.x, 1) + ", " + number(rule.atFullVelocity.y, 1);
-    if (rule.kind == NoteKind::push) return "pushes " + words(rule.object) + " by " + vector + " N s";
-    const auto& material = words(scene.materials[static_cast<std::size_t>(rule.material)].name);
+    if (rule.kind == NoteKind::push) return "pushes " + fromUtf8(rule.object) + " by " + vector + " N s";
+    const auto& material = fromUtf8(scene.materials[static_cast<std::size_t>(rule.material)].name);
     if (rule.kind == NoteKind::strike) return "strikes " + material + at;
     return "spawns a disc of " + material + at + ", radius " + number(rule.radiusMetres, 2) + " m, " +
            vector + " m/s";
 }
 
-juce::String wordsOf(const ControllerRule& rule) {
+juce::String describe(const ControllerRule& rule) {
     const int which = parameterOfId(rule.parameter);
-    return "moves " + (which < 0 ? words(rule.parameter) : words(rowOf(static_cast<Parameter>(which)).name)) +
+    return "moves " +
+           (which < 0 ? fromUtf8(rule.parameter) : fromUtf8(rowOf(static_cast<Parameter>(which)).name)) +
            " over its whole range";
 }
 
-MidiPanel::MidiPanel(MixHands hands)
-    : hands_{std::move(hands)} {
+MidiPanel::MidiPanel(EditorActions actions)
+    : actions_{std::move(actions)} {
     setTitle("Notes and controllers");
     title_.setText("Notes and controllers", juce::dontSendNotification);
     title_.setFont(text::font(text::medium, juce::Font::bold));
     hint_.setFont(text::font(text::small));
     list_.setRowHeight(rowPixels);
-    addNote_.onClick = [this] { askNote(-1, {.note = 60}); };
-    addController_.onClick = [this] { askController(-1, {1, std::string{rowOf(Parameter::level).id}}); };
+    addNote_.onClick = [this] { showNoteForm(-1, {.note = 60}); };
+    addController_.onClick = [this] { showControllerForm(-1, {1, std::string{rowOf(Parameter::level).id}}); };
     change_.onClick = [this] { change(list_.getSelectedRow()); };
     remove_.onClick = [this] { remove(list_.getSelectedRow()); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &hint_, &list_, &addNote_,
                                                                       &addController_, &change_, &remove_})
         addAndMakeVisible(c);
-    showChoice();
+    updateButtons();
 }
 
-void MidiPanel::take(const PluginState& state) {
+void MidiPanel::showState(const PluginState& state) {
     state_ = state;
     const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material"
                                : state.voice.isHeld ? "each its own pitch, as long as its key is held"
                                                     : "each its own pitch";
-    const juce::String place = state.voice.places == NotePlaces::octave ? "from left (C) to right (B)"
-                               : state.voice.places == NotePlaces::actuators
+    const juce::String place = state.voice.places == NotePlacement::octave ? "from left (C) to right (B)"
+                               : state.voice.places == NotePlacement::actuators
                                    ? "at one actuator after the other"
                                    : "in the middle";
     hint_.setText("Other notes strike: " + sound + ", " + place + ".", juce::dontSendNotification);
     hint_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     list_.updateContent();
     list_.repaint();
-    showChoice();
+    updateButtons();
 }
 
-void MidiPanel::showChoice() {
+void MidiPanel::updateButtons() {
     const bool isChosen = list_.getSelectedRow() >= 0 && list_.getSelectedRow() < getNumRows();
     change_.setEnabled(isChosen);
     remove_.setEnabled(isChosen);
 }
 
 // The note or controller, and a description of its rule.
-std::pair<juce::String, juce::String> MidiPanel::wordsOfRow(int row) const {
+std::pair<juce::String, juce::String> MidiPanel::describeRow(int row) const {
     const auto i = static_cast<std::size_t>(row);
-    if (isNote(row)) return {noteName(state_.notes[i].note), wordsOf(state_.notes[i], state_.scene)};
+    if (isNoteRow(row)) return {noteName(state_.notes[i].note), describe(state_.notes[i], state_.scene)};
     const auto& rule = state_.controllers[i - state_.notes.size()];
-    return {"CC " + juce::String{rule.controller}, wordsOf(rule)};
+    return {"CC " + juce::String{rule.controller}, describe(rule)};
 }
 
 juce::String MidiPanel::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto [key, what] = wordsOfRow(row);
-    return key + " " + what;
+    const auto [key, description] = describeRow(row);
+    return key + " " + description;
 }
 
 void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -107,26 +108,26 @@ void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
         g.fillRect(0, 0, width, height);
     }
     auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
-    const auto [key, what] = wordsOfRow(row);
+    const auto [key, description] = describeRow(row);
     g.setFont(text::font(text::medium, juce::Font::bold));
     g.setColour(shade(*this, Shade::accent));
     g.drawText(key, area.removeFromLeft(64), juce::Justification::centredLeft, false);
     g.setFont(text::font(text::medium));
     g.setColour(shade(*this, Shade::text));
-    g.drawText(what, area, juce::Justification::centredLeft, true);
+    g.drawText(description, area, juce::Justification::centredLeft, true);
 }
 
 void MidiPanel::change(int row) {
     if (row < 0 || row >= getNumRows()) return;
-    if (isNote(row))
-        askNote(row, state_.notes[static_cast<std::size_t>(row)]);
+    if (isNoteRow(row))
+        showNoteForm(row, state_.notes[static_cast<std::size_t>(row)]);
     else
-        askController(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
+        showControllerForm(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
 }
 
 void MidiPanel::remove(int row) {
     if (row < 0 || row >= getNumRows()) return;
-    hands_.edit([row](PluginState& state) {
+    actions_.edit([row](PluginState& state) {
         const auto notes = static_cast<std::ptrdiff_t>(state.notes.size());
         if (row < notes)
             state.notes.erase(state.notes.begin() + row);
@@ -143,19 +144,19 @@ juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
     return *form_;
 }
 
-void MidiPanel::ask(std::function<void(juce::AlertWindow&)> use) {
+void MidiPanel::showForm(std::function<void(juce::AlertWindow&)> onAccept) {
     form_->addButton("OK", 1, juce::KeyPress{juce::KeyPress::returnKey});
     form_->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
     form_->enterModalState(
-        true, juce::ModalCallbackFunction::create(
-                  [panel = juce::Component::SafePointer<MidiPanel>{this}, use = std::move(use)](int answer) {
-                      if (panel == nullptr || panel->form_ == nullptr) return;
-                      if (answer == 1) use(*panel->form_);
-                      panel->form_->setVisible(false);
-                  }));
+        true, juce::ModalCallbackFunction::create([panel = juce::Component::SafePointer<MidiPanel>{this},
+                                                   onAccept = std::move(onAccept)](int answer) {
+            if (panel == nullptr || panel->form_ == nullptr) return;
+            if (answer == 1) onAccept(*panel->form_);
+            panel->form_->setVisible(false);
+        }));
 }
 
-void MidiPanel::askNote(int row, NoteRule rule) {
+void MidiPanel::showNoteForm(int row, NoteRule rule) {
     const auto bodies = namesOf(state_.scene.bodies, &BodyDescription::name);
     auto& form = newForm("A note");
     form.addTextEditor("note", juce::String{rule.note}, "Note, 0 to 127 (60 is C4)");
@@ -163,44 +164,44 @@ void MidiPanel::askNote(int row, NoteRule rule) {
               static_cast<int>(rule.kind), "What it does");
     addChoice(form, "material", namesOf(state_.scene.materials, &Material::name), rule.material,
               "Material (strikes, spawns)");
-    addChoice(form, "object", bodies, bodies.indexOf(words(rule.object)), "Body (pushes)");
+    addChoice(form, "object", bodies, bodies.indexOf(fromUtf8(rule.object)), "Body (pushes)");
     form.addTextEditor("x", juce::String{100.0 * rule.x}, "Place from the left, % (strikes, spawns)");
     form.addTextEditor("y", juce::String{100.0 * rule.y}, "Place from below, %");
     form.addTextEditor("vx", juce::String{rule.atFullVelocity.x},
                        "At full velocity to the right: N s (pushes), m/s (spawns)");
     form.addTextEditor("vy", juce::String{rule.atFullVelocity.y}, "At full velocity upwards");
     form.addTextEditor("radius", juce::String{rule.radiusMetres}, "Radius in m (spawns)");
-    ask([this, row, rule](juce::AlertWindow& filled) mutable {
+    showForm([this, row, rule](juce::AlertWindow& filled) mutable {
         rule.note = filled.getTextEditorContents("note").getIntValue();
         rule.kind = static_cast<NoteKind>(filled.getComboBoxComponent("do")->getSelectedItemIndex());
         rule.material = std::max(0, filled.getComboBoxComponent("material")->getSelectedItemIndex());
         if (rule.kind != NoteKind::push && state_.scene.materials.empty())
-            return hands_.report("The scene has no material to strike");
+            return actions_.report("The scene has no material to strike");
         rule.object = filled.getComboBoxComponent("object")->getText().toStdString();
         rule.x = 0.01 * numberIn(filled, "x");
         rule.y = 0.01 * numberIn(filled, "y");
         rule.atFullVelocity = {numberIn(filled, "vx"), numberIn(filled, "vy")};
         rule.radiusMetres = numberIn(filled, "radius");
-        keep(row, rule);
+        storeRule(row, rule);
     });
 }
 
-void MidiPanel::askController(int row, ControllerRule rule) {
+void MidiPanel::showControllerForm(int row, ControllerRule rule) {
     auto& form = newForm("A controller");
     form.addTextEditor("controller", juce::String{rule.controller}, "Controller, 0 to 119");
     addChoice(form, "parameter", namesOf(allParameters(), &ParameterRow::name), parameterOfId(rule.parameter),
               "Parameter that it moves");
-    ask([this, row, rule](juce::AlertWindow& filled) mutable {
+    showForm([this, row, rule](juce::AlertWindow& filled) mutable {
         rule.controller = filled.getTextEditorContents("controller").getIntValue();
         const int chosen = filled.getComboBoxComponent("parameter")->getSelectedItemIndex();
         rule.parameter = rowOf(static_cast<Parameter>(chosen)).id;
-        keep(row, rule);
+        storeRule(row, rule);
     });
 }
 
 // Replaces the edited rule and any other rule for the same note; rules stay sorted by note.
-void MidiPanel::keep(int row, const NoteRule& rule) {
-    hands_.edit([row, &rule](PluginState& state) {
+void MidiPanel::storeRule(int row, const NoteRule& rule) {
+    actions_.edit([row, &rule](PluginState& state) {
         if (row >= 0 && row < static_cast<int>(state.notes.size()))
             state.notes.erase(state.notes.begin() + row);
         std::erase_if(state.notes, [&rule](const NoteRule& other) { return other.note == rule.note; });
@@ -210,8 +211,8 @@ void MidiPanel::keep(int row, const NoteRule& rule) {
     });
 }
 
-void MidiPanel::keep(int row, const ControllerRule& rule) {
-    hands_.edit([row, &rule](PluginState& state) {
+void MidiPanel::storeRule(int row, const ControllerRule& rule) {
+    actions_.edit([row, &rule](PluginState& state) {
         const int index = row - static_cast<int>(state.notes.size());
         if (row >= 0 && index >= 0 && index < static_cast<int>(state.controllers.size()))
             state.controllers.erase(state.controllers.begin() + index);
@@ -242,7 +243,7 @@ bool isBlackKey(int note) { return juce::MidiMessage::isMidiNoteBlack(note); }
 /// The number of white keys of the keyboard below `note`.
 int whiteKeysBelow(int note) {
     int count = 0;
-    for (int n = KeyboardPanel::lowest; n < note; ++n) count += isBlackKey(n) ? 0 : 1;
+    for (int n = KeyboardPanel::lowestNote; n < note; ++n) count += isBlackKey(n) ? 0 : 1;
     return count;
 }
 
@@ -252,21 +253,22 @@ const NoteRule* ruleOf(int note, const PluginState& state) {
 }
 
 bool doesNothing(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
-    return table.groupOf(note) < 0 && table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
+    return table.actionGroupOf(note) < 0 &&
+           table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
 }
 
 } // namespace
 
-juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
+juce::String describeKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
     const juce::String name = noteName(note) + ": ";
     const NoteRule* const rule = ruleOf(note, state);
-    if (rule && table.groupOf(note) >= 0) return name + wordsOf(*rule, state.scene);
+    if (rule && table.actionGroupOf(note) >= 0) return name + describe(*rule, state.scene);
     if (doesNothing(note, table, state, knobs))
         return name + "silent, as the scene has no material that vibrates";
     const CollisionEvent sound = table.strikeOf(note, knobs, state.layout.geometry);
     const auto percent = [](double part, double whole) { return number(100.0 * part / whole, 0) + " %"; };
     juce::String text = name;
-    if (rule) text << words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) << ", ";
+    if (rule) text << fromUtf8(state.scene.materials[static_cast<std::size_t>(rule->material)].name) << ", ";
     text << number(sound.frequencyHz, 0) << " Hz, " << percent(sound.x, table.fieldWidthMetres())
          << " from the left, " << percent(sound.y, table.fieldHeightMetres()) << " from below";
     return table.isHeld(note, knobs) ? text + ", as long as it is held" : text;
@@ -277,7 +279,7 @@ KeyboardPanel::KeyboardPanel(std::function<void(int, int)> play)
     setTitle("Keyboard");
 }
 
-void KeyboardPanel::take(const PluginState& state, const NoteKnobs& knobs) {
+void KeyboardPanel::showState(const PluginState& state, const NoteKnobs& knobs) {
     state_ = state;
     knobs_ = knobs;
     table_ = MidiTable{state};
@@ -286,7 +288,7 @@ void KeyboardPanel::take(const PluginState& state, const NoteKnobs& knobs) {
 
 juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
     const auto keys = getLocalBounds().reduced(panelInset, 6).withTrimmedTop(captionPixels).toFloat();
-    const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highest + 1)),
+    const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highestNote + 1)),
                 left = keys.getX() + width * static_cast<float>(whiteKeysBelow(note));
     if (isBlackKey(note)) return {left - 0.3f * width, keys.getY(), 0.6f * width, 0.6f * keys.getHeight()};
     return {left, keys.getY(), width - 1.0f, keys.getHeight()};
@@ -294,7 +296,7 @@ juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
 
 int KeyboardPanel::noteAt(juce::Point<int> place) const {
     int found = -1;
-    for (int note = lowest; note <= highest; ++note)
+    for (int note = lowestNote; note <= highestNote; ++note)
         if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && boundsOf(note).contains(place.toFloat()))
             found = note;
     return found;
@@ -311,25 +313,25 @@ int KeyboardPanel::velocityAt(juce::Point<int> place) const {
 
 void KeyboardPanel::press(juce::Point<int> place) {
     const int note = noteAt(place);
-    show(note);
-    if (note == pressed_) return;
-    letGo();
+    showNote(note);
+    if (note == pressedNote_) return;
+    releaseKey();
     if (note < 0) return;
-    pressed_ = note;
+    pressedNote_ = note;
     play_(note, velocityAt(place));
     repaint();
 }
 
-void KeyboardPanel::letGo() {
-    if (pressed_ < 0) return;
-    play_(pressed_, 0);
-    pressed_ = -1;
+void KeyboardPanel::releaseKey() {
+    if (pressedNote_ < 0) return;
+    play_(pressedNote_, 0);
+    pressedNote_ = -1;
     repaint();
 }
 
-void KeyboardPanel::show(int note) {
-    if (note == shown_) return;
-    shown_ = note;
+void KeyboardPanel::showNote(int note) {
+    if (note == hoveredNote_) return;
+    hoveredNote_ = note;
     repaint();
 }
 
@@ -337,7 +339,7 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     const auto key = boundsOf(note);
     const bool isBlack = isBlackKey(note);
     auto colour = isBlack ? juce::Colour{0xff24262b} : juce::Colour{0xffe9e9ea};
-    if (note == pressed_) colour = shade(*this, Shade::accent);
+    if (note == pressedNote_) colour = shade(*this, Shade::accent);
     g.setColour(doesNothing(note, table_, state_, knobs_) ? colour.withMultipliedAlpha(0.35f) : colour);
     g.fillRoundedRectangle(key, 2.0f);
     g.setColour(shade(*this, Shade::line)); // white keys on a light ground
@@ -355,15 +357,15 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
 
 void KeyboardPanel::paint(juce::Graphics& g) {
     fillPanel(g, *this, getLocalBounds());
-    const juce::String usual = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys "
-                               "have a rule of their own (MIDI).";
-    g.setColour(shade(*this, shown_ < 0 ? Shade::muted : Shade::text));
+    const juce::String hint = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys "
+                              "have a rule of their own (MIDI).";
+    g.setColour(shade(*this, hoveredNote_ < 0 ? Shade::muted : Shade::text));
     g.setFont(text::font(text::small));
-    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_, knobs_),
+    g.drawText(hoveredNote_ < 0 ? hint : describeKey(hoveredNote_, table_, state_, knobs_),
                getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels),
                juce::Justification::centredLeft, true);
     for (const bool isBlack : {false, true})
-        for (int note = lowest; note <= highest; ++note)
+        for (int note = lowestNote; note <= highestNote; ++note)
             if (isBlackKey(note) == isBlack) paintKey(g, note);
 }
 

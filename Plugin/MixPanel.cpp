@@ -10,49 +10,49 @@ namespace physvib {
 namespace {
 
 constexpr int stripGap = 6, masterWidth = 84;
-constexpr double holdMs = 1500.0;
+constexpr double peakHoldMs = 1500.0;
 
 } // namespace
 
-MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
+MixStrip::MixStrip(const EditorActions& actions, int strip, const juce::String& label)
     : StripParts{label}
-    , hands_{hands}
+    , actions_{actions}
     , index_{static_cast<std::size_t>(strip)}
     , label_{label} {
     fader_.onValueChange = [this] { change({}, [this](Strip& s) { s.gainDb = fader_.getValue(); }); };
     ceiling_.textFromValueFunction = [this](double db) {
-        return "ceiling " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g";
+        return "ceiling " + number(db, 1) + " dB, " + gText(fromDecibels(db) * enchanter_.fullScaleG) + " g";
     };
     ceiling_.onValueChange = [this] { change({}, [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     actuator_.setTitle("Actuator of " + label);
     actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
-    actuator_.onClick = [this] { askActuator(); };
+    actuator_.onClick = [this] { showActuatorMenu(); };
     addAndMakeVisible(actuator_);
 }
 
-void MixStrip::change(const juce::String&, const std::function<void(Strip&)>& how) {
-    hands_.edit([this, &how](PluginState& state) {
-        if (index_ < state.strips.size()) how(state.strips[index_]);
+void MixStrip::change(const juce::String&, const std::function<void(Strip&)>& edit) {
+    actions_.edit([this, &edit](PluginState& state) {
+        if (index_ < state.strips.size()) edit(state.strips[index_]);
     });
 }
 
-void MixStrip::take(const PluginState& state) {
+void MixStrip::showState(const PluginState& state) {
     const auto& strip = state.strips[index_];
-    enchanter_ = state.layout.enchanters[index_];
+    enchanter_ = state.layout.actuators[index_];
     isSilent_ = isSilent(state.strips, index_);
     isEqualised_ = state.equalised[index_].isKnown();
     show(strip, ceilingOf(strip) * enchanter_.fullScaleG);
     actuator_.setButtonText(
-        (enchanter_.actuator == "none" ? juce::String{"no profile"} : words(enchanter_.actuator)) +
+        (enchanter_.actuator == "none" ? juce::String{"no profile"} : fromUtf8(enchanter_.actuator)) +
         (isEqualised_ ? " EQ" : ""));
 }
 
 void MixStrip::update(float peak, bool isConnected) {
     const double now = juce::Time::getMillisecondCounterHiRes();
-    if (peak >= hold_ || now > holdUntilMs_) hold_ = peak, holdUntilMs_ = now + holdMs;
-    meter_.set(peak, hold_);
-    level_.setText(isConnected ? inG(hold_ * enchanter_.fullScaleG)
+    if (peak >= peakHold_ || now > holdUntilMs_) peakHold_ = peak, holdUntilMs_ = now + peakHoldMs;
+    meter_.set(peak, peakHold_);
+    level_.setText(isConnected ? gText(peakHold_ * enchanter_.fullScaleG)
                                : juce::String{juce::CharPointer_UTF8{"\xe2\x80\x93"}},
                    juce::dontSendNotification);
     if (isConnected == isConnected_) return;
@@ -61,45 +61,47 @@ void MixStrip::update(float peak, bool isConnected) {
     repaint();
 }
 
-void MixStrip::askActuator() {
+void MixStrip::showActuatorMenu() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Actuator of " + label_);
     menu.addItem("no profile", true, enchanter_.actuator == "none", [this] { chooseActuator("none"); });
     for (const auto& profile : builtInActuators())
-        menu.addItem(words(profile.name), true, enchanter_.actuator == profile.name,
+        menu.addItem(fromUtf8(profile.name), true, enchanter_.actuator == profile.name,
                      [this, name = profile.name] { chooseActuator(name); });
-    menu.addItem(words("Open a profile\xe2\x80\xa6"), [this] {
-        askFile(chooser_, "An actuator's profile", toOpen,
-                [this](const juce::File& file) { chooseActuator(file.getFullPathName().toStdString()); });
+    menu.addItem(fromUtf8("Open a profile\xe2\x80\xa6"), [this] {
+        chooseFile(chooser_, "An actuator's profile", openFlags,
+                   [this](const juce::File& file) { chooseActuator(file.getFullPathName().toStdString()); });
     });
     menu.addSeparator();
     const auto profile = findActuator(enchanter_.actuator);
-    const bool canBe = isEqualised_ || (profile && equaliserFault(profile.value).empty());
-    menu.addItem("Equalised: flat in its band", canBe, isEqualised_, [this] { equalise(!isEqualised_); });
+    const bool canEqualise = isEqualised_ || (profile && equaliserError(profile.value).empty());
+    menu.addItem("Equalised: flat in its band", canEqualise, isEqualised_,
+                 [this] { equalise(!isEqualised_); });
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(actuator_).withDeletionCheck(*this));
 }
 
-// Who was equalised stays so, if the other actuator can be.
+// An equalised strip stays equalised if the new actuator's profile allows it.
 void MixStrip::chooseActuator(const std::string& nameOrPath) {
     const auto profile =
         nameOrPath == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(nameOrPath);
-    if (!profile) return hands_.report(words(profile.error));
+    if (!profile) return actions_.report(fromUtf8(profile.error));
     const auto& p = profile.value;
-    const bool canBe = !p.name.empty() && equaliserFault(p).empty();
-    hands_.edit([&, j = index_](PluginState& state) {
-        auto& enchanter = state.layout.enchanters[j];
+    const bool canEqualise = !p.name.empty() && equaliserError(p).empty();
+    actions_.edit([&, j = index_](PluginState& state) {
+        auto& enchanter = state.layout.actuators[j];
         enchanter.actuator = p.name.empty() ? "none" : p.name;
         if (p.fullScaleG) enchanter.fullScaleG = *p.fullScaleG;
         if (state.equalised[j].isKnown())
-            state.equalised[j] = canBe ? EqualisedActuator{p.resonator(), *p.band} : EqualisedActuator{};
+            state.equalised[j] =
+                canEqualise ? EqualisedActuator{p.resonator(), *p.band} : EqualisedActuator{};
     });
 }
 
 void MixStrip::equalise(bool on) {
     const auto profile = findActuator(enchanter_.actuator);
-    if (on && (!profile || !equaliserFault(profile.value).empty())) return;
-    hands_.edit([&, j = index_](PluginState& state) {
+    if (on && (!profile || !equaliserError(profile.value).empty())) return;
+    actions_.edit([&, j = index_](PluginState& state) {
         state.equalised[j] =
             on ? EqualisedActuator{profile.value.resonator(), *profile.value.band} : EqualisedActuator{};
     });
@@ -118,13 +120,13 @@ void MixStrip::resized() {
     place(area.withTrimmedTop(10), 0);
 }
 
-MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
-    : hands_{std::move(hands)}
-    , levelAttachment_{(level_.setUp(leastStripDb, 0.0, "Level"), plugin.parameter(Parameter::level)),
+MixPanel::MixPanel(PluginProcessor& plugin, EditorActions actions)
+    : actions_{std::move(actions)}
+    , levelAttachment_{(level_.configure(minStripDb, 0.0, "Level"), plugin.parameter(Parameter::level)),
                        level_} {
     setTitle("Mix");
     level_.setDoubleClickReturnValue(true, rowOf(Parameter::level).initial);
-    level_.setTooltip(words(rowOf(Parameter::level).help));
+    level_.setTooltip(fromUtf8(rowOf(Parameter::level).help));
     level_.addMouseListener(this, false);
     viewport_.setViewedComponent(&row_, false);
     viewport_.setScrollBarsShown(false, true);
@@ -132,25 +134,27 @@ MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
     limiter_.setTitle("Limiter");
     limiter_.setTooltip(
         "One gain for all actuators: keeps each below its ceiling, and each impact at its place");
-    limiter_.onClick = [this] { hands_.edit([](PluginState& s) { s.limiterEnabled = !s.limiterEnabled; }); };
+    limiter_.onClick = [this] {
+        actions_.edit([](PluginState& s) { s.limiterEnabled = !s.limiterEnabled; });
+    };
     for (juce::Component* c :
          std::initializer_list<juce::Component*>{&viewport_, &level_, &limiter_, &limiterBar_})
         addAndMakeVisible(c);
 }
 
-void MixPanel::take(const PluginState& state) {
+void MixPanel::showState(const PluginState& state) {
     juce::StringArray labels;
-    for (const auto& e : state.layout.enchanters) labels.add(words(e.label));
+    for (const auto& e : state.layout.actuators) labels.add(fromUtf8(e.label));
     if (labels != labels_) {
         strips_.clear();
         for (int j = 0; j < labels.size(); ++j) {
-            strips_.push_back(std::make_unique<MixStrip>(hands_, j, labels[j]));
+            strips_.push_back(std::make_unique<MixStrip>(actions_, j, labels[j]));
             row_.addAndMakeVisible(*strips_.back());
         }
         labels_ = labels;
         resized();
     }
-    for (auto& strip : strips_) strip->take(state);
+    for (auto& strip : strips_) strip->showState(state);
     limiter_.setToggleState(state.limiterEnabled, juce::dontSendNotification);
 }
 
@@ -161,7 +165,7 @@ void MixPanel::update(const ChannelMeters& meters) {
     repaint(levelName_.getUnion(limiterValue_));
 }
 
-int MixPanel::wishedWidth() const {
+int MixPanel::preferredWidth() const {
     return 2 * panelInset + static_cast<int>(strips_.size()) * (MixStrip::width + stripGap) + stripGap +
            masterWidth;
 }
@@ -184,9 +188,9 @@ void MixPanel::resized() {
     auto master = area.removeFromRight(masterWidth);
     area.removeFromRight(stripGap);
     viewport_.setBounds(area);
-    const int needed = static_cast<int>(strips_.size()) * (MixStrip::width + stripGap);
-    if (needed > area.getWidth()) area.removeFromBottom(10), master.removeFromBottom(10); // scroll bar's
-    row_.setSize(std::max(needed, area.getWidth()), area.getHeight());
+    const int stripsWidth = static_cast<int>(strips_.size()) * (MixStrip::width + stripGap);
+    if (stripsWidth > area.getWidth()) area.removeFromBottom(10), master.removeFromBottom(10); // scroll bar's
+    row_.setSize(std::max(stripsWidth, area.getWidth()), area.getHeight());
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)
         strip->setBounds(places.removeFromLeft(MixStrip::width)), places.removeFromLeft(stripGap);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The delay of music: a ring buffer in the renderer's frames, and distribution over the actuators.
+// MusicDelay: a ring buffer in the renderer's frames, and its mix of left and right for each actuator.
 #include "MusicInput.h"
 #include <algorithm>
 
 namespace physvib {
 
-MusicDelay::MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz,
-                       std::int64_t longestFrames)
+MusicDelay::MusicDelay(const ActuatorLayout& layout, int channels, int sampleRateHz,
+                       std::int64_t maxDelayFrames)
     : sampleRateHz_{sampleRateHz}
-    , ring_(static_cast<std::size_t>(longestFrames))
+    , ring_(static_cast<std::size_t>(maxDelayFrames))
     , rightShare_(static_cast<std::size_t>(channels), 0.5f)
     , samples_(static_cast<std::size_t>(channels * limits::tileFrames)) {
     for (std::size_t j = 0; j < rightShare_.size(); ++j) {
@@ -21,37 +21,38 @@ MusicDelay::MusicDelay(const EnchanterLayout& layout, int channels, int sampleRa
 }
 
 void MusicDelay::reset() noexcept {
-    end_ = silentFrom_ = silentUntil_ = 0;
-    last_ = {};
-    open_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
+    endFrame_ = silenceStartFrame_ = silenceEndFrame_ = 0;
+    lastPair_ = {};
+    playGain_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
 }
 
-void MusicDelay::write(std::int64_t at, const float* left, const float* right, int frames) noexcept {
-    for (std::int64_t gap = std::max(end_, at - static_cast<std::int64_t>(ring_.size())); gap < at; ++gap)
-        of(gap) = {};
-    for (int i = 0; i < frames; ++i) of(at + i) = {left[i], right[i]};
-    end_ = at + frames;
+void MusicDelay::write(std::int64_t startFrame, const float* left, const float* right, int frames) noexcept {
+    for (std::int64_t gap = std::max(endFrame_, startFrame - static_cast<std::int64_t>(ring_.size()));
+         gap < startFrame; ++gap)
+        pairAt(gap) = {};
+    for (int i = 0; i < frames; ++i) pairAt(startFrame + i) = {left[i], right[i]};
+    endFrame_ = startFrame + frames;
 }
 
 void MusicDelay::silence(std::int64_t from, std::int64_t until) noexcept {
-    silentFrom_ = from;
-    silentUntil_ = std::max(until, from + static_cast<std::int64_t>(shortestPauseSeconds * sampleRateHz_));
+    silenceStartFrame_ = from;
+    silenceEndFrame_ = std::max(until, from + static_cast<std::int64_t>(minPauseSeconds * sampleRateHz_));
 }
 
-// False: all of it is 0.
+// Fills `tile_`, fading the last samples beyond the music's end. False if all of it is 0.
 bool MusicDelay::read(std::int64_t frame, int frames) noexcept {
-    bool sounds = false;
+    bool isAudible = false;
     for (int i = 0; i < frames; ++i) {
         const std::int64_t n = frame + i;
-        const bool isThere = n < end_;
-        if (isThere) last_ = of(n);
-        open_.moveTo(isThere && (n < silentFrom_ || n >= silentUntil_) ? 1.0f : 0.0f);
-        const float gain = open_.next();
-        Pair& pair = tile_[static_cast<std::size_t>(i)];
-        pair = {gain * last_.left, gain * last_.right};
-        sounds = sounds || pair.left != 0.0f || pair.right != 0.0f;
+        const bool isWritten = n < endFrame_;
+        if (isWritten) lastPair_ = pairAt(n);
+        playGain_.moveTo(isWritten && (n < silenceStartFrame_ || n >= silenceEndFrame_) ? 1.0f : 0.0f);
+        const float gain = playGain_.next();
+        StereoSample& pair = tile_[static_cast<std::size_t>(i)];
+        pair = {gain * lastPair_.left, gain * lastPair_.right};
+        isAudible = isAudible || pair.left != 0.0f || pair.right != 0.0f;
     }
-    return sounds;
+    return isAudible;
 }
 
 const float* const* MusicDelay::at(std::int64_t frame, int frames) noexcept {
@@ -60,7 +61,7 @@ const float* const* MusicDelay::at(std::int64_t frame, int frames) noexcept {
         float* const out = samples_.data() + j * static_cast<std::size_t>(limits::tileFrames);
         const float right = rightShare_[j], left = 1.0f - right;
         std::transform(tile_.begin(), tile_.begin() + frames, out,
-                       [=](const Pair& pair) { return left * pair.left + right * pair.right; });
+                       [=](const StereoSample& pair) { return left * pair.left + right * pair.right; });
     }
     return channels_.data();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two mappings of a parameter's values.
+// Conversions of a parameter's values: to and from a host's 0 to 1, text, panning law and gain.
 #include "Parameters.h"
 #include "Core/Units.h"
 #include <charconv>
@@ -9,15 +9,15 @@ namespace physvib {
 
 namespace {
 
-bool hasWords(const ParameterRow& row) noexcept { return !row.choices.empty(); }
+bool hasChoices(const ParameterRow& row) noexcept { return !row.choices.empty(); }
 
-double stepOf(const ParameterRow& row) noexcept {
-    return (row.most - row.least) / static_cast<double>(row.choices.size() - 1);
+double choiceStep(const ParameterRow& row) noexcept {
+    return (row.maximum - row.minimum) / static_cast<double>(row.choices.size() - 1);
 }
 
-std::string_view wordOf(const ParameterRow& row, double value) noexcept {
+std::string_view choiceName(const ParameterRow& row, double value) noexcept {
     return row.choices[static_cast<std::size_t>(
-        std::lround((std::clamp(value, row.least, row.most) - row.least) / stepOf(row)))];
+        std::lround((std::clamp(value, row.minimum, row.maximum) - row.minimum) / choiceStep(row)))];
 }
 
 } // namespace
@@ -35,21 +35,24 @@ int parameterOfId(std::string_view id) noexcept {
 }
 
 double normalised(const ParameterRow& row, double value) noexcept {
-    const double v = std::clamp(value, row.least, row.most);
-    if (row.scale == ParameterScale::log) return std::log(v / row.least) / std::log(row.most / row.least);
-    return (v - row.least) / (row.most - row.least);
+    const double v = std::clamp(value, row.minimum, row.maximum);
+    if (row.scale == ParameterScale::log)
+        return std::log(v / row.minimum) / std::log(row.maximum / row.minimum);
+    return (v - row.minimum) / (row.maximum - row.minimum);
 }
 
 double denormalised(const ParameterRow& row, double normal) noexcept {
     const double n = std::clamp(normal, 0.0, 1.0);
-    if (row.scale == ParameterScale::log) return row.least * std::pow(row.most / row.least, n);
-    const double value = row.least + n * (row.most - row.least);
-    return hasWords(row) ? row.least + stepOf(row) * std::round((value - row.least) / stepOf(row)) : value;
+    if (row.scale == ParameterScale::log) return row.minimum * std::pow(row.maximum / row.minimum, n);
+    const double value = row.minimum + n * (row.maximum - row.minimum);
+    return hasChoices(row)
+               ? row.minimum + choiceStep(row) * std::round((value - row.minimum) / choiceStep(row))
+               : value;
 }
 
 std::string valueText(const ParameterRow& row, double value) {
-    if (hasWords(row)) return std::string{wordOf(row, value)};
-    if (row.unit == "dB" && value <= row.least) return "-inf dB";
+    if (hasChoices(row)) return std::string{choiceName(row, value)};
+    if (row.unit == "dB" && value <= row.minimum) return "-inf dB";
     std::array<char, 32> digits{};
     const int decimals = row.unit == "x" || row.unit.empty() ? 2 : 1;
     const double shown = std::abs(value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : value; // not "-0.0"
@@ -60,27 +63,27 @@ std::string valueText(const ParameterRow& row, double value) {
     return row.unit.empty() ? number : number + " " + std::string{row.unit};
 }
 
-double valueOf(const ParameterRow& row, std::string_view text) {
+double valueFromText(const ParameterRow& row, std::string_view text) {
     const auto word = std::ranges::find(row.choices, text);
-    if (hasWords(row))
+    if (hasChoices(row))
         return word == row.choices.end()
                    ? row.initial
-                   : row.least + stepOf(row) * static_cast<double>(word - row.choices.begin());
+                   : row.minimum + choiceStep(row) * static_cast<double>(word - row.choices.begin());
     while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
-    if (text.starts_with("-inf")) return row.least;
+    if (text.starts_with("-inf")) return row.minimum;
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && std::isfinite(value) ? std::clamp(value, row.least, row.most)
+    return error == std::errc{} && std::isfinite(value) ? std::clamp(value, row.minimum, row.maximum)
                                                         : row.initial;
 }
 
-PanningLaw lawOf(double value) noexcept {
+PanningLaw lawFromValue(double value) noexcept {
     PanningLaw law{};
-    panningLawNamed(wordOf(rowOf(Parameter::law), value), law);
+    panningLawNamed(choiceName(rowOf(Parameter::law), value), law);
     return law;
 }
 
-double gainOfLevel(double levelDb) noexcept {
+double gainFromLevelDb(double levelDb) noexcept {
     return levelDb <= parameterTable::silentDb ? 0.0 : fromDecibels(levelDb);
 }
 

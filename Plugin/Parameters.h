@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved
-// state and the table in Docs/plugin-reference.md read this table.
+// The table of the plug-in's parameters: ids, names, units, ranges, defaults, scales and choices; and
+// conversions of their values. Plug-in, window, saved state and Docs/plugin-reference.md use it.
 #pragma once
 #include "Core/PanningLaws.h"
 #include <algorithm>
@@ -39,32 +39,31 @@ enum class Parameter {
 };
 constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
 
-/// How a host's 0 to 1 runs over the range.
+/// How a host's value, 0 to 1, maps to the range.
 enum class ParameterScale {
     linear,
     log,    ///< equal steps are equal ratios; the range is above 0
-    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision
-            ///< 34)
+    choice, ///< one of `choices`, in equal steps; each keeps its value from 0 to 1 (decision 34)
     toggle  ///< 0 or 1
 };
 
 struct ParameterRow {
     Parameter parameter; ///< its number, which is its place in the table
-    std::string_view id; ///< never changes: sessions of hosts hold on to it
+    std::string_view id; ///< never changes, because the sessions of hosts contain it
     std::string_view name;
     std::string_view shortName; ///< 8 letters at most, for small displays; the first four differ from others'
     std::string_view unit;
-    double least = 0.0;
-    double most = 1.0;
+    double minimum = 0.0;
+    double maximum = 1.0;
     double initial = 0.0;
     ParameterScale scale = ParameterScale::linear;
     std::span<const std::string_view> choices{};
-    int version = 1; ///< of the plug-in that has it first: AU sorts by it
+    int version = 1; ///< of the plug-in that first had it; AU sorts by it
     std::string_view help{};
 };
 
-/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand
-/// by themselves, the latter before the groups that came after it.
+/// Parameters that belong together, in the order of the table. Each is in one group, but for `level` and
+/// `bypass`, which are in none.
 struct ParameterGroup {
     std::string_view id; ///< never changes
     std::string_view name;
@@ -73,11 +72,12 @@ struct ParameterGroup {
 
 namespace parameterTable {
 
-/// The first choices stand where they have always stood, the others half-way between them, and the next ones
-/// at the quarters (decision 34). A place without a choice of its own repeats the one before.
+/// Spreads choices over 0 to 1: the `first` ones in equal steps, as in the first version; later ones half-way
+/// between them, then at the quarters, so that no saved value changes (decision 34). An entry without a
+/// choice of its own repeats the one before.
 template <std::size_t first, std::size_t count>
-constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
-    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // how many places there are
+constexpr auto spacedChoices(const std::array<std::string_view, count>& names) {
+    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // how many entries there are
     static_assert(count <= quarters, "others need a parameter of their own");
     constexpr std::size_t step = count == first ? 1 : count <= halves ? 2 : 4;
     std::array<std::string_view, step*(first - 1) + 1> places{};
@@ -90,13 +90,13 @@ constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
     return places;
 }
 
-inline constexpr auto lawNames = atTheirPlaces<4>(panningLawNames);
+inline constexpr auto lawNames = spacedChoices<4>(panningLawNames);
 inline constexpr std::array<std::string_view, 9> materialNames{
     "as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
 inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
-inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by TakeTiming
-// Of these the first leaves what the preset has.
+inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by StepTiming
+// The first choice of these leaves what the preset has.
 inline constexpr std::array<std::string_view, 3> holdNames{"as the preset", "off", "on"};
 inline constexpr std::array<std::string_view, 4> placementNames{"as the preset", "octave", "actuators",
                                                                 "middle"};
@@ -107,34 +107,34 @@ inline constexpr std::array bendSemitones{0.0, 0.0, 1.0, 2.0, 5.0, 7.0, 12.0, 24
 static_assert(bendSemitones.size() == bendNames.size());
 inline constexpr std::array<std::string_view, 9> noteMaterialNames{
     "as the preset", "1", "2", "3", "4", "5", "6", "7", "8"};
-inline constexpr std::span<const std::string_view> noWords{};
-inline constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
+inline constexpr std::span<const std::string_view> noChoices{};
+inline constexpr double silentDb = -60.0; // imperceptible, as full scale is a few g
 
 using enum ParameterScale;
 inline constexpr std::array<ParameterRow, parameterCount> rows{{
-    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, noWords, 1,
+    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, noChoices, 1,
      "Master level; the least is silence"},
     {Parameter::law, "law", "Panning law", "Law", "", 0, 3, 0, choice, lawNames, 1,
      "How an impact is spread over the actuators"},
-    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, noWords, 1,
+    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, noChoices, 1,
      "Exponent of the panning law"},
-    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, noWords, 1,
+    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, noChoices, 1,
      "Gravity, times the scene's"},
-    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, noWords, 1,
+    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, noChoices, 1,
      "How the device is held: gravity turns counter-clockwise"},
     {Parameter::material, "material", "Material", "Material", "", 0, 8, 0, choice, materialNames, 1,
      "Material of what is felt: the scene's own, or the n-th of its list"},
     {Parameter::strikeLevel, "strike_level", "Strike level", "Hit lev", "dB", silentDb, 12.0, 6.0, linear,
-     noWords, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
-    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
-     "Shifts MIDI strikes to the right, in parts of the field's width"},
-    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
-     "Shifts MIDI strikes upwards, in parts of the field's height"},
+     noChoices, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, noChoices,
+     1, "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, noChoices,
+     1, "Shifts MIDI strikes upwards, in parts of the field's height"},
     {Parameter::bypass, "bypass", "Bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1,
      "Silence; the world goes on"},
-    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, noWords, 2,
+    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, noChoices, 2,
      "How readily beats of the side chain strike; the least is never"},
-    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, noWords, 3,
+    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, noChoices, 3,
      "Level of the side chain's own low frequencies (20 to 400 Hz) on the actuators; the least is silence"},
     {Parameter::musicSides, "music_sides", "Music channels", "Sides", "", 0, 1, 0, choice, sideNames, 3,
      "Where the side chain is played: summed, on all actuators, or its left on the left ones and its right "
@@ -142,13 +142,13 @@ inline constexpr std::array<ParameterRow, parameterCount> rows{{
     {Parameter::timing, "timing", "Timing", "Timing", "", 0, 1, 0, choice, timingNames, 4,
      "Output latency of a world. Safe: stepped by a thread of its own. Tight: stepped in the render call, "
      "which needs a computer with time to spare; the output is silent for a moment when this changes"},
-    // Factors from 1/2^n to 2^n: the middle of their scale is 1 exactly, which changes no sample.
-    {Parameter::decay, "decay", "Decay", "Decay", "x", 0.125, 8.0, 1.0, log, noWords, 5,
+    // Factors from 1/2^n to 2^n: the middle of their scale is exactly 1, which changes no sample.
+    {Parameter::decay, "decay", "Decay", "Decay", "x", 0.125, 8.0, 1.0, log, noChoices, 5,
      "How long strikes by notes ring, times the preset's"},
-    {Parameter::release, "release", "Release", "Release", "x", 0.0625, 16.0, 1.0, log, noWords, 5,
+    {Parameter::release, "release", "Release", "Release", "x", 0.0625, 16.0, 1.0, log, noChoices, 5,
      "How long a held note takes to fall after its key, times the preset's"},
     {Parameter::velocityCurve, "velocity_curve", "Velocity curve", "Velocity", "x", 0.25, 4.0, 1.0, log,
-     noWords, 5, "Exponent of a note's velocity, times the preset's: above 1, soft keys are softer"},
+     noChoices, 5, "Exponent of a note's velocity, times the preset's: above 1, soft keys are softer"},
     {Parameter::hold, "hold", "Hold", "Hold", "", 0, 2, 0, choice, holdNames, 5,
      "Whether a note without a rule sounds until its key is released"},
     {Parameter::placement, "placement", "Placement", "Place", "", 0, 3, 0, choice, placementNames, 5,
@@ -188,21 +188,21 @@ const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 
 std::span<const ParameterGroup> parameterGroups() noexcept; ///< any thread
 
-/// Place of the parameter with that id in the table; -1 if there is none. Any thread.
+/// Index of the parameter with that id in the table; -1 if there is none. Any thread.
 int parameterOfId(std::string_view id) noexcept;
 
-/// A host's value, 0 to 1, from one in the parameter's unit and back; both clamp. Any thread.
+/// Convert a value in the parameter's unit to a host's value, 0 to 1, and back; both clamp. Any thread.
 double normalised(const ParameterRow& row, double value) noexcept;
 double denormalised(const ParameterRow& row, double normal) noexcept;
 
-/// "-12.0 dB", "energy", "on"; and back, with or without the unit, else the default. Any thread.
+/// Convert a value to text ("-12.0 dB", "on") and back; unreadable text gives the default. Any thread.
 std::string valueText(const ParameterRow& row, double value);
-double valueOf(const ParameterRow& row, std::string_view text);
+double valueFromText(const ParameterRow& row, std::string_view text);
 
-/// Of a value of `law`. Any thread.
-PanningLaw lawOf(double value) noexcept;
+/// The panning law of a value of Parameter::law. Any thread.
+PanningLaw lawFromValue(double value) noexcept;
 
-/// A level in dB as a gain; the least level is silence. Any thread.
-double gainOfLevel(double levelDb) noexcept;
+/// The gain of a level in dB; the minimum of the range is silence. Any thread.
+double gainFromLevelDb(double levelDb) noexcept;
 
 } // namespace physvib

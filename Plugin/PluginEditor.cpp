@@ -9,20 +9,20 @@ namespace physvib {
 
 namespace {
 
-constexpr int framesPerSecond = 25; // a software renderer has other things to do
+constexpr int framesPerSecond = 25; // few, because windows may be drawn in software
 constexpr int barHeight = 50, groupsHeight = 124, statusHeight = 26, margin = 12;
-constexpr int minWidth = 960, minHeight = 540, firstWidth = 1180, firstHeight = 700;
+constexpr int minWidth = 960, minHeight = 540, defaultWidth = 1180, defaultHeight = 700;
 
-void mute(juce::Label& label) { label.setColour(juce::Label::textColourId, shade(label, Shade::muted)); }
+void dim(juce::Label& label) { label.setColour(juce::Label::textColourId, shade(label, Shade::muted)); }
 
-void caption(juce::Label& label, const juce::String& shown) {
+void styleCaption(juce::Label& label, const juce::String& shown) {
     label.setText(shown, juce::dontSendNotification);
     label.setFont(text::font(text::small));
     label.setBorderSize({0, 0, 0, 0});
     label.setJustificationType(juce::Justification::centredRight);
 }
 
-/// Within its group's panel, whose heading says the rest.
+/// A parameter's short name within its group's panel, whose heading has the rest.
 std::string_view panelName(const ParameterRow& row) {
     switch (row.parameter) {
     case Parameter::law: return "Law";
@@ -35,8 +35,8 @@ std::string_view panelName(const ParameterRow& row) {
     }
 }
 
-/// As short as a list is narrow.
-std::string_view panelWord(std::string_view choice) {
+/// A choice's text, short enough for a narrow list.
+std::string_view panelChoice(std::string_view choice) {
     if (choice == "as the preset") return "preset";
     if (choice == "as the scene") return "scene";
     if (choice == "moves the place") return "place";
@@ -51,20 +51,20 @@ ParameterControl::ParameterControl(HostParameter& parameter)
     for (juce::Component* c : std::initializer_list<juce::Component*>{&knob_, &list_, &name_})
         c->addMouseListener(this, true);
     const auto& row = parameter.row();
-    caption(name_, words(panelName(row)));
+    styleCaption(name_, fromUtf8(panelName(row)));
     name_.setMinimumHorizontalScale(0.75f);
     name_.setJustificationType(juce::Justification::centred);
     addAndMakeVisible(name_);
     if (!row.choices.empty()) {
-        // its places, without those that repeat the one before
+        // a choice that repeats the one before is not listed
         const auto all = row.choices;
         const auto idOf = [all](std::string_view choice) {
             return 1 + static_cast<int>(std::ranges::find(all, choice) - all.begin());
         };
         for (int id = 1; const auto choice : all)
-            if (id++ == idOf(choice)) list_.addItem(words(panelWord(choice)), idOf(choice));
-        list_.setTitle(words(row.name));
-        list_.setTooltip(words(row.help));
+            if (id++ == idOf(choice)) list_.addItem(fromUtf8(panelChoice(choice)), idOf(choice));
+        list_.setTitle(fromUtf8(row.name));
+        list_.setTooltip(fromUtf8(row.help));
         addAndMakeVisible(list_);
         const auto last = static_cast<float>(all.size() - 1);
         listAttachment_ = std::make_unique<juce::ParameterAttachment>(parameter, [=, this](float place) {
@@ -79,22 +79,21 @@ ParameterControl::ParameterControl(HostParameter& parameter)
         return;
     }
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
-    // asked for when the box is made
     knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 76, 20);
-    knob_.setTitle(words(row.name));
-    knob_.setTooltip(words(row.help));
+    knob_.setTitle(fromUtf8(row.name));
+    knob_.setTooltip(fromUtf8(row.help));
     addAndMakeVisible(knob_);
     knobAttachment_ = std::make_unique<juce::SliderParameterAttachment>(parameter, knob_);
     knob_.setDoubleClickReturnValue(true, parameter.convertFrom0to1(parameter.getDefaultValue()));
 }
 
-// Its parts pass on what they hear.
+// The component's children pass their mouse events on to it.
 void ParameterControl::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu() && onMenu) onMenu(*this);
 }
 
-void ParameterControl::type() { knob_.showTextBox(); }
+void ParameterControl::editValue() { knob_.showTextBox(); }
 
 void ParameterControl::rename(int choice, const juce::String& text) {
     if (list_.getItemText(choice) == text) return;
@@ -116,57 +115,58 @@ void ParameterControl::resized() {
     list_.setBounds(area.removeFromTop(28));
 }
 
-void ParameterControl::lookAndFeelChanged() { mute(name_); }
+void ParameterControl::lookAndFeelChanged() { dim(name_); }
 
 PluginEditor::PluginEditor(PluginProcessor& plugin)
     : AudioProcessorEditor{plugin}
     , plugin_{plugin}
     , silenceAttachment_{plugin.parameter(Parameter::bypass), silence_}
-    , midiPanel_{hands(true)}
-    , mix_{plugin, hands(false)}
-    , keys_{[&plugin](int note, int velocity) { plugin.play(note, velocity); }} {
+    , midiPanel_{editorActions(true)}
+    , mix_{plugin, editorActions(false)}
+    , keys_{[&plugin](int note, int velocity) { plugin.playKey(note, velocity); }} {
     setLookAndFeel(&look_);
     setOpaque(true);
     setWantsKeyboardFocus(true); // a click anywhere lets Esc silence; other keys are the host's
     title_.setText("PhysVib", juce::dontSendNotification);
     title_.setFont(text::font(text::large, juce::Font::bold));
-    caption(seedName_, "seed");
-    caption(stepsName_, "steps");
+    styleCaption(seedName_, "seed");
+    styleCaption(stepsName_, "steps");
     status_.setFont(text::font(text::small));
-    firstSteps_.setFont(text::font(text::medium));
-    firstSteps_.setJustificationType(juce::Justification::centred);
-    firstSteps_.setInterceptsMouseClicks(false, false);
+    hintLabel_.setFont(text::font(text::medium));
+    hintLabel_.setJustificationType(juce::Justification::centred);
+    hintLabel_.setInterceptsMouseClicks(false, false);
     files_.setButtonText("Files");
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &title_, &scene_,      &layout_,    &files_,   &seedName_, &seed_,  &stepsName_,
-             &steps_, &restart_,    &midi_,      &silence_, &direct_,   &tempo_, &fold_,
-             &world_, &firstSteps_, &midiPanel_, &mix_,     &keys_,     &status_})
+             &title_, &scene_,     &layout_,    &files_,   &seedName_, &seed_,  &stepsName_,
+             &steps_, &restart_,   &midi_,      &silence_, &direct_,   &tempo_, &fitOutputs_,
+             &world_, &hintLabel_, &midiPanel_, &mix_,     &keys_,     &status_})
         addAndMakeVisible(c);
     mix_.onMenu = [this] { showMenu(plugin_.parameter(Parameter::level)); };
-    fillGroups();
-    fillChoices();
+    addParameterControls();
+    setUpControls();
     showMidi(false);
     stateChanged();
     setTheme(savedTheme());
     setResizable(true, true);
     setResizeLimits(minWidth, minHeight, 2400, 1600);
-    const bool isKept = state_.editorWidth >= minWidth && state_.editorHeight >= minHeight;
-    setSize(isKept ? state_.editorWidth : firstWidth, isKept ? state_.editorHeight : firstHeight);
+    const bool isSaved = state_.editorWidth >= minWidth && state_.editorHeight >= minHeight;
+    setSize(isSaved ? state_.editorWidth : defaultWidth, isSaved ? state_.editorHeight : defaultHeight);
     startTimerHz(framesPerSecond);
 }
 
 PluginEditor::~PluginEditor() {
     stopTimer();
-    if (around_ != nullptr) around_->removeKeyListener(this);
+    if (hostWindow_ != nullptr) hostWindow_->removeKeyListener(this);
     setLookAndFeel(nullptr);
 }
 
-// Level is the mix's, and SILENCE stands by itself; beats need a side chain.
-void PluginEditor::fillGroups() {
+// Creates a control for each parameter but level (in the mix panel), bypass (the SILENCE button) and, without
+// a side chain, those of music.
+void PluginEditor::addParameterControls() {
     const bool hasMusic = plugin_.getBusCount(true) > 0;
     for (const auto& group : parameterGroups()) {
         if (group.parameters.front() == Parameter::beats && !hasMusic) continue;
-        // of the world too: its list has room under that of materials
+        // timing is shown in the group "World"
         const bool isTime = group.parameters.front() == Parameter::timing;
         if (!isTime) groups_.push_back({group.name, {}});
         for (const auto which : group.parameters) {
@@ -177,17 +177,17 @@ void PluginEditor::fillGroups() {
             addAndMakeVisible(*controls.back());
             controls.back()->onMenu = [this](ParameterControl& control) {
                 if (control.isList()) return showMenu(control.parameter());
-                showMenu(control.parameter(), [&control] { control.type(); });
+                showMenu(control.parameter(), [&control] { control.editValue(); });
             };
             if (which == Parameter::material || which == Parameter::noteMaterial)
-                materials_.push_back(controls.back().get());
+                materialLists_.push_back(controls.back().get());
         }
     }
 }
 
-void PluginEditor::fillChoices() {
+void PluginEditor::setUpControls() {
     fillPresets();
-    for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(words(name), id++);
+    for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(fromUtf8(name), id++);
     for (const int steps : {50, 100, 200, 500, 1000}) steps_.addItem(juce::String{steps} + " /s", steps);
     scene_.setTitle("Instrument or world");
     layout_.setTitle("Layout");
@@ -208,36 +208,38 @@ void PluginEditor::fillChoices() {
     direct_.setClickingTogglesState(true);
     direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions "
                        "keep the output latency L, so they are felt later than the track beside them");
-    fold_.setTooltip(
+    fitOutputs_.setTooltip(
         "Place the actuators anew, as many as the host has outputs for, so that nothing is lost");
-    fold_.onClick = [this] {
-        news_.clear();
-        plugin_.useOutputs();
+    fitOutputs_.onClick = [this] {
+        message_.clear();
+        plugin_.arrangeForOutputs();
     };
     files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); "
                       "save a preset; export what was felt");
     midi_.setTooltip("What notes and controllers do");
     silence_.setClickingTogglesState(true);
-    silence_.setTooltip(words(rowOf(Parameter::bypass).help));
+    silence_.setTooltip(fromUtf8(rowOf(Parameter::bypass).help));
     silence_.getProperties().set(stopProperty, true);
     silence_.onClick = [this] {
-        if (!silence_.getToggleState()) plugin_.stop(false);
+        if (!silence_.getToggleState()) plugin_.setStopped(false);
     };
     scene_.onChange = [this] {
         const int id = scene_.getSelectedId();
         if (id == 0) return;
-        if (id >= firstOwnPreset) return open(presets_[static_cast<std::size_t>(id - firstOwnPreset)]);
-        news_.clear();
-        plugin_.choose(id - 1);
+        if (id >= firstUserPreset) return open(presets_[static_cast<std::size_t>(id - firstUserPreset)]);
+        message_.clear();
+        plugin_.choosePreset(id - 1);
     };
     layout_.onChange = [this] {
         if (const int i = layout_.getSelectedItemIndex(); i >= 0)
-            edit([i](PluginState& s) { usePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
+            edit([i](PluginState& s) {
+                applyLayoutPreset(s, layoutPresetNames[static_cast<std::size_t>(i)]);
+            });
     };
     steps_.onChange = [this] {
-        const int wanted = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond,
-                                        steps_.getText().getIntValue());
-        edit([wanted](PluginState& s) { s.stepsPerSecond = wanted; });
+        const int steps = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond,
+                                       steps_.getText().getIntValue());
+        edit([steps](PluginState& s) { s.stepsPerSecond = steps; });
     };
     seed_.onReturnKey = [this] {
         edit([this](PluginState& s) {
@@ -245,60 +247,60 @@ void PluginEditor::fillChoices() {
                 std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff));
         });
     };
-    const auto turns = [this](juce::Button& button, TransportMode on, TransportMode off) {
+    const auto setTransportOnClick = [this](juce::Button& button, TransportMode on, TransportMode off) {
         button.onClick = [this, &button, on, off] {
             edit([&](PluginState& s) { s.transport = button.getToggleState() ? on : off; });
         };
     };
-    turns(restart_, TransportMode::restartOnPlay, TransportMode::free);
-    turns(tempo_, TransportMode::inTempo, TransportMode::restartOnPlay);
+    setTransportOnClick(restart_, TransportMode::restartOnPlay, TransportMode::free);
+    setTransportOnClick(tempo_, TransportMode::inTempo, TransportMode::restartOnPlay);
     direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
     files_.onClick = [this] { showFiles(); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
-// A list, a menu, or a value that is being typed; a dialog is closed and all is silent at once.
-bool PluginEditor::closesFirst() {
+// True if Esc only closes a list, a menu or a value box. A dialog is closed, and the output silenced as well.
+bool PluginEditor::hasOpenPopup() {
     const auto* const modal = juce::Component::getCurrentlyModalComponent();
     return modal != nullptr && dynamic_cast<const juce::TopLevelWindow*>(modal) == nullptr;
 }
 
-juce::TextEditor* PluginEditor::openBox() const {
+juce::TextEditor* PluginEditor::openValueBox() const {
     const auto* const value = dynamic_cast<juce::Label*>(juce::Component::getCurrentlyModalComponent());
     return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
 }
 
-// Keys without a focus, as after a value was typed, come to what the wrapper has around this.
-void PluginEditor::listenAround() {
-    if (auto* const peer = getPeer()) host_.watch(peer->getNativeHandle());
-    if (auto* const around = getTopLevelComponent(); around != this && around_ == nullptr)
-        (around_ = around)->addKeyListener(this);
+// Keys without a focus, as after a value was typed, reach the wrapper's window around this one.
+void PluginEditor::listenToHostWindow() {
+    if (auto* const peer = getPeer()) hostKeys_.setWindow(peer->getNativeHandle());
+    if (auto* const around = getTopLevelComponent(); around != this && hostWindow_ == nullptr)
+        (hostWindow_ = around)->addKeyListener(this);
 }
 
-// A value's box gets keys before it has the keyboard (refresh). While anything is open, the host gets none.
+// A value box gets keys before it has the focus (see refresh()). While any popup is open, the host gets none.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
-    if (auto* const box = openBox()) return box->keyPressed(key);
+    if (auto* const box = openValueBox()) return box->keyPressed(key);
     return juce::Component::getCurrentlyModalComponent() == nullptr &&
-           !key.isKeyCode(juce::KeyPress::escapeKey) && host_.send(keySymbolOf(key.getKeyCode()));
+           !key.isKeyCode(juce::KeyPress::escapeKey) && hostKeys_.forward(x11KeySymbol(key.getKeyCode()));
 }
 
-MixHands PluginEditor::hands(bool areChecked) {
+EditorActions PluginEditor::editorActions(bool areChecked) {
     return {[this, areChecked](const std::function<void(PluginState&)>& change) {
-                PluginState wanted = plugin_.state();
-                change(wanted);
-                if (const auto read = areChecked ? readPluginState(pluginStateJson(wanted), "MIDI")
+                PluginState newState = plugin_.state();
+                change(newState);
+                if (const auto read = areChecked ? readPluginState(pluginStateJson(newState), "MIDI")
                                                  : Result<PluginState>{PluginState{}};
                     !read)
-                    return report(words(read.error));
+                    return report(fromUtf8(read.error));
                 edit(change);
             },
-            [this](const juce::String& news) { report(news); }};
+            [this](const juce::String& message) { report(message); }};
 }
 
 void PluginEditor::edit(const std::function<void(PluginState&)>& change) {
     PluginState state = plugin_.state();
     change(state);
-    news_.clear();
+    message_.clear();
     plugin_.edit(std::move(state));
 }
 
@@ -311,130 +313,132 @@ void PluginEditor::showMidi(bool on) {
 void PluginEditor::setTheme(Theme theme) {
     look_.setTheme(theme);
     sendLookAndFeelChange();
-    for (auto* const name : {&seedName_, &stepsName_}) mute(*name);
+    for (auto* const name : {&seedName_, &stepsName_}) dim(*name);
     seed_.applyColourToAllText(shade(*this, Shade::text));
-    mix_.take(state_);
-    readKnobs();
+    mix_.showState(state_);
+    refreshControls();
 }
 
-void PluginEditor::nameMaterials() {
+void PluginEditor::updateMaterialNames() {
     const auto& materials = state_.scene.materials;
-    for (auto* const list : materials_)
+    for (auto* const list : materialLists_)
         for (std::size_t m = 1; m < rowOf(list->which()).choices.size(); ++m)
-            list->rename(static_cast<int>(m),
-                         words(rowOf(list->which()).choices[m]) +
-                             (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
+            list->rename(
+                static_cast<int>(m),
+                fromUtf8(rowOf(list->which()).choices[m]) +
+                    (m <= materials.size() ? "  " + fromUtf8(materials[m - 1].name) : juce::String{}));
 }
 
-// What shows or hides controls, and what keys are.
-void PluginEditor::readKnobs() {
-    knobs_ = plugin_.noteKnobs();
+// Shows and hides controls by the state and the knobs, and updates the keyboard and the MIDI panel.
+void PluginEditor::refreshControls() {
+    shownKnobs_ = plugin_.noteKnobs();
     for (auto& group : groups_)
         for (auto& control : group.controls) {
-            control->setVisible(uses(state_, knobs_, control->which()));
-            control->resized(); // a look makes its value anew
+            control->setVisible(isParameterUsed(state_, shownKnobs_, control->which()));
+            control->resized(); // a new look recreates the value's label
         }
-    keys_.take(state_, knobs_);
-    auto voiced = state_;
-    voiced.voice = voiceBy(state_.voice, knobs_);
-    midiPanel_.take(voiced);
+    keys_.showState(state_, shownKnobs_);
+    auto adjusted = state_;
+    adjusted.voice = adjustedVoice(state_.voice, shownKnobs_);
+    midiPanel_.showState(adjusted);
     if (!getLocalBounds().isEmpty()) resized();
     repaint();
 }
 
 void PluginEditor::stateChanged() {
-    shown_ = plugin_.stateCount();
+    shownStateVersion_ = plugin_.stateVersion();
     state_ = plugin_.state();
-    // a scene or layout of one's own is its name only
     const auto select = [](juce::ComboBox& box, const std::string& name) {
-        box.setText(words(name.empty() ? "(no name)" : name), juce::dontSendNotification);
+        box.setText(fromUtf8(name.empty() ? "(no name)" : name), juce::dontSendNotification);
     };
-    select(scene_, shownName(state_.scene.name));
+    select(scene_, displayName(state_.scene.name));
     select(layout_, state_.layout.name);
     steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
     restart_.setToggleState(state_.transport != TransportMode::free, juce::dontSendNotification);
     tempo_.setToggleState(state_.transport == TransportMode::inTempo, juce::dontSendNotification);
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
-    const bool moves = hasWorld(state_);
+    const bool hasMotion = hasWorld(state_);
     for (auto* const c :
          std::initializer_list<juce::Component*>{&direct_, &tempo_, &stepsName_, &steps_, &seedName_, &seed_})
-        c->setVisible(moves);
+        c->setVisible(hasMotion);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
-    world_.show(state_.layout, pannerOf(state_, lawOf(value(Parameter::law)), value(Parameter::exponent)));
-    mix_.take(state_);
-    nameMaterials();
-    readKnobs(); // places all anew: there may be more or fewer strips
+    world_.show(state_.layout,
+                pannerOf(state_, lawFromValue(value(Parameter::law)), value(Parameter::exponent)));
+    mix_.showState(state_);
+    updateMaterialNames();
+    refreshControls(); // places all anew: there may be more or fewer strips
 }
 
 void PluginEditor::refresh() {
-    if (plugin_.stateCount() != shown_) stateChanged();
-    if (plugin_.noteKnobs() != knobs_) readKnobs();
-    followLearning();
-    listenAround();
-    if (auto* const box = openBox(); box && !box->hasKeyboardFocus(false)) {
-        host_.take();
+    if (plugin_.stateVersion() != shownStateVersion_) stateChanged();
+    if (plugin_.noteKnobs() != shownKnobs_) refreshControls();
+    finishLearning();
+    listenToHostWindow();
+    if (auto* const box = openValueBox(); box && !box->hasKeyboardFocus(false)) {
+        hostKeys_.grabKeyboard();
         box->grabKeyboardFocus();
     }
     const auto hits = plugin_.drainEvents();
     const auto meters = plugin_.meters();
-    const auto status = plugin_.takes().status();
-    aheadBefore_ = std::exchange(aheadShown_, status.aheadBlocks);
+    const auto status = plugin_.runs().status();
+    previousSteppedBlocks_ = std::exchange(steppedBlocks_, status.blocksSteppedInRender);
     const int rate = std::max(1, plugin_.preparedRateHz());
     std::vector<BodyPose> poses;
-    const auto at = plugin_.takes().poses(poses);
-    std::vector<CollisionEvent> felt;
-    for (const auto& hit : hits) felt.push_back(hit.played.event);
-    world_.update({std::move(poses), at, plugin_.takes().outputLatencyFrames() * 1'000'000'000 / rate, felt,
-                   meters.peaks});
+    const auto posesNs = plugin_.runs().readPoses(poses);
+    std::vector<CollisionEvent> playedNow;
+    for (const auto& hit : hits) playedNow.push_back(hit.played.event);
+    world_.update({std::move(poses), posesNs, plugin_.runs().outputLatencyFrames() * 1'000'000'000 / rate,
+                   playedNow, meters.peaks});
     mix_.update(meters);
-    const int outputs = plugin_.outputs();
-    fold_.setVisible(outputs > 0 && outputText(meters).isNotEmpty());
-    fold_.setButtonText("Use " + juce::String{outputs});
+    const int outputs = plugin_.outputCount();
+    fitOutputs_.setVisible(outputs > 0 && outputText(meters).isNotEmpty());
+    fitOutputs_.setButtonText("Use " + juce::String{outputs});
     const bool isSilent = plugin_.isStopped() || plugin_.parameter(Parameter::bypass).value() > 0.5;
     silence_.setToggleState(isSilent, juce::dontSendNotification);
-    firstSteps_.setColour(juce::Label::backgroundColourId,
-                          shade(*this, Shade::panel).withAlpha(state_.scene.bodies.empty() ? 0.0f : 0.9f));
-    const bool waits = state_.transport != TransportMode::free && meters.enchanters == 0;
-    firstSteps_.setVisible(
+    hintLabel_.setColour(juce::Label::backgroundColourId,
+                         shade(*this, Shade::panel).withAlpha(state_.scene.bodies.empty() ? 0.0f : 0.9f));
+    const bool isWaiting = state_.transport != TransportMode::free && meters.enchanters == 0;
+    hintLabel_.setVisible(
         world_.isVisible() &&
-        (isSilent || waits || (state_.scene.bodies.empty() && status.session.render.played == 0)));
-    if (firstSteps_.isVisible())
-        showHint(isSilent ? "SILENT. Press SILENCE again to feel what is played."
-                 : waits  ? "Waits for play: start the host's transport (Restart on play is on)."
-                          : "Press a key below, or play a note: you feel it at its place.\n"
-                            "The list at the upper left has other instruments, and worlds.\n"
-                            "Press SILENCE to stop everything at once.");
-    auto trouble = plugin_.trouble();
-    if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
-    if (trouble.isEmpty()) trouble = news_;
+        (isSilent || isWaiting || (state_.scene.bodies.empty() && status.session.render.played == 0)));
+    if (hintLabel_.isVisible())
+        showHint(isSilent    ? "SILENT. Press SILENCE again to feel what is played."
+                 : isWaiting ? "Waits for play: start the host's transport (Restart on play is on)."
+                             : "Press a key below, or play a note: you feel it at its place.\n"
+                               "The list at the upper left has other instruments, and worlds.\n"
+                               "Press SILENCE to stop everything at once.");
+    auto errorText = plugin_.errorText();
+    if (plugin_.hasRefusedChunk())
+        errorText << " - the host's session keeps it until something is edited here";
+    if (errorText.isEmpty()) errorText = message_;
     status_.setColour(juce::Label::textColourId,
-                      trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
-    if (trouble.isEmpty()) {
-        trouble = helpOf(juce::Desktop::getInstance().getMainMouseSource().getComponentUnderMouse());
-        if (trouble.isEmpty()) trouble = statusLine(status, meters);
+                      errorText.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
+    if (errorText.isEmpty()) {
+        errorText = helpOf(juce::Desktop::getInstance().getMainMouseSource().getComponentUnderMouse());
+        if (errorText.isEmpty()) errorText = statusLine(status, meters);
     }
-    status_.setText(trouble, juce::dontSendNotification);
+    status_.setText(errorText, juce::dontSendNotification);
 }
 
-// Near the middle, where no actuator is; its first line where there is no room for all.
+// Places the hint near the middle where it covers no actuator; only its first line if there is no room.
 void PluginEditor::showHint(const juce::String& text) {
-    const auto isPlaced = [this](const juce::String& shown, int y, bool anywhere = false) {
+    const auto tryToPlace = [this](const juce::String& shown, int y, bool anywhere = false) {
         const int lines = juce::StringArray::fromLines(shown).size();
         const auto at = world_.getLocalBounds().withSizeKeepingCentre(420, 6 + 15 * lines).translated(0, y);
         const auto around = at.toFloat().expanded(4.0f);
         const auto covers = [&](const auto& badge) { return badge.intersects(around); };
         if (!anywhere && std::ranges::any_of(world_.badges(), covers)) return false;
-        firstSteps_.setText(shown, juce::dontSendNotification);
-        firstSteps_.setBounds(at + world_.getPosition());
+        hintLabel_.setText(shown, juce::dontSendNotification);
+        hintLabel_.setBounds(at + world_.getPosition());
         return true;
     };
     const auto first = text.upToFirstOccurrenceOf("\n", false, false);
     for (const auto& shown : {text, first})
         for (int y = 0; y < world_.getHeight() / 2 - 30; y += 4)
-            if (isPlaced(shown, -y) || isPlaced(shown, y)) return;
-    isPlaced(first, 0, true);
+            if (tryToPlace(shown, -y) || tryToPlace(shown, y)) return;
+    tryToPlace(first, 0, true);
 }
 
 juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
@@ -445,51 +449,51 @@ juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
     return {};
 }
 
-// What L is made of: two steps of the world, the limiter, and the rest: a block and the thread that steps.
+// Describes the output latency: a block and the stepping thread, two steps of the world, and the limiter.
 juce::String PluginEditor::latencyText() const {
     const int rate = plugin_.preparedRateHz();
     const auto ms = [rate](std::int64_t frames) {
         return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms";
     };
-    const auto& takes = plugin_.takes();
-    const std::int64_t all = takes.outputLatencyFrames(), limiter = HapticRenderer::latencyFramesAt(rate),
+    const auto& runs = plugin_.runs();
+    const std::int64_t all = runs.outputLatencyFrames(), limiter = HapticRenderer::latencyFramesAt(rate),
                        steps = hasWorld(state_)
                                    ? std::min<std::int64_t>(all - limiter, 2 * rate / state_.stepsPerSecond)
                                    : 0,
-                       rest = all - limiter - steps;
+                       buffering = all - limiter - steps;
     juce::String line = "felt " + ms(all) + (steps > 0 ? " after the contact: " : " after the note: ");
-    if (rest > 0) line << ms(rest) << (steps == 0 ? " to detect beats + " : " block and thread + ");
+    if (buffering > 0) line << ms(buffering) << (steps == 0 ? " to detect beats + " : " block and thread + ");
     if (steps > 0) line << ms(steps) << " two steps + ";
     line << ms(limiter) << " limiter";
-    if (takes.isDirect() && takes.latencyFrames() != all)
-        line << ", strikes " << ms(takes.latencyFrames()) << " after the note (reported to the host)";
+    if (runs.isDirect() && runs.latencyFrames() != all)
+        line << ", strikes " << ms(runs.latencyFrames()) << " after the note (reported to the host)";
     else
         line << " (reported to the host)";
     return line;
 }
 
 juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
-    const int actuators = enchantersOf(state_);
-    if (meters.enchanters == 0 || meters.connected >= actuators) return {}; // 0: no take yet
-    juce::StringArray lost;
+    const int actuators = actuatorCount(state_);
+    if (meters.enchanters == 0 || meters.connected >= actuators) return {}; // 0: no run yet
+    juce::StringArray unconnected;
     for (int j = 0; j < actuators; ++j)
-        if (const auto one = static_cast<std::size_t>(j); !meters.isConnected[one])
-            lost.add(words(state_.layout.enchanters[one].label));
+        if (const auto index = static_cast<std::size_t>(j); !meters.isConnected[index])
+            unconnected.add(fromUtf8(state_.layout.actuators[index].label));
     return "   |   " + juce::String{meters.connected} + " outputs for " + juce::String{actuators} +
-           " actuators: not felt " + lost.joinIntoString(", ");
+           " actuators: not felt " + unconnected.joinIntoString(", ");
 }
 
-juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
-    if (plugin_.preparedRateHz() == 0 || plugin_.takes().outputLatencyFrames() == 0)
+juce::String PluginEditor::statusLine(const RunsStatus& status, const ChannelMeters& meters) const {
+    if (plugin_.preparedRateHz() == 0 || plugin_.runs().outputLatencyFrames() == 0)
         return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     juce::String line = latencyText() + outputText(meters);
-    if (status.aheadBlocks > aheadBefore_)
+    if (status.blocksSteppedInRender > previousSteppedBlocks_)
         line << "   |   the host waits for the world (ahead of time, or the world is too heavy)";
     if (const auto* music = plugin_.getBus(true, 0);
         music && !music->isEnabled() &&
         (plugin_.parameter(Parameter::beats).value() > 0.0 ||
-         gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0))
+         gainFromLevelDb(plugin_.parameter(Parameter::music).value()) > 0.0))
         line << "   |   no beats and no music: the side chain is off";
     const auto count = [&line](std::uint64_t n, const char* what) {
         if (n > 0) line << "   |   " << juce::String{static_cast<juce::int64>(n)} << what;
@@ -497,55 +501,55 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     count(status.late, " impacts felt late");
     count(r.rejected + status.session.refused, " impacts left out");
     count(plugin_.displacedMessages(), " notes came late from the host");
-    count(static_cast<std::uint64_t>(status.slippedNs) / 1'000'000, " ms the world stood still");
+    count(static_cast<std::uint64_t>(status.stalledNs) / 1'000'000, " ms the world stood still");
     count(status.delayedBlocks, " blocks until it could start");
     return line;
 }
 
 void PluginEditor::paint(juce::Graphics& g) {
-    g.fillAll(shade(*this, Shade::ground));
+    g.fillAll(shade(*this, Shade::background));
     for (const auto& group : groups_) {
         if (!group.isShown()) continue;
-        fillPanel(g, *this, group.place);
+        fillPanel(g, *this, group.bounds);
         g.setColour(shade(*this, Shade::text));
         g.setFont(text::font(text::small, juce::Font::bold));
-        g.drawText(words(group.name), group.place.reduced(14, 8).removeFromTop(16),
+        g.drawText(fromUtf8(group.name), group.bounds.reduced(14, 8).removeFromTop(16),
                    juce::Justification::centredLeft, false);
     }
 }
 
 void PluginEditor::resized() {
-    if (getWidth() >= minWidth) plugin_.keepEditorSize(getWidth(), getHeight());
+    if (getWidth() >= minWidth) plugin_.setEditorSize(getWidth(), getHeight());
     auto area = getLocalBounds().reduced(margin, 0);
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     auto foot = area.removeFromBottom(statusHeight);
     foot.removeFromRight(margin); // where the window is resized
-    fold_.setBounds(foot.removeFromRight(92).reduced(4, 2));
+    fitOutputs_.setBounds(foot.removeFromRight(92).reduced(4, 2));
     status_.setBounds(foot);
-    const auto left = [&bar](juce::Component& c, int width, int space = panelGap) {
+    const auto placeLeft = [&bar](juce::Component& c, int width, int space = panelGap) {
         if (!c.isVisible()) return;
         c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space);
     };
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
-    left(title_, 88);
-    left(scene_, std::min(170, bar.getWidth() - 612)); // the others take as much
-    left(layout_, 84);
-    left(files_, 44);
-    left(midi_, 44);
-    left(seedName_, 30, 4);
-    left(seed_, 48);
-    left(stepsName_, 34, 4);
-    left(steps_, 68);
-    left(restart_, 94, 4);
-    left(tempo_, 52, 4);
-    left(direct_, 50, 0);
+    placeLeft(title_, 88);
+    placeLeft(scene_, std::min(170, bar.getWidth() - 612)); // the others take as much
+    placeLeft(layout_, 84);
+    placeLeft(files_, 44);
+    placeLeft(midi_, 44);
+    placeLeft(seedName_, 30, 4);
+    placeLeft(seed_, 48);
+    placeLeft(stepsName_, 34, 4);
+    placeLeft(steps_, 68);
+    placeLeft(restart_, 94, 4);
+    placeLeft(tempo_, 52, 4);
+    placeLeft(direct_, 50, 0);
     keys_.setBounds(area.removeFromBottom(KeyboardPanel::height));
     area.removeFromBottom(panelGap);
     auto controls = area.removeFromBottom(groupsHeight);
     area.removeFromBottom(panelGap);
     placeGroups(controls);
-    mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
+    mix_.setBounds(area.removeFromRight(std::min(mix_.preferredWidth(), area.getWidth() / 2)));
     area.removeFromRight(panelGap);
     world_.setBounds(area);
     midiPanel_.setBounds(world_.getBounds());
@@ -563,11 +567,11 @@ std::vector<PluginEditor::Group::Column> PluginEditor::Group::columns() const {
     return columns;
 }
 
-// Side by side, as wide as what is in them.
+// Places the groups side by side, as wide as their controls require.
 void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
     const auto sharesOf = [](const Group& group) {
         int shares = 0;
-        for (const auto& column : group.columns()) shares += column.front()->shares();
+        for (const auto& column : group.columns()) shares += column.front()->widthShares();
         return shares;
     };
     int all = 0;
@@ -579,14 +583,14 @@ void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
     for (auto& group : groups_) {
         if (!group.isShown()) continue;
         const int shares = sharesOf(group);
-        group.place = &group == last ? controls : controls.removeFromLeft(width * shares / all);
+        group.bounds = &group == last ? controls : controls.removeFromLeft(width * shares / all);
         controls.removeFromLeft(panelGap);
-        auto places = group.place.reduced(6, 6).withTrimmedTop(18);
+        auto places = group.bounds.reduced(6, 6).withTrimmedTop(18);
         const int inside = places.getWidth();
         for (const auto& column : group.columns()) {
-            auto place = places.removeFromLeft(inside * column.front()->shares() / shares);
+            auto place = places.removeFromLeft(inside * column.front()->widthShares() / shares);
             const int height = place.getHeight() / static_cast<int>(column.size());
-            for (auto* const one : column) one->setBounds(place.removeFromTop(height));
+            for (auto* const control : column) control->setBounds(place.removeFromTop(height));
         }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of the plug-in's user: scenes, layouts and sessions as an instance's state, presets, and the theme.
+// Files of the user: scenes, layouts, sessions and presets are read as a state; presets and theme are
+// written.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Io/Result.h"
@@ -13,27 +14,27 @@ namespace physvib {
 
 struct OpenedFile {
     PluginState state;
-    std::string note; ///< a line for people: what of the file is not played here, or lowered; or empty
+    std::string note; ///< a line for the user: what is not played here or was lowered; empty: nothing
 };
 
-/// `state` with the scene or the layout of that file, or as a saved session left its desk, no louder than
-/// `state` was (see lowerTo); one line if it is none of them or wrong. M only.
+/// `state` with the scene, layout, session or preset of that file, no louder than `state` was (see
+/// lowerToLimits()); else a one-line error. M only.
 Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state);
 
-/// The folder of user presets, which all instances list; each is a file with an instance's state:
-/// `PhysVib/Presets` where programs of this system keep their data. It need not be there. M only.
+/// The folder of user presets, one file with a state each, which all instances list. It may not exist. M
+/// only.
 inline juce::File presetFolder() {
     return juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory)
         .getChildFile("PhysVib/Presets");
 }
 
-/// Its presets by their names. M only.
+/// The folder's preset files, sorted by name. M only.
 std::vector<juce::File> presetFiles(const juce::File& folder);
 
-/// Writes `state` without the window's size, and its folder; empty, or one line with the reason. M only.
+/// Writes `state` without the window's size, and creates the folder; empty, or a one-line error. M only.
 std::string savePreset(PluginState state, const juce::File& file);
 
-/// What a person chose for the windows of all instances, in `PhysVib/look`; dark at first. M only.
+/// The user's theme for the windows of all instances, in `PhysVib/look`; dark at first. M only.
 Theme savedTheme();
 void saveTheme(Theme theme);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in processor on the message thread: settings, buses, sample rates, latency.
+// PluginProcessor on the message thread: its state, edits, programs, buses, sample rates and latency.
 #include "PluginProcessor.h"
 #include "PluginEditor.h"
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-/// A message may quote bytes of a broken chunk, and JUCE writes beyond its memory where a text is no UTF-8.
+/// An error may quote bytes of a broken chunk, and JUCE overruns its memory if a text is not valid UTF-8.
 juce::String asString(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
         for (char& c : text)
@@ -24,11 +24,11 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     , name_{std::move(name)}
     , plan_{plan} {
     addParameters();
-    const auto state = newPluginState(outputs());
+    const auto state = newPluginState(outputCount());
     apply(state);
     setParameters(state);
-    followsWidth_ = true;
-    startTimer(sleepsMs);
+    followsOutputs_ = true;
+    startTimer(idleTimerMs);
 }
 
 juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPlan& plan) {
@@ -40,7 +40,7 @@ juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPla
     return properties;
 }
 
-// Hosts number them as the table does.
+// Adds them in the table's order, by which hosts number them.
 void PluginProcessor::addParameters() {
     for (std::size_t i = 0; i < parameterCount; ++i) {
         parameters_[i] = new HostParameter{allParameters()[i]};
@@ -64,91 +64,91 @@ void PluginProcessor::addParameters() {
 
 PluginProcessor::~PluginProcessor() {
     stopTimer();
-    takes_.release();
+    runs_.release();
 }
 
 bool PluginProcessor::apply(PluginState state) {
     {
-        const std::lock_guard one{applyMutex_};
-        if (!exchangeFor(std::move(state), false)) return false;
+        const std::lock_guard applyLock{applyMutex_};
+        if (!replaceState(std::move(state), false)) return false;
     }
-    publish();
+    reportToHost();
     return true;
 }
 
-// applyMutex_ is held.
-bool PluginProcessor::exchangeFor(PluginState state, bool followsWidth) {
+// Called with applyMutex_ locked.
+bool PluginProcessor::replaceState(PluginState state, bool followsOutputs) {
     fitToLayout(state);
     try {
-        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}},
-                   state.strips);
+        runs_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}},
+                  state.strips);
     } catch (const std::invalid_argument& error) {
         return refuse(asString(error.what()));
     }
-    followsWidth_ = followsWidth;
+    followsOutputs_ = followsOutputs;
     tailSeconds_ = tailSeconds(state, noteKnobs());
-    program_ = presetOf(state);
-    take(std::move(state));
+    program_ = presetIndexOf(state);
+    storeState(std::move(state));
     return true;
 }
 
-// A state that comes meanwhile on another thread is kept: it is there and not fitted, or comes after.
-void PluginProcessor::fitToWidth() {
-    const std::lock_guard one{applyMutex_};
+// A state that another thread sets meanwhile is not lost: it comes before, and is not fitted, or comes after.
+void PluginProcessor::fitLayoutToOutputs() {
+    const std::lock_guard applyLock{applyMutex_};
     auto fitting = state();
-    if (!followsWidth_ || outputs() == enchantersOf(fitting)) return;
-    rearrange(fitting, outputs());
-    exchangeFor(std::move(fitting), true);
+    if (!followsOutputs_ || outputCount() == actuatorCount(fitting)) return;
+    rearrange(fitting, outputCount());
+    replaceState(std::move(fitting), true);
 }
 
-int PluginProcessor::outputs() const {
-    const int there = BusMap{*this}.leading();
-    return plan_.kind == BusPlan::Kind::oneBus ? there : std::min(there, std::max(4, enchantersOf(state())));
+int PluginProcessor::outputCount() const {
+    const int count = BusMap{*this}.leadingConnected();
+    return plan_.kind == BusPlan::Kind::oneBus ? count : std::min(count, std::max(4, actuatorCount(state())));
 }
 
-void PluginProcessor::take(PluginState state) {
+void PluginProcessor::storeState(PluginState state) {
     {
         const std::lock_guard lock{mutex_};
-        trouble_.clear();
-        refused_.reset();
+        errorText_.clear();
+        refusedChunk_.reset();
         state_ = std::move(state);
     }
-    ++stateCount_;
+    ++stateVersion_;
 }
 
 bool PluginProcessor::edit(PluginState state) {
     auto before = this->state();
-    if (!change(std::move(state))) return false;
+    if (!applyEdit(std::move(state))) return false;
     const std::lock_guard lock{mutex_};
     history_.add(std::move(before), {});
     return true;
 }
 
-// A step of its own, about the parameters that are others now.
-void PluginProcessor::remember(PluginState before) {
+// Records a step of its own, with the parameters whose values now differ from `before`.
+void PluginProcessor::recordEdit(PluginState before) {
     const auto now = state();
     TouchedParameters touched;
     for (std::size_t p = 0; p < parameterCount; ++p) touched[p] = before.parameters[p] != now.parameters[p];
     const std::lock_guard lock{mutex_};
-    history_.add(std::move(before), touched, EditHistory::Edit::whole);
+    history_.add(std::move(before), touched, EditHistory::Edit::separate);
 }
 
-void PluginProcessor::go(Step step) {
-    std::optional<EditHistory::Step> there;
+void PluginProcessor::go(Direction direction) {
+    std::optional<EditHistory::Step> target;
     {
         auto now = state();
         const std::lock_guard lock{mutex_};
-        there = history_.go(step, std::move(now));
+        target = history_.go(direction, std::move(now));
     }
-    if (!there) return;
-    // SILENCE is no edit: only a hand on its button lifts it
-    there->touched.reset(static_cast<std::size_t>(Parameter::bypass));
-    if (change(there->state)) setParameters(there->state, there->touched);
+    if (!target) return;
+    // SILENCE is no edit: only its button lifts it
+    target->touched.reset(static_cast<std::size_t>(Parameter::bypass));
+    if (applyEdit(target->state)) setParameters(target->state, target->touched);
 }
 
-bool PluginProcessor::can(Step step) const {
+bool PluginProcessor::canGo(Direction direction) const {
     const std::lock_guard lock{mutex_};
-    return history_.can(step);
+    return history_.canGo(direction);
 }
 
 bool PluginProcessor::isAtB() const {
@@ -156,18 +156,18 @@ bool PluginProcessor::isAtB() const {
     return history_.isAtB();
 }
 
-bool PluginProcessor::change(PluginState state) {
+bool PluginProcessor::applyEdit(PluginState state) {
     fitToLayout(state);
     const int before = program_;
     const auto now = this->state();
-    const bool follows = followsWidth_ && isSame(now.layout.geometry, state.layout.geometry);
-    if (isSameTake(now, state)) {
-        takes_.mix(state.strips);
-        take(std::move(state));
+    const bool follows = followsOutputs_ && isSame(now.layout.geometry, state.layout.geometry);
+    if (canKeepPlaying(now, state)) {
+        runs_.setStrips(state.strips);
+        storeState(std::move(state));
     } else if (!apply(std::move(state))) {
         return false;
     }
-    followsWidth_ = follows;
+    followsOutputs_ = follows;
     updateHostDisplay(
         ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
     return true;
@@ -175,37 +175,37 @@ bool PluginProcessor::change(PluginState state) {
 
 void PluginProcessor::open(PluginState state) {
     auto before = this->state();
-    if (!change(state)) return;
+    if (!applyEdit(state)) return;
     setParameters(state);
-    remember(std::move(before));
+    recordEdit(std::move(before));
 }
 
 PluginState PluginProcessor::withPreset(int preset) const {
     auto changed = state();
-    useBuiltIn(changed, preset, outputs());
+    applyBuiltInPreset(changed, preset, outputCount());
     return changed;
 }
 
-void PluginProcessor::choose(int preset) {
+void PluginProcessor::choosePreset(int preset) {
     open(withPreset(preset));
-    followsWidth_ = true;
+    followsOutputs_ = true;
 }
 
-void PluginProcessor::useOutputs() {
+void PluginProcessor::arrangeForOutputs() {
     auto changed = state();
-    rearrange(changed, outputs());
-    if (edit(std::move(changed))) followsWidth_ = true;
+    rearrange(changed, outputCount());
+    if (edit(std::move(changed))) followsOutputs_ = true;
 }
 
-void PluginProcessor::keepEditorSize(int width, int height) {
+void PluginProcessor::setEditorSize(int width, int height) {
     const std::lock_guard lock{mutex_};
     state_.editorWidth = width;
     state_.editorHeight = height;
 }
 
-bool PluginProcessor::refuse(const juce::String& why) {
+bool PluginProcessor::refuse(const juce::String& reason) {
     const std::lock_guard lock{mutex_};
-    trouble_ = why;
+    errorText_ = reason;
     return false;
 }
 
@@ -214,118 +214,119 @@ PluginState PluginProcessor::state() const {
     PluginState now = state_;
     now.parameters.clear();
     for (const auto* p : parameters_)
-        now.parameters.emplace_back(p->row().id, stateValue(p->row(), p->value()));
+        now.parameters.emplace_back(p->row().id, toStateValue(p->row(), p->value()));
     return now;
 }
 
-juce::String PluginProcessor::trouble() const {
-    const auto fault = takes_.fault();
+juce::String PluginProcessor::errorText() const {
+    const auto runError = runs_.errorText();
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         return "the host runs at " + juce::String{rate} + " Hz; expected " +
                juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} +
                ": silent";
     const std::lock_guard lock{mutex_};
-    return trouble_.isNotEmpty() ? trouble_ : asString(fault);
+    return errorText_.isNotEmpty() ? errorText_ : asString(runError);
 }
 
-bool PluginProcessor::keepsRefused() const {
+bool PluginProcessor::hasRefusedChunk() const {
     const std::lock_guard lock{mutex_};
-    return !refused_.isEmpty();
+    return !refusedChunk_.isEmpty();
 }
 
-// Only a hand on our editor begins a gesture. Who silences what they did not expect edits nothing.
+// Only the controls of our window begin gestures. Pressing SILENCE is no edit.
 void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
     auto before = state();
     const std::lock_guard lock{mutex_};
     history_.add(std::move(before), TouchedParameters{}.set(static_cast<std::size_t>(which)));
-    if (refused_.isEmpty()) return;
-    refused_.reset();
-    trouble_.clear();
+    if (refusedChunk_.isEmpty()) return;
+    refusedChunk_.reset();
+    errorText_.clear();
 }
 
-// Tells the host what it may have to know anew.
-void PluginProcessor::publish() {
-    takes_.setTiming(parameter(Parameter::timing).value() > 0.5 ? TakeTiming::tight : TakeTiming::safe);
-    // nothing is played
+// Reports the latency to the host, which may have changed with the timing or the settings.
+void PluginProcessor::reportToHost() {
+    runs_.setTiming(parameter(Parameter::timing).value() > 0.5 ? StepTiming::tight : StepTiming::safe);
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         setLatencySamples(0);
-    else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0)
+    else if (const auto frames = static_cast<int>(runs_.latencyFrames()); frames > 0)
         setLatencySamples(frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
-    const int rate = juce::roundToInt(sampleRateHz), usual = usualBlockFrames_;
+    const int rate = juce::roundToInt(sampleRateHz), nominal = nominalBlockFrames_;
     sampleRateHz_ = sampleRateHz;
-    if (!isSampleRate(rate)) { // silent, and trouble() says so
+    if (!isSampleRate(rate)) { // silent, and errorText() says so
         releaseResources();
-        return publish();
+        return reportToHost();
     }
     blockFrames_ =
-        juce::jlimit(1, limits::maxBlockFrames, usual > 0 ? std::min(usual, blockFrames) : blockFrames);
-    fitToWidth();
-    outputs_ = BusMap{*this};
-    open_.prepare(rate, limits::channelRampSeconds,
-                  parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
+        juce::jlimit(1, limits::maxBlockFrames, nominal > 0 ? std::min(nominal, blockFrames) : blockFrames);
+    fitLayoutToOutputs();
+    outputMap_ = BusMap{*this};
+    outputGate_.prepare(rate, limits::channelRampSeconds,
+                        parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
     prepareGuard(rate);
     transport_.reset();
-    tempo_ = {};
-    points_.reset();
-    measured_ = {};
+    hostBeats_ = {};
+    parameterPoints_.reset();
+    channelMeters_ = {};
     expression_ = {};
-    held_.forget();
-    ++prepares_;
+    heldNotes_.clear();
+    ++prepareCount_;
     const auto* sideChain = getBus(true, 0);
     const int musicChannels =
         sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0;
     beats_.prepare(rate, blockFrames_, musicChannels);
     music_.prepare(rate, blockFrames_, musicChannels);
     readParameters();
-    takes_.setTiming(timing());
-    takes_.prepare(rate, blockFrames_, beats_.delaySeconds(), musicChannels > 0);
-    publish();
-    startTimer(tellsEveryMs);
+    runs_.setTiming(timing());
+    runs_.prepare(rate, blockFrames_, beats_.delaySeconds(), musicChannels > 0);
+    reportToHost();
+    startTimer(activeTimerMs);
 }
 
-// Preparing anew is no way around the guard: outputs keep what they had, as after silence since the release.
-// An export begins at rest, so that it is the same each time.
+// Preparing again must not reset the guard's memory: the outputs have it as after silence since the release.
+// A non-realtime export begins without it, so that each is the same.
 void PluginProcessor::prepareGuard(int rate) {
-    std::array<GuardSums, limits::maxEnchanters> had{};
+    std::array<GuardSums, limits::maxActuators> previousSums{};
     if (!isNonRealtime()) {
-        const double rest = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - releasedMs_);
-        guard_.process(nullptr, juce::roundToInt(std::clamp(rest, 0.0, 9.0) * guardRateHz_), true);
-        for (std::size_t j = 0; j < guard_.channels(); ++j) had[j] = guard_.sums(j);
+        const double idleSeconds = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - releasedMs_);
+        guard_.process(nullptr, juce::roundToInt(std::clamp(idleSeconds, 0.0, 9.0) * guardRateHz_), true);
+        for (std::size_t j = 0; j < guard_.channels(); ++j) previousSums[j] = guard_.sums(j);
     }
-    guard_.prepare(guardRateHz_ = rate, std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
+    guard_.prepare(guardRateHz_ = rate, std::min(getTotalNumOutputChannels(), limits::maxActuators),
                    GuardPlace::last);
     releasedMs_ = std::numeric_limits<double>::infinity();
-    if (std::ranges::any_of(had, [](const GuardSums& m) { return m.load > 0.0f; })) guard_.recall(had.data());
+    if (std::ranges::any_of(previousSums, [](const GuardSums& m) { return m.load > 0.0f; }))
+        guard_.restore(previousSums.data());
 }
 
 void PluginProcessor::releaseResources() {
-    takes_.release();
+    runs_.release();
     if (blockFrames_ > 0) releasedMs_ = juce::Time::getMillisecondCounterHiRes();
     blockFrames_ = 0;
 }
 
-std::vector<TakeEvent> PluginProcessor::drainEvents() {
-    auto fresh = takes_.drainLog();
-    felt_.add(prepares_, fresh);
-    return fresh;
+std::vector<RunEvent> PluginProcessor::drainEvents() {
+    auto newEvents = runs_.drainLog();
+    playedEvents_.add(prepareCount_, newEvents);
+    return newEvents;
 }
 
 void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->notifyHost();
     if (const auto now = noteKnobs(); now != tailKnobs_)
         tailSeconds_ = tailSeconds(state(), tailKnobs_ = now);
-    if (const int wanted = wantedProgram_.exchange(-1), before = program_; wanted >= 0) {
-        setCurrentProgram(wanted);
+    if (const int requested = requestedProgram_.exchange(-1), before = program_; requested >= 0) {
+        setCurrentProgram(requested);
         if (program_ != before)
             updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(true));
     }
-    publish(); // the timing may have changed
-    const bool plays = std::exchange(blocksTold_, takes_.blocks()) != blocksTold_;
-    if (const int wanted = plays ? tellsEveryMs : sleepsMs; wanted != getTimerInterval()) startTimer(wanted);
+    reportToHost(); // the timing may have changed
+    const bool plays = std::exchange(lastBlockCount_, runs_.blocks()) != lastBlockCount_;
+    if (const int intervalMs = plays ? activeTimerMs : idleTimerMs; intervalMs != getTimerInterval())
+        startTimer(intervalMs);
 }
 
 juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginEditor{*this}; }
@@ -336,45 +337,45 @@ void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
     auto before = state();
     const auto changed = withPreset(index);
-    if (isSameTake(before, changed)) return; // hosts repeat themselves, and the world would start anew
+    if (canKeepPlaying(before, changed)) return; // hosts repeat calls, and the world would begin again
     if (!apply(changed)) return;
-    followsWidth_ = true;
+    followsOutputs_ = true;
     setParameters(changed);
-    remember(std::move(before));
+    recordEdit(std::move(before));
 }
 
 const juce::String PluginProcessor::getProgramName(int index) {
     const auto& names = presetNames();
     return index >= 0 && index < static_cast<int>(names.size())
-               ? juce::String{shownName(names[static_cast<std::size_t>(index)])}
+               ? juce::String{displayName(names[static_cast<std::size_t>(index)])}
                : juce::String{};
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
     {
         const std::lock_guard lock{mutex_};
-        chunk = refused_;
+        chunk = refusedChunk_;
     }
     if (!chunk.isEmpty()) return;
     const std::string text = pluginStateJson(state());
     chunk.replaceAll(text.data(), text.size());
 }
 
-// A chunk that cannot be read leaves everything as it was, and is what the next save gives back: a host's
-// session that was opened with an older PhysVib loses nothing.
+// A chunk that cannot be read changes nothing, and the next save returns it, so that a host's session loses
+// nothing when an older PhysVib opens it.
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
     if (applyChunk(text.substr(0, text.find_last_not_of('\0') + 1))) return; // a host may end it with NULs
-    followsWidth_ = false;
+    followsOutputs_ = false;
     const std::lock_guard lock{mutex_};
-    refused_ = juce::MemoryBlock{text.data(), text.size()};
+    refusedChunk_ = juce::MemoryBlock{text.data(), text.size()};
 }
 
 bool PluginProcessor::applyChunk(std::string_view text) {
     const auto read = readPluginState(text, "state");
     if (!read) return refuse(asString(read.error));
-    if (const auto fault = faultOfParameters(read.value); !fault.empty())
-        return refuse(asString("state: " + fault));
+    if (const auto error = parameterError(read.value); !error.empty())
+        return refuse(asString("state: " + error));
     if (!apply(read.value)) return false;
     setParameters(read.value);
     const std::lock_guard lock{mutex_};
@@ -382,15 +383,15 @@ bool PluginProcessor::applyChunk(std::string_view text) {
     return true;
 }
 
-// Those that the state does not name get their defaults. The host is told of what it does not know: each
-// telling may mark its session as changed.
+// Sets the parameters in `which`, to their defaults if the state lacks them. The host is notified only of
+// changes, because each notification may mark its session as changed.
 void PluginProcessor::setParameters(const PluginState& state, TouchedParameters which) {
     std::array<float, parameterCount> normals;
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {
-        const auto one = static_cast<std::size_t>(parameterOfId(id));
-        normals[one] = static_cast<float>(
-            normalised(parameters_[one]->row(), *valueOfState(parameters_[one]->row(), value)));
+        const auto index = static_cast<std::size_t>(parameterOfId(id));
+        normals[index] = static_cast<float>(
+            normalised(parameters_[index]->row(), *fromStateValue(parameters_[index]->row(), value)));
     }
     for (std::size_t i = 0; i < parameterCount; ++i)
         if (which[i] && parameters_[i]->getValue() != normals[i])

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PhysVib as an instrument of a host: takes of a session, parameters, MIDI strikes, the host's transport.
-//
-// Threads as in Live/Session/Session.h: processBlock is R, all else M or any thread but R. What the host
-// calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
+// PluginProcessor: PhysVib as an instrument of a host, with runs of a session, parameters, MIDI strikes and
+// the host's transport; EditHistory: undo, redo and the comparison of two states, A and B.
+// Threads: processBlock() is on the host's audio thread, R; all else on the message thread, M, or any thread
+// but R. Blocks that the host calls non-realtime are rendered offline, so that a bounce equals the live run.
 #pragma once
 #include "BusPlan.h"
 #include "Core/Actuators/OutputGuard.h"
-#include "FeltExport.h"
 #include "HostInputs.h"
 #include "HostParameter.h"
 #include "Live/Devices/DeviceMeters.h"
@@ -14,8 +13,9 @@
 #include "MidiMap.h"
 #include "MusicInput.h"
 #include "Parameters.h"
+#include "PlayedExport.h"
+#include "PluginRuns.h"
 #include "PluginSettings.h"
-#include "Takes.h"
 #include <bitset>
 #include <chrono>
 #include <optional>
@@ -24,63 +24,65 @@
 
 namespace physvib {
 
-/// The parameters that an edit changed. Others keep the value that they have when it is undone: automation, a
+/// The parameters that an edit changed. Undoing it leaves the others as they are, because automation, a
 /// controller or the host may have moved them since.
 using TouchedParameters = std::bitset<parameterCount>;
 
-/// One thread at a time. A and B have their own steps: whole scenes, so only the newest are kept.
+/// Steps to undo and redo, separate for A and B. A step is a whole state, so only the newest `maxSteps` are
+/// stored. One thread at a time.
 class EditHistory {
 public:
-    static constexpr std::size_t most = 30;
+    static constexpr std::size_t maxSteps = 30;
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::milliseconds oneStep{500}; ///< edits that follow sooner are one: a drag
+    static constexpr std::chrono::milliseconds mergeWindow{500}; ///< edits that follow sooner are one step
 
     struct Step {
         PluginState state;
         TouchedParameters touched{};
     };
     enum class Edit {
-        part, ///< of what may come many times in a row
-        whole ///< a step of its own
+        merged,  ///< may join the step before, as the edits of a drag do
+        separate ///< is always a step of its own
     };
-    enum class Way { undo, redo, exchange };
+    enum class Direction { undo, redo, exchange };
 
     /// Records the state before an edit.
-    void add(PluginState before, TouchedParameters touched, Edit edit = Edit::part,
+    void add(PluginState before, TouchedParameters touched, Edit edit = Edit::merged,
              Clock::time_point now = Clock::now()) {
-        here_.redo.clear();
-        touched_ |= touched;
-        const bool isSameStep = edit == Edit::part && !here_.undo.empty() && now - last_ < oneStep;
-        last_ = edit == Edit::part ? now : Clock::time_point{};
+        side_.redo.clear();
+        touchedInAnyStep_ |= touched;
+        const bool isSameStep = edit == Edit::merged && !side_.undo.empty() && now - lastEdit_ < mergeWindow;
+        lastEdit_ = edit == Edit::merged ? now : Clock::time_point{};
         if (isSameStep) {
-            here_.undo.back().touched |= touched;
+            side_.undo.back().touched |= touched;
             return;
         }
-        here_.undo.push_back({std::move(before), touched});
-        if (here_.undo.size() > most) here_.undo.erase(here_.undo.begin());
+        side_.undo.push_back({std::move(before), touched});
+        if (side_.undo.size() > maxSteps) side_.undo.erase(side_.undo.begin());
     }
 
-    bool can(Way way) const noexcept {
-        return way == Way::exchange || !(way == Way::undo ? here_.undo : here_.redo).empty();
+    bool canGo(Direction direction) const noexcept {
+        return direction == Direction::exchange ||
+               !(direction == Direction::undo ? side_.undo : side_.redo).empty();
     }
     bool isAtB() const noexcept { return isAtB_; }
 
-    /// The state one step back or forth from `now` (none: there is none), or the other one of A and B. At
-    /// first both are the same; they differ in the parameters that any step was about.
-    std::optional<Step> go(Way way, PluginState now) {
-        if (way == Way::undo) return move(here_.undo, here_.redo, std::move(now));
-        if (way == Way::redo) return move(here_.redo, here_.undo, std::move(now));
+    /// Returns the state one step back or forth from `now`, if there is one, or the other one of A and B,
+    /// which are equal at first. `touched` of the result has the parameters to be set.
+    std::optional<Step> go(Direction direction, PluginState now) {
+        if (direction == Direction::undo) return move(side_.undo, side_.redo, std::move(now));
+        if (direction == Direction::redo) return move(side_.redo, side_.undo, std::move(now));
         isAtB_ = !isAtB_;
-        last_ = {};
-        std::swap(here_, there_);
-        return Step{std::exchange(other_, now).value_or(now), touched_};
+        lastEdit_ = {};
+        std::swap(side_, otherSide_);
+        return Step{std::exchange(otherState_, now).value_or(now), touchedInAnyStep_};
     }
 
 private:
     using Steps = std::vector<Step>;
     std::optional<Step> move(Steps& from, Steps& to, PluginState now) {
         if (from.empty()) return {};
-        last_ = {};
+        lastEdit_ = {};
         Step step = std::move(from.back());
         from.pop_back();
         to.push_back({std::move(now), step.touched});
@@ -88,11 +90,11 @@ private:
     }
     struct Side {
         Steps undo, redo;
-    } here_, there_;
-    TouchedParameters touched_{};
-    std::optional<PluginState> other_;
+    } side_, otherSide_;
+    TouchedParameters touchedInAnyStep_{};
+    std::optional<PluginState> otherState_;
     bool isAtB_ = false;
-    Clock::time_point last_{};
+    Clock::time_point lastEdit_{};
 };
 
 class PluginProcessor final : public juce::AudioProcessor,
@@ -103,76 +105,79 @@ public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
 
-    /// What plays from now on. False: it cannot, as `trouble()` says, and nothing changes. Any thread but R.
+    /// Plays `state` from now on, in a new run. False if it is not valid: errorText() says why, and nothing
+    /// changes. Any thread but R.
     bool apply(PluginState state);
-    /// The same for an edit by hand: the host marks its session changed; what plays goes on if isSameTake. M.
+    /// The same as an edit by the user, which the host notes and which can be undone; the run plays on if
+    /// canKeepPlaying(). M.
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
-    /// A preset, chosen in the window. M.
-    void choose(int preset);
-    /// As many actuators as there are outputs, from now on. M.
-    void useOutputs();
-    /// What the parameters make of notes now. Any thread.
+    /// Opens a preset by its index in presetNames(). M.
+    void choosePreset(int preset);
+    /// Arranges as many actuators as there are outputs, also when that number changes later. M.
+    void arrangeForOutputs();
+    /// The present values of the parameters of notes. Any thread.
     NoteKnobs noteKnobs() const noexcept {
-        return knobsBy(
+        return noteKnobsFrom(
             [this](Parameter which) { return parameters_[static_cast<std::size_t>(which)]->value(); });
     }
-    /// Undo, redo, or the other state of A and B, with the parameters that the user changed. M.
-    using Step = EditHistory::Way;
-    void go(Step step);
-    bool can(Step step) const;
+    /// Undoes or redoes an edit, or exchanges A and B, with the parameters that the user changed. M.
+    using Direction = EditHistory::Direction;
+    void go(Direction direction);
+    bool canGo(Direction direction) const;
     bool isAtB() const;
-    /// Saved with the state, though no edit. M.
-    void keepEditorSize(int width, int height);
-    PluginState state() const;    ///< with the parameters as they are
-    juce::String trouble() const; ///< empty while all is well
-    /// the next save gives back the chunk that was refused, since nothing has been edited
-    bool keepsRefused() const;
-    /// grows with every state that was taken
-    std::uint64_t stateCount() const noexcept { return stateCount_; }
-    /// The host's; at one that no renderer takes all is silent, and trouble() says so.
+    /// Sets the window's size in pixels, which is saved with the state but is no edit. M.
+    void setEditorSize(int width, int height);
+    PluginState state() const;      ///< with the present values of the parameters. Any thread but R
+    juce::String errorText() const; ///< what the user has to know; empty: no error. Any thread but R
+    /// True if a chunk of the host was refused and nothing was edited since: the next save returns it.
+    bool hasRefusedChunk() const;
+    /// increases with every accepted state. Any thread
+    std::uint64_t stateVersion() const noexcept { return stateVersion_; }
+    /// The host's sample rate. At an unsupported one nothing plays, and errorText() says so. Any thread.
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
-    /// Frames of a usual block if a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
-    void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
+    /// Sets the frames of a typical block if a host announces far more (LV2); 0: as announced. M, unprepared.
+    void setNominalBlockFrames(int frames) noexcept { nominalBlockFrames_ = frames; }
 
-    /// What the host says of parameters in the coming block, which it outlives; without points they stay. R.
-    void expectPoints(PointSource& source) noexcept { source_ = &source; }
+    /// Sets the parameter changes within the next block. `source` must outlive that block. R.
+    void setPointSource(PointSource& source) noexcept { pointSource_ = &source; }
 
-    /// What the host says of notes within it, beside its messages of MIDI; it outlives that block. R.
-    void expectNotes(NoteSource& source) noexcept { noteSource_ = &source; }
+    /// Sets the note events within the next block, beside its MIDI. `source` must outlive that block. R.
+    void setNoteSource(NoteSource& source) noexcept { noteSource_ = &source; }
 
-    /// What sounds ends with the next block. R.
-    void silenceNext() noexcept { owesSilence_ = true; }
+    /// Silences at the next block's start all that vibrates. R.
+    void silenceNextBlock() noexcept { isSilencePending_ = true; }
 
-    /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
-    void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
+    /// Strikes a key of the window's keyboard in the next block, or releases it (velocity 0). M, one writer.
+    void playKey(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
-    /// Silence until it is lifted, by Esc in the window: no parameter, no session keeps it. Any thread.
-    void stop(bool isStopped) noexcept { isStopped_.store(isStopped, std::memory_order_relaxed); }
+    /// The emergency stop: mutes the output until it is lifted. It is not saved. Any thread.
+    void setStopped(bool isStopped) noexcept { isStopped_.store(isStopped, std::memory_order_relaxed); }
     bool isStopped() const noexcept { return isStopped_.load(std::memory_order_relaxed); }
 
-    /// The last controller that came in, with a count in the higher bits that grows with each, so that a
-    /// person can show which one is meant; 0: none yet. Any thread.
+    /// The number of the last controller received in the low 8 bits, and above them a count of all received,
+    /// so that MIDI learn notices each; 0: none yet. Any thread.
     std::uint32_t lastController() const noexcept { return lastController_; }
     static int controllerOf(std::uint32_t last) noexcept { return static_cast<int>(last & 0xff); }
 
-    /// What was played since the last call; it is kept for export as well. M.
-    std::vector<TakeEvent> drainEvents();
-    const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as drainEvents() was called
+    /// Events played since the last call; they are stored for export as well. M.
+    std::vector<RunEvent> drainEvents();
+    /// Those that drainEvents() returned. M.
+    const PlayedEvents& playedEvents() const noexcept { return playedEvents_; }
 
-    /// How many actuators the host has outputs for. Where buses are pairs, no more than there are actuators:
-    /// that a host turns all on is no wish. M.
-    int outputs() const;
+    /// How many actuators the host has outputs for. Where buses are pairs, at most the number of actuators or
+    /// four, because some hosts turn on all buses whether or not the user needs them. M.
+    int outputCount() const;
 
     HostParameter& parameter(Parameter which) noexcept {
         return *parameters_[static_cast<std::size_t>(which)];
     }
-    Takes& takes() noexcept { return takes_; }
+    PluginRuns& runs() noexcept { return runs_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
-    /// Messages for frames behind their block, which were played at its last one. Any thread.
-    std::uint64_t displacedMessages() const noexcept { return displaced_; }
+    /// MIDI messages whose frame was beyond their block and which acted at its last frame. Any thread.
+    std::uint64_t displacedMessages() const noexcept { return displacedMessages_; }
 
     const juce::String getName() const override { return name_; }
     bool isBusesLayoutSupported(const BusesLayout& layout) const override {
@@ -190,13 +195,13 @@ public:
     }
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
-    /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
-    /// render call. Our entry makes that port bypass' own, by its changes (Lv2Parts.h).
+    /// Null for LV2: its wrapper would overwrite it with `lv2:enabled` in every block and notify the host
+    /// from the render call. Our LV2 entry forwards changes of that port instead (Lv2Parts.h).
     juce::AudioProcessorParameter* getBypassParameter() const override {
         return wrapperType == wrapperType_LV2 ? nullptr
                                               : parameters_[static_cast<std::size_t>(Parameter::bypass)];
     }
-    double getTailLengthSeconds() const override { return tailSeconds_; } ///< with the knobs of tailKnobs_
+    double getTailLengthSeconds() const override { return tailSeconds_; } ///< as of the last timer call
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
@@ -217,58 +222,60 @@ private:
     static BusesProperties propertiesOf(const BusPlan& plan);
     void addParameters();
     void prepareGuard(int rate);
-    static constexpr int tellsEveryMs = 50, sleepsMs = 2000; ///< while blocks are rendered, and while none is
+    static constexpr int activeTimerMs = 50, idleTimerMs = 2000; ///< while blocks are rendered, or not
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
     void parameterGestureChanged(int which, bool begins) override;
     bool applyChunk(std::string_view text);
-    bool refuse(const juce::String& why);
-    void take(PluginState state);
-    bool change(PluginState state);
-    bool exchangeFor(PluginState state, bool followsWidth);
-    void fitToWidth();
-    void publish();
+    bool refuse(const juce::String& reason);
+    void storeState(PluginState state);
+    bool applyEdit(PluginState state);
+    bool replaceState(PluginState state, bool followsOutputs);
+    void fitLayoutToOutputs();
+    void reportToHost();
     void setParameters(const PluginState& state, TouchedParameters which = TouchedParameters{}.set());
-    void remember(PluginState before);
+    void recordEdit(PluginState before);
     PluginState withPreset(int preset) const;
 
     // R
-    TakeTiming timing() const noexcept {
-        return value(Parameter::timing) > 0.5 ? TakeTiming::tight : TakeTiming::safe;
+    StepTiming timing() const noexcept {
+        return value(Parameter::timing) > 0.5 ? StepTiming::tight : StepTiming::safe;
     }
     double value(Parameter which) const noexcept {
-        return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]);
+        return denormalised(rowOf(which), normalisedValues_[static_cast<std::size_t>(which)]);
     }
     NoteKnobs knobs() const noexcept;
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
-    void readPoints(int until) noexcept;
+    void applyPoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                    const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
     void followTempo(double seconds) noexcept;
-    void forgetControls() noexcept;
+    void resetControls() noexcept;
     template <class Send>
-    void send(std::initializer_list<Parameter> those, Send what) noexcept;
-    template <class Hold>
-    bool sendAt(ControlPace& pace, int first, int end, Hold hold) noexcept;
-    void sendPaced(int first, int end) noexcept;
+    void sendIfChanged(std::initializer_list<Parameter> watched, Send submit) noexcept;
+    template <class Submit>
+    bool sendWhenAllowed(ControlPace& pace, int first, int end, Submit submit) noexcept;
+    void sendPacedControls(int first, int end) noexcept;
     void sendControls(int frame) noexcept;
     void stopAll(int frame) noexcept;
     void silence(int frame) noexcept;
-    void playKeys(int frame) noexcept;
-    void readNote() noexcept;
-    void takeNotes(int at, int first, int frames) noexcept;
-    void express(const NoteEvent& event) noexcept;
-    void receive(const juce::MidiMessageMetadata& message, int frame, const NoteTouch& touch = {}) noexcept;
-    void press(int channel, int note, double pressure) noexcept;
-    void strike(int channel, int note, int velocity, int frame, const NoteTouch& touch) noexcept;
+    void playWindowKeys(int frame) noexcept;
+    void readNextNote() noexcept;
+    void handleNotes(int until, int first, int frames) noexcept;
+    void applyExpression(const NoteEvent& event) noexcept;
+    void handleMidi(const juce::MidiMessageMetadata& message, int frame,
+                    const NoteExpression& expression = {}) noexcept;
+    void applyPressure(int channel, int note, double pressure) noexcept;
+    void strike(int channel, int note, int velocity, int frame, const NoteExpression& expression) noexcept;
     NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
-    CollisionEvent placed(CollisionEvent strike, int channel, const NoteTouch& touch) const noexcept;
-    void sustain(int first, int end) noexcept;
-    void hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
-    void control(int channel, int controller, int value, int frame) noexcept;
-    void measure(const juce::AudioBuffer<float>& buffer) noexcept;
+    CollisionEvent strikeAtPlace(CollisionEvent strike, int channel,
+                                 const NoteExpression& expression) const noexcept;
+    void playHeldNotes(int first, int end) noexcept;
+    void processSideChain(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
+    void handleController(int channel, int controller, int value, int frame) noexcept;
+    void updateMeters(const juce::AudioBuffer<float>& buffer) noexcept;
 
     const juce::String name_;
     const BusPlan plan_;
@@ -276,63 +283,63 @@ private:
 
     mutable std::mutex mutex_; // guards what follows, up to the atomics; never held while the host is called
     PluginState state_;
-    juce::String trouble_;
+    juce::String errorText_;
     EditHistory history_;
-    juce::MemoryBlock refused_; // a chunk that is not ours to lose
+    juce::MemoryBlock refusedChunk_; // the host's data that could not be read
     std::atomic<int> program_{0};
-    std::mutex applyMutex_; // one exchange of states at a time; locked before mutex_, and likewise
-    std::atomic<bool> followsWidth_{true}; // the layout is a preset's: an actuator for each output
-    std::atomic<std::uint64_t> stateCount_{0};
+    std::mutex applyMutex_;                  // one change of the state at a time; locked before mutex_
+    std::atomic<bool> followsOutputs_{true}; // the layout is a preset's: an actuator for each output
+    std::atomic<std::uint64_t> stateVersion_{0};
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
 
     struct Key {
         int note = 0, velocity = 0;
     };
-    EventQueue<Key, 256> keys_;    // from M to R
-    FeltEvents felt_;              // M
-    std::uint64_t blocksTold_ = 0; // M
-    NoteKnobs tailKnobs_;          // M: what the tail was told for
-    std::atomic<std::uint64_t> prepares_{0};
+    EventQueue<Key, 256> keys_;        // from M to R
+    PlayedEvents playedEvents_;        // M
+    std::uint64_t lastBlockCount_ = 0; // M
+    NoteKnobs tailKnobs_;              // M: the knobs that tailSeconds_ is of
+    std::atomic<std::uint64_t> prepareCount_{0};
     std::atomic<std::uint32_t> lastController_{0};
-    std::atomic<int> wantedProgram_{-1}; // by MIDI
+    std::atomic<int> requestedProgram_{-1}; // by MIDI
     LatestValue<ChannelMeters> meters_;
-    Takes takes_;
-    BusMap outputs_;
-    int usualBlockFrames_ = 0;
+    PluginRuns runs_;
+    BusMap outputMap_;
+    int nominalBlockFrames_ = 0;
 
     // R
     BeatInput beats_;
     MusicInput music_;
     Transport transport_;
-    HostBeats tempo_;
+    HostBeats hostBeats_;
     int blockFrames_ = 0;
-    GainRamp open_;     // shut by bypass
-    OutputGuard guard_; // limits the sum of takes while one follows another
+    GainRamp outputGate_; // closed by bypass and stop()
+    OutputGuard guard_;   // limits the sum of runs while one follows another
     int guardRateHz_ = 0;
-    double releasedMs_ = std::numeric_limits<double>::infinity(); // when guard_ came to rest
-    bool isShut_ = false;
+    double releasedMs_ = std::numeric_limits<double>::infinity(); // time of the last releaseResources()
+    bool isMuted_ = false;
     std::atomic<bool> isStopped_{false};
-    ChannelMeters measured_;
-    PointSource* source_ = nullptr;
-    NoteSource *noteSource_ = nullptr, *notes_ = nullptr; // of the coming block, of this one
-    NoteEvent note_;                                      // the next, if there is one
-    bool hasNote_ = false;
-    ParameterPoints points_;
-    std::array<float, parameterCount> normals_{}; // at the frame that is being made
-    std::array<double, parameterCount> sent_{};   // what the playing take has taken
-    ControlPace levelPace_, pannerPace_, holdPace_, materialPace_;
-    std::atomic<std::uint64_t> displaced_{0};
-    bool owesStop_ = false, owesSilence_ = false;
-    HeldNotes held_;
+    ChannelMeters channelMeters_;
+    PointSource* pointSource_ = nullptr;
+    NoteSource *noteSource_ = nullptr, *blockNotes_ = nullptr; // of the next block; of the present one
+    NoteEvent nextNote_;                                       // read but not yet handled, if hasNextNote_
+    bool hasNextNote_ = false;
+    ParameterPoints parameterPoints_;
+    std::array<float, parameterCount> normalisedValues_{}; // at the frame that is being rendered
+    std::array<double, parameterCount> lastSentValues_{};  // as the playing run has them
+    ControlPace levelPace_, pannerPace_, gravityPace_, materialPace_;
+    std::atomic<std::uint64_t> displacedMessages_{0};
+    bool isStopPending_ = false, isSilencePending_ = false;
+    HeldNotes heldNotes_;
     ChannelExpression expression_;
 };
 
 /// Passes values between a format's entry and the instance that its wrapper creates on the same thread.
-struct Making {
-    int usualBlockFrames = 0;            ///< if the entry was told, for the instance; 0: not told
-    PluginProcessor* instance = nullptr; ///< the newest, for the entry
+struct InstanceCreation {
+    int nominalBlockFrames = 0;          ///< from the entry to the instance; 0: unknown
+    PluginProcessor* instance = nullptr; ///< the newest instance, from the wrapper to the entry
 };
-Making& making() noexcept; ///< of this thread
+InstanceCreation& instanceCreation() noexcept; ///< of this thread
 
 } // namespace physvib

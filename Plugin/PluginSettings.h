@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plug-in instance's state as settings of its renderer and session, edits of it, and the built-in presets.
+// Functions on a plug-in state: its session's settings, changes of it, its parameters, and built-in presets.
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"
@@ -10,70 +10,70 @@
 
 namespace physvib {
 
-inline int enchantersOf(const PluginState& state) noexcept { return state.layout.geometry.count; }
+inline int actuatorCount(const PluginState& state) noexcept { return state.layout.geometry.count; }
 
-/// As many strips as there are enchanters, and no equaliser beyond. Any thread.
+/// Resizes the strips to the number of actuators and clears equalisers beyond it. Any thread.
 void fitToLayout(PluginState& state);
 
-/// Arranges the actuators as that layout preset; they keep their profiles and strips. M only.
-void usePreset(PluginState& state, std::string_view name);
+/// Arranges the actuators as in the layout preset `name`; they keep their profiles and strips. M only.
+void applyLayoutPreset(PluginState& state, std::string_view name);
 
-/// Replaces the scene. Note rules keep their materials and bodies by name, or are left out. Any thread.
-void useScene(PluginState& state, Scene scene);
+/// Replaces the scene. Note rules whose material or body it has not, by name, are removed. Any thread.
+void setScene(PluginState& state, Scene scene);
 
-/// True if a take of `a` can play on with `b`: only the mix differs. Any thread.
-bool isSameTake(const PluginState& a, const PluginState& b);
+/// True if a run of state `a` can play on with state `b`, because only the mix differs. Any thread.
+bool canKeepPlaying(const PluginState& a, const PluginState& b);
 
-/// Any thread.
+/// The panner and the session settings of a state. Any thread.
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
 SessionSetup sessionSetupOf(const PluginState& state);
 
-/// Whether anything can ever move: bodies, a script, inputs of the scene, notes that drop bodies. Without,
-/// all is rendered in the call, without the output latency of a world. Any thread.
+/// True if anything can ever move: the scene has bodies, a script or inputs, or a note spawns bodies. If not,
+/// no world is stepped, and L has no steps. Any thread.
 bool hasWorld(const PluginState& state) noexcept;
 
-/// The value in the parameter's unit; its default if the state has none. Any thread.
-double valueIn(const PluginState& state, Parameter which);
-/// Sets it, clamped to the parameter's range. Any thread.
+/// A parameter's value in its unit; its default if the state has none. Any thread.
+double parameterValue(const PluginState& state, Parameter which);
+/// Sets a parameter's value, clamped to its range. Any thread.
 void setParameter(PluginState& state, Parameter which, double value);
 
-/// Whether a parameter changes what such a state plays, now or by a note: else it is not shown. Any thread.
-bool uses(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept;
+/// True if a parameter has an effect on what such a state plays; the window shows only these. Any thread.
+bool isParameterUsed(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept;
 
-/// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of
-/// hearing, at the smallest decay of the scene. Any thread.
+/// How long the output goes on after the last input: infinite with a world; else the time in which a strike
+/// at full scale decays to nothing, at the smallest decay of the scene. Any thread.
 double tailSeconds(const PluginState& state, const NoteKnobs& knobs = {}) noexcept;
 
-/// A parameter's value in a state: choices by word, so that others may join (decision 34). Any thread.
-ParameterValue stateValue(const ParameterRow& row, double value);
-/// The value in the parameter's unit; none if the row has no such word. Any thread.
-std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue& value);
+/// A parameter's value as in a state: choices by word, so that others can join (decision 34). Any thread.
+ParameterValue toStateValue(const ParameterRow& row, double value);
+/// The reverse: the value in the parameter's unit; none if the row has no such word. Any thread.
+std::optional<double> fromStateValue(const ParameterRow& row, const ParameterValue& value);
 
-/// What is wrong with a state's parameters: ids and words that are not there; empty: nothing. Any thread.
-std::string faultOfParameters(const PluginState& state);
+/// The first unknown id or word among a state's parameters, as an error line; empty: none. Any thread.
+std::string parameterError(const PluginState& state);
 
-/// Names of presets: the built-in scenes, whose places hosts keep, then instruments, without bodies. M only.
+/// Names of presets: the built-in scenes, whose indices hosts store, then instruments, without bodies. M
+/// only.
 const std::vector<std::string>& presetNames();
 
-/// A preset's name in words: built-in worlds are named as their files are. Any thread.
-std::string shownName(std::string name);
+/// A preset's name for people: those of built-in scenes are file names. Any thread.
+std::string displayName(std::string name);
 
-/// The place of the preset that a state plays; its own are shown as the first. Any thread.
-int presetOf(const PluginState& state);
+/// Index of the preset whose scene a state has; 0 if it is none of them. Any thread.
+int presetIndexOf(const PluginState& state);
 
-/// `state` as that preset has it, whatever was chosen before: with its own voice, notes and parameters of
-/// notes, on as many actuators as there are outputs (0: as it is made for). A scene keeps a layout of one's
-/// own that has outputs enough. M only.
-void useBuiltIn(PluginState& state, int index, int outputs = 0);
+/// Sets scene, voice, notes and note parameters to those of preset `index`, on `outputs` actuators (0: as
+/// many as it is made for). A scene keeps a custom layout if there are outputs for it. M only.
+void applyBuiltInPreset(PluginState& state, int index, int outputs = 0);
 
-/// Other places for as many actuators as there are outputs, by the arrangement of the preset that it plays;
-/// they keep what drives them and their strips. M only.
+/// Arranges `outputs` actuators anew, as the state's preset arranges them; they keep their profiles and
+/// strips. M only.
 void rearrange(PluginState& state, int outputs);
 
 /// The strike level in dB of the state's preset, at least the parameter's default. M only.
-double usualStrikeDb(const PluginState& state);
+double presetStrikeDb(const PluginState& state);
 
-/// What a new instance plays: notes and beats, nothing by itself. M only.
+/// The state of a new instance: the first instrument, which plays only by notes and beats. M only.
 PluginState newPluginState(int outputs = 4);
 
 } // namespace physvib

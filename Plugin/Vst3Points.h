@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every point that a VST3 host sends of a parameter, and its notes with their ids, tuning and expression:
-// JUCE's wrapper reads the last point of a block alone, and of notes what MIDI has. Included by the header of
-// that wrapper which vst3-header.cmake writes, where the host's block is made into ours.
+// A VST3 block's parameter points (Vst3Points), its notes with ids, tuning and expression (Vst3Notes), and
+// the list of expressions for the host (Vst3Expressions): JUCE's wrapper has only a block's last point, and
+// of notes only what MIDI has. The wrapper's header, which vst3-header.cmake writes, includes this one.
 #pragma once
 #undef Complex // X11's: as of JUCE 9 its headers come before this one
 #include "PluginProcessor.h"
@@ -19,7 +19,7 @@ namespace physvib {
 namespace vst = Steinberg::Vst;
 using Steinberg::int16, Steinberg::int32, Steinberg::tresult;
 
-/// As JUCE's wrapper numbers parameters: a hash of the id without its highest bit.
+/// JUCE's numbers of the parameters: a hash of the id without its highest bit.
 inline const std::array<vst::ParamID, parameterCount> vst3ParameterIds = [] {
     std::array<vst::ParamID, parameterCount> ids{};
     for (std::size_t p = 0; p < parameterCount; ++p) {
@@ -31,7 +31,7 @@ inline const std::array<vst::ParamID, parameterCount> vst3ParameterIds = [] {
     return ids;
 }();
 
-/// What hosts may draw for each note: they offer what they know. The wrapper's controller is one. Any thread.
+/// The note expressions that hosts may offer. JUCE's controller inherits from it. Any thread.
 class Vst3Expressions : public vst::INoteExpressionController {
 public:
     int32 PLUGIN_API getNoteExpressionCount(int32 bus, int16) override {
@@ -53,7 +53,7 @@ public:
     }
     tresult PLUGIN_API getNoteExpressionStringByValue(int32, int16, vst::NoteExpressionTypeID,
                                                       vst::NoteExpressionValue, vst::String128) override {
-        return Steinberg::kNotImplemented; // hosts write these kinds as they do everywhere
+        return Steinberg::kNotImplemented; // hosts have their own text for these standard kinds
     }
     tresult PLUGIN_API getNoteExpressionValueByString(int32, int16, vst::NoteExpressionTypeID,
                                                       const vst::TChar*, vst::NoteExpressionValue&) override {
@@ -75,7 +75,7 @@ private:
                                                 {vst::kBrightnessTypeID, u"Brightness", 0.5}}};
 };
 
-/// A block's events, in the order of frames also where the host's are not. As above.
+/// The note events of a block, sorted by frame if the host did not. R, wait-free as the host's own list is.
 class Vst3Notes final : public NoteSource {
 public:
     Vst3Notes(const juce::AudioProcessor* instance, vst::IEventList* events) noexcept
@@ -86,13 +86,13 @@ public:
         for (int32 i = 0, before = 0; i < count_ && isSorted_; ++i, before = event.sampleOffset)
             isSorted_ =
                 events->getEvent(i, event) != Steinberg::kResultOk || i == 0 || event.sampleOffset >= before;
-        static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->expectNotes(*this);
+        static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->setNoteSource(*this);
     }
     Vst3Notes(const Vst3Notes&) = delete;
     Vst3Notes& operator=(const Vst3Notes&) = delete;
 
     bool next(NoteEvent& note) noexcept override {
-        for (vst::Event event{}; take(event);) {
+        for (vst::Event event{}; readNext(event);) {
             note = {};
             note.frame = event.sampleOffset;
             if (read(event, note)) return true;
@@ -101,41 +101,41 @@ public:
     }
 
 private:
-    struct Place {
+    struct EventPosition {
         int32 frame = std::numeric_limits<int32>::min(), index = -1;
-        auto operator<=>(const Place&) const = default;
+        auto operator<=>(const EventPosition&) const = default;
     };
-    bool take(vst::Event& event) noexcept {
+    bool readNext(vst::Event& event) noexcept {
         if (isSorted_) {
-            while (++last_.index < count_)
-                if (events_->getEvent(last_.index, event) == Steinberg::kResultOk) return true;
+            while (++lastPosition_.index < count_)
+                if (events_->getEvent(lastPosition_.index, event) == Steinberg::kResultOk) return true;
             return false;
         }
-        if (at_ == ordered_) order();
-        if (at_ == ordered_) return false;
-        last_ = order_[at_++];
-        return events_->getEvent(last_.index, event) == Steinberg::kResultOk;
+        if (nextSorted_ == sortedCount_) sortNext();
+        if (nextSorted_ == sortedCount_) return false;
+        lastPosition_ = sorted_[nextSorted_++];
+        return events_->getEvent(lastPosition_.index, event) == Steinberg::kResultOk;
     }
-    // The next ones after the last, as many as there is room for.
-    void order() noexcept {
-        at_ = ordered_ = 0;
+    // Sorts the next events after the last one by frame, as many as the array has room for.
+    void sortNext() noexcept {
+        nextSorted_ = sortedCount_ = 0;
         vst::Event event{};
         for (int32 i = 0; i < count_; ++i) {
             if (events_->getEvent(i, event) != Steinberg::kResultOk) continue;
-            const Place place{event.sampleOffset, i};
-            if (place <= last_) continue;
-            if (ordered_ == order_.size()) {
-                if (place >= order_.front()) continue;
-                std::pop_heap(order_.begin(), order_.end());
-                --ordered_;
+            const EventPosition position{event.sampleOffset, i};
+            if (position <= lastPosition_) continue;
+            if (sortedCount_ == sorted_.size()) {
+                if (position >= sorted_.front()) continue;
+                std::pop_heap(sorted_.begin(), sorted_.end());
+                --sortedCount_;
             }
-            order_[ordered_++] = place;
-            std::push_heap(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(ordered_));
+            sorted_[sortedCount_++] = position;
+            std::push_heap(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(sortedCount_));
         }
-        std::sort_heap(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(ordered_));
+        std::sort_heap(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(sortedCount_));
     }
-    static std::uint8_t byte(double value, double most) noexcept {
-        return static_cast<std::uint8_t>(std::clamp(value, 0.0, most) + 0.5);
+    static std::uint8_t byte(double value, double maximum) noexcept {
+        return static_cast<std::uint8_t>(std::clamp(value, 0.0, maximum) + 0.5);
     }
     static bool read(const vst::Event& event, NoteEvent& note) noexcept {
         using namespace vst;
@@ -157,9 +157,10 @@ private:
             return message(0xa0, press.channel, press.pitch, static_cast<double>(press.pressure),
                            press.noteId);
         }
-        return event.type == Event::kNoteExpressionValueEvent && express(event.noteExpressionValue, note);
+        return event.type == Event::kNoteExpressionValueEvent &&
+               readExpression(event.noteExpressionValue, note);
     }
-    static bool express(const vst::NoteExpressionValueEvent& event, NoteEvent& note) noexcept {
+    static bool readExpression(const vst::NoteExpressionValueEvent& event, NoteEvent& note) noexcept {
         using Kind = NoteEvent::Kind;
         note.id = event.noteId;
         if (note.id < 0) return false; // of no note
@@ -175,32 +176,32 @@ private:
     vst::IEventList* const events_;
     int32 count_ = 0;
     bool isSorted_ = true;
-    Place last_;
-    std::array<Place, 512> order_; // of a host that does not keep it
-    std::size_t at_ = 0, ordered_ = 0;
+    EventPosition lastPosition_;
+    std::array<EventPosition, 512> sorted_; // used if the host's events are not sorted
+    std::size_t nextSorted_ = 0, sortedCount_ = 0;
 };
 
-/// Lives as long as the host's block. R, wait-free as the host's own queues are.
+/// The parameter points of a block. R, wait-free as the host's own queues are.
 class Vst3Points final : public PointSource {
 public:
-    /// `instance` is a PluginProcessor: this module makes no other.
+    /// `instance` must be a PluginProcessor, as this module creates no other processor.
     Vst3Points(const juce::AudioProcessor* instance, vst::IParameterChanges* changes) noexcept {
         if (!instance || !changes) return;
         for (int32 i = 0, count = changes->getParameterCount(); i < count; ++i)
-            if (auto* const queue = changes->getParameterData(i)) take(*queue);
-        static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->expectPoints(*this);
+            if (auto* const queue = changes->getParameterData(i)) addQueue(*queue);
+        static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->setPointSource(*this);
     }
     Vst3Points(const Vst3Points&) = delete;
     Vst3Points& operator=(const Vst3Points&) = delete;
 
     bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
-        auto& queued = points_[parameter];
-        while (queued.queue && queued.at < queued.queue->getPointCount())
-            if (read(*queued.queue, queued.at++, point)) return true;
+        auto& reader = points_[parameter];
+        while (reader.queue && reader.nextIndex < reader.queue->getPointCount())
+            if (read(*reader.queue, reader.nextIndex++, point)) return true;
         return false;
     }
 
-    int lastOfLine(std::size_t parameter) noexcept override {
+    int lastPointFrame(std::size_t parameter) noexcept override {
         ParameterPoint last;
         auto* const queue = points_[parameter].queue;
         return queue && queue->getPointCount() > 0 && read(*queue, queue->getPointCount() - 1, last)
@@ -209,11 +210,11 @@ public:
     }
 
 private:
-    struct Queued {
+    struct QueueReader {
         vst::IParamValueQueue* queue = nullptr;
-        int32 at = 0;
+        int32 nextIndex = 0;
     };
-    void take(vst::IParamValueQueue& queue) noexcept {
+    void addQueue(vst::IParamValueQueue& queue) noexcept {
         const auto id = queue.getParameterId();
         for (std::size_t p = 0; p < parameterCount; ++p)
             if (vst3ParameterIds[p] == id) points_[p].queue = &queue;
@@ -224,7 +225,7 @@ private:
         point.frame = frame;
         return true;
     }
-    std::array<Queued, parameterCount> points_{};
+    std::array<QueueReader, parameterCount> points_{};
 };
 
 } // namespace physvib

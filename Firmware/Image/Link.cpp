@@ -7,52 +7,52 @@ namespace physvib::board {
 namespace {
 
 constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
-constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // queued frames and fade: silence is on time
-constexpr std::uint32_t watchdogFrames(int ms) noexcept {
+constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // time to fade out, so that silence is on time
+constexpr std::uint32_t watchdogFramesOf(int ms) noexcept {
     return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames;
 }
 
 } // namespace
 
-void Link::start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs,
+void Link::start(const StartupInfo& startup, BoardRenderer& renderer, FrameQueue& outputs,
                  SerialPort& serial) noexcept {
-    machine_ = machine;
+    startup_ = startup;
     renderer_ = &renderer;
     outputs_ = &outputs;
     serial_ = &serial;
-    watchdogFrames_ = watchdogFrames(wire::defaultWatchdogMs);
+    watchdogFrames_ = watchdogFramesOf(wire::defaultWatchdogMs);
 }
 
 void Link::poll() noexcept {
     std::uint8_t byte;
-    Moment ended;
-    while (serial_->take(byte, ended))
-        if (const auto payload = decoder_.feed(byte); !payload.empty()) handle(payload, ended);
-    watch();
+    FrameTime arrivedAt;
+    while (serial_->readByte(byte, arrivedAt))
+        if (const auto payload = decoder_.feed(byte); !payload.empty()) execute(payload, arrivedAt);
+    checkTimeout();
 }
 
-void Link::watch() noexcept {
-    if (silenced_ || outputs_->played() - heardAt_ < watchdogFrames_) return;
-    silenced_ = true;
+void Link::checkTimeout() noexcept {
+    if (isSilenced_ || outputs_->played() - lastMessageFrame_ < watchdogFrames_) return;
+    isSilenced_ = true;
     stopAll();
 }
 
-void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept {
-    heardAt_ = ended.frame;
-    silenced_ = false;
+void Link::execute(std::span<const std::uint8_t> payload, FrameTime arrivedAt) noexcept {
+    lastMessageFrame_ = arrivedAt.frame;
+    isSilenced_ = false;
     switch (static_cast<wire::Type>(payload[0])) {
     case wire::Type::hello:
-        if (wire::Hello m; wire::decode(payload, m)) greet(m);
+        if (wire::Hello m; wire::decode(payload, m)) executeHello(m);
         break;
     case wire::Type::strike:
-        if (wire::Strike m; wire::decode(payload, m)) play(m.sequence, m.event);
+        if (wire::Strike m; wire::decode(payload, m)) schedule(m.sequence, m.event);
         break;
     case wire::Type::compactStrike:
         if (wire::CompactStrike m; wire::decode(payload, m))
-            play(m.sequence, wire::expand(m, renderer_->frame()).event);
+            schedule(m.sequence, wire::expand(m, renderer_->frame()).event);
         break;
     case wire::Type::segment:
-        if (wire::Segment m; wire::decode(payload, m)) play(m.sequence, m.segment);
+        if (wire::Segment m; wire::decode(payload, m)) schedule(m.sequence, m.segment);
         break;
     case wire::Type::gains:
         if (wire::Gains m; wire::decode(payload, m)) {
@@ -63,7 +63,8 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
         }
         break;
     case wire::Type::ping:
-        if (wire::Ping m; wire::decode(payload, m)) send(wire::Pong{m.id, ended.frame, ended.fraction});
+        if (wire::Ping m; wire::decode(payload, m))
+            send(wire::Pong{m.id, arrivedAt.frame, arrivedAt.fraction});
         break;
     case wire::Type::telemetryRequest: sendTelemetry(); break;
     case wire::Type::stopAll: stopAll(); break;
@@ -75,11 +76,11 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
     }
 }
 
-void Link::greet(const wire::Hello& hello) noexcept {
+void Link::executeHello(const wire::Hello& hello) noexcept {
     stopAll();
-    greeted_ = true;
-    order_ = {};
-    watchdogFrames_ = watchdogFrames(hello.watchdogMs);
+    hasHello_ = true;
+    duplicateFilter_ = {};
+    watchdogFrames_ = watchdogFramesOf(hello.watchdogMs);
     wire::HelloReply reply;
     // older hosts get the version that they sent
     reply.version = std::min(hello.version, wire::protocolVersion);
@@ -87,40 +88,40 @@ void Link::greet(const wire::Hello& hello) noexcept {
     reply.sampleRateHz = limits::board::sampleRateHz;
     reply.maxModes = limits::board::maxModes;
     reply.maxPending = limits::board::maxPending;
-    reply.aheadFrames = Outputs::aheadFrames;
+    reply.aheadFrames = FrameQueue::aheadFrames;
     reply.watchdogMs = static_cast<std::uint16_t>((watchdogFrames_ + fadeFrames) / framesPerMs);
-    reply.crystal = machine_.clock.isCrystal ? 1 : 0;
-    reply.resets = machine_.watchdogResets;
+    reply.crystal = startup_.clock.isCrystal ? 1 : 0;
+    reply.resets = startup_.watchdogResets;
     send(reply);
 }
 
 template <class Event>
-void Link::play(std::uint8_t sequence, const Event& event) noexcept {
-    if (!greeted_ || selfTest_.isRunning()) return;
-    if (order_.isNew(sequence, event.frame, renderer_->frame())) renderer_->schedule(event);
+void Link::schedule(std::uint8_t sequence, const Event& event) noexcept {
+    if (!hasHello_ || selfTest_.isRunning()) return;
+    if (duplicateFilter_.isNew(sequence, event.frame, renderer_->frame())) renderer_->schedule(event);
 }
 
 void Link::sendTelemetry() noexcept {
     const BoardStatus status = renderer_->status();
-    wire::Telemetry t;
-    t.frame = outputs_->played();
-    t.good = decoder_.good();
-    t.bad = decoder_.bad();
-    t.lost = order_.lost();
-    t.overruns = serial_->overruns();
-    t.played = status.played;
-    t.late = status.late;
-    t.dropped = status.dropped;
-    t.stolen = status.stolen;
-    t.missedFrames = outputs_->missed();
-    t.worstBlockCycles = worstBlockCycles_;
-    t.stackFree = machine_.stackFree();
-    t.modes = static_cast<std::uint8_t>(status.modes);
-    t.pending = static_cast<std::uint8_t>(status.pending);
-    t.silenced = silenced_ ? 1 : 0;
-    t.guarded = static_cast<std::uint16_t>(renderer_->guard().episodes());
-    worstBlockCycles_ = 0;
-    send(t);
+    wire::Telemetry telemetry;
+    telemetry.frame = outputs_->played();
+    telemetry.good = decoder_.goodFrames();
+    telemetry.bad = decoder_.badFrames();
+    telemetry.lost = duplicateFilter_.lost();
+    telemetry.overruns = serial_->overruns();
+    telemetry.played = status.played;
+    telemetry.late = status.late;
+    telemetry.dropped = status.dropped;
+    telemetry.stolen = status.stolen;
+    telemetry.missedFrames = outputs_->missedFrames();
+    telemetry.worstBlockCycles = maxBlockCycles_;
+    telemetry.stackFree = startup_.freeStackBytes();
+    telemetry.modes = static_cast<std::uint8_t>(status.modes);
+    telemetry.pending = static_cast<std::uint8_t>(status.pending);
+    telemetry.silenced = isSilenced_ ? 1 : 0;
+    telemetry.guarded = static_cast<std::uint16_t>(renderer_->guard().episodes());
+    maxBlockCycles_ = 0;
+    send(telemetry);
 }
 
 void Link::stopAll() noexcept {
@@ -129,15 +130,15 @@ void Link::stopAll() noexcept {
 }
 
 void Link::beforeBlock() noexcept {
-    if (selfTest_.isRunning()) selfTest_.strike(*renderer_);
+    if (selfTest_.isRunning()) selfTest_.addNotes(*renderer_);
 }
 
 void Link::afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcept {
-    worstBlockCycles_ = std::max(worstBlockCycles_, cycles);
+    maxBlockCycles_ = std::max(maxBlockCycles_, cycles);
     if (!selfTest_.isRunning()) return;
     wire::SelfTestReply reply;
-    reply.cyclesPerBlock = machine_.clock.cyclesPerFrame() * BoardRenderer::blockFrames;
-    if (selfTest_.take(block, cycles, *renderer_, reply)) {
+    reply.cyclesPerBlock = startup_.clock.cyclesPerFrame() * BoardRenderer::blockFrames;
+    if (selfTest_.finishBlock(block, cycles, *renderer_, reply)) {
         renderer_->stopAll();
         send(reply);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The board's side of the link: SerialPort transfers bytes, Link executes messages and sends replies.
 #pragma once
+#include "BoardOutputs.h"
 #include "Core/BoardRenderer.h"
-#include "Outputs.h"
 #include "Registers.h"
 #include "Wire/FrameDecoder.h"
 #include "Wire/Messages.h"
@@ -14,14 +14,15 @@
 namespace physvib::board {
 
 /// A time of the board's clock.
-struct Moment {
+struct FrameTime {
     std::uint32_t frame = 0;
     std::uint8_t fraction = 0; ///< 1/256 frame
 };
 
+/// The UART of the ST-Link, or of the Bluetooth module, with buffers for both directions.
 class SerialPort {
 public:
-    void start(const Clock& clock, const Outputs& outputs) noexcept {
+    void start(const Clock& clock, const FrameQueue& outputs) noexcept {
         outputs_ = &outputs;
         cyclesPerFrame_ = clock.cyclesPerFrame();
 #ifdef PHYSVIB_BLUETOOTH
@@ -38,27 +39,28 @@ public:
 #endif
         reg(port + usart::brr) = (hz + wire::lineBitsPerSecond / 2) / wire::lineBitsPerSecond;
         reg(port + usart::cr1) = enabled;
-        enableInterrupt(number, 1);
+        enableInterrupt(interruptNumber, 1);
     }
 
-    /// Reads a byte; false if there is none. `ended`: time at which the byte arrived, set for zeros only,
+    /// Reads a byte; false if there is none. `arrivedAt`: time at which the byte arrived, set for zeros only,
     /// which end a message. Main loop.
-    bool take(std::uint8_t& byte, Moment& ended) noexcept {
-        if (readAt_ == receivedAt_) return false;
-        byte = received_[readAt_ % received_.size()];
-        readAt_ = readAt_ + 1;
-        if (byte == 0) ended = zeros_[zerosTaken_++ % zeros_.size()];
+    bool readByte(std::uint8_t& byte, FrameTime& arrivedAt) noexcept {
+        if (readIndex_ == receiveIndex_) return false;
+        byte = receiveBuffer_[readIndex_ % receiveBuffer_.size()];
+        readIndex_ = readIndex_ + 1;
+        if (byte == 0) arrivedAt = zeroTimes_[zerosRead_++ % zeroTimes_.size()];
         return true;
     }
 
     /// Queues all bytes, or none if they do not fit. Main loop.
     bool send(std::span<const std::uint8_t> bytes) noexcept {
-        if (toSend_.size() - static_cast<std::uint8_t>(putAt_ - sentAt_) < bytes.size() + 1) return false;
+        if (sendBuffer_.size() - static_cast<std::uint8_t>(queueIndex_ - sendIndex_) < bytes.size() + 1)
+            return false;
         for (const std::uint8_t byte : bytes) {
-            toSend_[putAt_ % toSend_.size()] = byte;
-            putAt_ = static_cast<std::uint8_t>(putAt_ + 1);
+            sendBuffer_[queueIndex_ % sendBuffer_.size()] = byte;
+            queueIndex_ = static_cast<std::uint8_t>(queueIndex_ + 1);
         }
-        reg(port + usart::cr1) = enabled | wantsToSend;
+        reg(port + usart::cr1) = enabled | sendInterruptEnabled;
         return true;
     }
 
@@ -66,7 +68,7 @@ public:
     std::uint32_t overruns() const noexcept { return overruns_; }
 
     /// Called by the USART interrupt.
-    void serve() noexcept {
+    void onInterrupt() noexcept {
         constexpr std::uint32_t overrun = 1u << 3, arrived = 1u << 5, empty = 1u << 7;
         const std::uint32_t state = reg(port + usart::isr);
         if (state & arrived) receive(static_cast<std::uint8_t>(reg(port + usart::rdr)));
@@ -74,10 +76,10 @@ public:
             if (state & overrun) overruns_ = overruns_ + 1;
             reg(port + usart::icr) = 0xF; // parity, framing, noise, overrun: the CRC detects damaged messages
         }
-        if ((state & empty) && (reg(port + usart::cr1) & wantsToSend)) sendNext();
+        if ((state & empty) && (reg(port + usart::cr1) & sendInterruptEnabled)) sendNext();
     }
 
-    Moment now() const noexcept {
+    FrameTime currentTime() const noexcept {
         std::uint32_t frame, count;
         do {
             frame = outputs_->played();
@@ -87,9 +89,9 @@ public:
     }
 
 #ifdef PHYSVIB_BLUETOOTH
-    static constexpr int number = irq::usart1;
+    static constexpr int interruptNumber = irq::usart1;
 #else
-    static constexpr int number = irq::usart2;
+    static constexpr int interruptNumber = irq::usart2;
 #endif
 
 private:
@@ -99,81 +101,81 @@ private:
     static constexpr std::uint32_t port = usart::usart2;
 #endif
     // UE, RE, TE, RXNEIE
-    static constexpr std::uint32_t wantsToSend = 1u << 7, enabled = 1u | 1u << 2 | 1u << 3 | 1u << 5;
+    static constexpr std::uint32_t sendInterruptEnabled = 1u << 7, enabled = 1u | 1u << 2 | 1u << 3 | 1u << 5;
 
     void receive(std::uint8_t byte) noexcept {
-        if (static_cast<std::uint8_t>(receivedAt_ + 1) == readAt_) {
+        if (static_cast<std::uint8_t>(receiveIndex_ + 1) == readIndex_) {
             overruns_ = overruns_ + 1;
             return;
         }
-        if (byte == 0) zeros_[zerosSeen_++ % zeros_.size()] = now();
-        received_[receivedAt_] = byte;
-        receivedAt_ = static_cast<std::uint8_t>(receivedAt_ + 1);
+        if (byte == 0) zeroTimes_[zerosReceived_++ % zeroTimes_.size()] = currentTime();
+        receiveBuffer_[receiveIndex_] = byte;
+        receiveIndex_ = static_cast<std::uint8_t>(receiveIndex_ + 1);
     }
 
     void sendNext() noexcept {
-        if (sentAt_ == putAt_) {
+        if (sendIndex_ == queueIndex_) {
             reg(port + usart::cr1) = enabled;
             return;
         }
-        reg(port + usart::tdr) = toSend_[sentAt_ % toSend_.size()];
-        sentAt_ = static_cast<std::uint8_t>(sentAt_ + 1);
+        reg(port + usart::tdr) = sendBuffer_[sendIndex_ % sendBuffer_.size()];
+        sendIndex_ = static_cast<std::uint8_t>(sendIndex_ + 1);
     }
 
-    const Outputs* outputs_ = nullptr;
+    const FrameQueue* outputs_ = nullptr;
     std::uint32_t cyclesPerFrame_ = 1;
-    std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; 8-bit indices wrap
-    std::array<std::uint8_t, 128> toSend_{};
-    std::array<Moment, 16> zeros_{}; // may be late in a flood of empty frames
-    volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
-    std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
+    std::array<volatile std::uint8_t, 256> receiveBuffer_{}; // 22 ms of the line; 8-bit indices wrap
+    std::array<std::uint8_t, 128> sendBuffer_{};
+    std::array<FrameTime, 16> zeroTimes_{}; // wrong in a flood of empty frames
+    volatile std::uint8_t receiveIndex_ = 0, readIndex_ = 0, queueIndex_ = 0, sendIndex_ = 0;
+    std::uint8_t zerosReceived_ = 0, zerosRead_ = 0;
     volatile std::uint32_t overruns_ = 0;
 };
 
 /// Values that only the start-up code knows: clock, resets, free stack.
-struct Machine {
+struct StartupInfo {
     Clock clock;
     std::uint8_t watchdogResets = 0;
-    std::uint16_t (*stackFree)() = nullptr;
+    std::uint16_t (*freeStackBytes)() = nullptr;
 };
 
-/// Main loop only.
+/// Executes messages of the host and sends replies. Main loop only.
 class Link {
 public:
-    void start(const Machine& machine, BoardRenderer& renderer, Outputs& outputs,
+    void start(const StartupInfo& startup, BoardRenderer& renderer, FrameQueue& outputs,
                SerialPort& serial) noexcept;
 
     /// Executes received messages; silences the board when none has come for too long.
     void poll() noexcept;
 
-    /// Called before and after each block of the renderer, for the self-test and its times.
+    /// Called before and after each block of the renderer; `cycles`: its duration in processor cycles.
     void beforeBlock() noexcept;
     void afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcept;
 
-    bool isSilenced() const noexcept { return silenced_; }
+    bool isSilenced() const noexcept { return isSilenced_; }
 
 private:
-    void handle(std::span<const std::uint8_t> payload, Moment ended) noexcept;
-    void greet(const wire::Hello& hello) noexcept;
+    void execute(std::span<const std::uint8_t> payload, FrameTime arrivedAt) noexcept;
+    void executeHello(const wire::Hello& hello) noexcept;
     template <class Event>
-    void play(std::uint8_t sequence, const Event& event) noexcept;
+    void schedule(std::uint8_t sequence, const Event& event) noexcept;
     void sendTelemetry() noexcept;
     void stopAll() noexcept;
-    void watch() noexcept;
+    void checkTimeout() noexcept;
     template <class Message>
     void send(const Message& message) noexcept;
 
-    Machine machine_;
+    StartupInfo startup_;
     BoardRenderer* renderer_ = nullptr;
-    Outputs* outputs_ = nullptr;
+    FrameQueue* outputs_ = nullptr;
     SerialPort* serial_ = nullptr;
     wire::FrameDecoder decoder_;
     wire::SelfTestRun selfTest_;
-    std::uint32_t heardAt_ = 0; // frame number of the last message
+    std::uint32_t lastMessageFrame_ = 0;
     std::uint32_t watchdogFrames_ = 0;
-    std::uint32_t worstBlockCycles_ = 0;
-    wire::StrikeOrder order_;
-    bool greeted_ = false, silenced_ = true;
+    std::uint32_t maxBlockCycles_ = 0;
+    wire::DuplicateFilter duplicateFilter_;
+    bool hasHello_ = false, isSilenced_ = true;
 };
 
 } // namespace physvib::board

@@ -53,10 +53,8 @@ inline void enableInterrupt(int number, std::uint8_t priority) noexcept {
     reg(core::nvicEnable + 4u * static_cast<std::uint32_t>(number / 32)) = 1u << (number % 32);
 }
 
-// Starts the processor clock (72 MHz from the ST-Link's 8 MHz, or 64 MHz from the internal oscillator if that
-// is missing) and the sample timer.
-
-/// The processor clock.
+/// The processor clock: 72 MHz from the ST-Link's 8 MHz, or 64 MHz from the internal oscillator if that is
+/// missing.
 struct Clock {
     std::uint32_t hz = 0;
     bool isCrystal = false;
@@ -69,11 +67,11 @@ inline Clock startClock() noexcept {
                             pllReady = 1u << 25;
     constexpr std::uint32_t halfForApb1 = 4u << 8, fromHse = 1u << 16, times9 = 7u << 18, times16 = 14u << 18;
     constexpr std::uint32_t toPll = 2, onPll = 2u << 2;
-    constexpr int patience = 20000; // 10 ms at 8 MHz; the ST-Link's clock is ready within 2 ms
+    constexpr int maxPolls = 20000; // 10 ms at 8 MHz; the ST-Link's clock is ready within 2 ms
     reg(flash::acr) = 2u | 1u << 4; // two wait states, required above 48 MHz; prefetch
     reg(rcc::cr) |= hseBypass | hseOn;
     bool hasCrystal = false;
-    for (int i = 0; i < patience && !hasCrystal; ++i) hasCrystal = (reg(rcc::cr) & hseReady) != 0;
+    for (int i = 0; i < maxPolls && !hasCrystal; ++i) hasCrystal = (reg(rcc::cr) & hseReady) != 0;
     reg(rcc::cfgr) = halfForApb1 | (hasCrystal ? fromHse | times9 : times16); // 8 MHz x 9, or 8 MHz / 2 x 16
     reg(rcc::cr) |= pllOn;
     while ((reg(rcc::cr) & pllReady) == 0) {
@@ -93,12 +91,10 @@ inline void startSampleTimer(const Clock& clock) noexcept {
     reg(tim6::cr1) = 1;
 }
 
-// Functions of Startup.cpp.
-
 /// Number of restarts by the hardware watchdog since power-on. Call once.
 std::uint8_t countWatchdogReset() noexcept;
 
 /// Bytes of the stack that have never been used.
-std::uint16_t stackFree() noexcept;
+std::uint16_t freeStackBytes() noexcept;
 
 } // namespace physvib::board

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Start-up from reset to main: memory, floating-point unit, stack paint, interrupt vectors. Every processor
+// Start-up from reset to main: memory, floating-point unit, marks on the unused stack, vectors. A processor
 // fault silences the outputs, and the hardware watchdog then restarts the board.
-#include "Outputs.h"
+#include "BoardOutputs.h"
 #include "Registers.h"
 #include <array>
 #include <cstring>
@@ -19,8 +19,8 @@ void serialInterrupt();
 namespace physvib::board {
 namespace {
 
-constexpr std::uint32_t paint = 0xA5C35A3C;
-__attribute__((section(".noinit"))) std::uint32_t resets; // survives a reset, but not a power cycle
+constexpr std::uint32_t stackPaint = 0xA5C35A3C; // pattern of a word of the stack that was never used
+__attribute__((section(".noinit"))) std::uint32_t watchdogResets; // survives a reset, but not a power cycle
 
 void copy(std::uint32_t* to, const std::uint32_t* end, const std::uint32_t* from) {
     while (to != end) *to++ = *from++;
@@ -33,16 +33,16 @@ void fill(std::uint32_t* to, const std::uint32_t* end, std::uint32_t value) {
 } // namespace
 
 std::uint8_t countWatchdogReset() noexcept {
-    constexpr std::uint32_t byWatchdog = 1u << 29, forget = 1u << 24;
-    resets = (reg(rcc::csr) & byWatchdog) != 0 ? resets + 1 : 0;
-    reg(rcc::csr) |= forget;
-    return static_cast<std::uint8_t>(resets);
+    constexpr std::uint32_t watchdogFlag = 1u << 29, clearFlags = 1u << 24;
+    watchdogResets = (reg(rcc::csr) & watchdogFlag) != 0 ? watchdogResets + 1 : 0;
+    reg(rcc::csr) |= clearFlags;
+    return static_cast<std::uint8_t>(watchdogResets);
 }
 
-std::uint16_t stackFree() noexcept {
-    const std::uint32_t* at = &linkStackBottom;
-    while (at != &linkStackTop && *at == paint) ++at;
-    return static_cast<std::uint16_t>((at - &linkStackBottom) * 4);
+std::uint16_t freeStackBytes() noexcept {
+    const std::uint32_t* word = &linkStackBottom;
+    while (word != &linkStackTop && *word == stackPaint) ++word;
+    return static_cast<std::uint16_t>((word - &linkStackBottom) * 4);
 }
 
 } // namespace physvib::board
@@ -51,9 +51,9 @@ void startUp() {
     using namespace physvib::board;
     reg(core::cpacr) |= 0xFu << 20; // enables the floating-point unit before any function that may use it
     asm volatile("dsb\nisb" ::: "memory");
-    std::uint32_t* here;
-    asm volatile("mov %0, sp" : "=r"(here));
-    fill(&linkStackBottom, here - 16, paint);
+    std::uint32_t* stackPointer;
+    asm volatile("mov %0, sp" : "=r"(stackPointer));
+    fill(&linkStackBottom, stackPointer - 16, stackPaint);
     copy(&linkData, &linkDataEnd, &linkDataLoad);
     copy(&linkFast, &linkFastEnd, &linkFastLoad);
     fill(&linkBss, &linkBssEnd, 0);
@@ -71,12 +71,12 @@ void fault() {
 namespace {
 
 using Handler = void (*)();
-constexpr int interrupts = 82; // RM0364 table 30
+constexpr int interruptCount = 82; // RM0364 table 30
 
 struct Vectors {
     std::uint32_t* stack;
     std::array<Handler, 15> system;
-    std::array<Handler, interrupts> external;
+    std::array<Handler, interruptCount> external;
 };
 
 constexpr Vectors makeVectors() {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Main program of the four-channel board: renders events from the serial line to codes for four converters.
-//
 // Three priorities: the sample timer's interrupt writes one frame to the converters, the serial interrupt
 // moves bytes, and the main loop handles messages and renders a few frames ahead. The hardware watchdog is
 // reset once per rendered block, so it detects when timer, interrupts or loop hang.
+#include "BoardOutputs.h"
 #include "Link.h"
-#include "Outputs.h"
 #include "Registers.h"
 #include <new>
 
@@ -14,7 +13,7 @@ namespace {
 
 // constructed at run time, which saves 10 KB of the image
 alignas(BoardRenderer) unsigned char rendererMemory[sizeof(BoardRenderer)];
-Outputs outputs;
+FrameQueue outputs;
 SerialPort serial;
 Link link;
 
@@ -24,7 +23,7 @@ void startLed() noexcept {
 }
 
 // On: a host is connected. Blinking twice a second: silenced.
-void showLed() noexcept {
+void updateLed() noexcept {
     const bool isOn = !link.isSilenced() || (outputs.played() & 2048) != 0;
     reg(gpio::a + gpio::bsrr) = isOn ? 1u << 5 : 1u << 21;
 }
@@ -58,11 +57,11 @@ void startCycleCounter() noexcept {
         link.poll(); // every half millisecond: at most six bytes have come
         BoardRenderer::Codes block;
         link.beforeBlock();
-        const std::uint32_t began = reg(core::dwtCycles);
+        const std::uint32_t startCycles = reg(core::dwtCycles);
         renderer.render(block);
-        link.afterBlock(block, reg(core::dwtCycles) - began);
-        outputs.put(block);
-        showLed();
+        link.afterBlock(block, reg(core::dwtCycles) - startCycles);
+        outputs.add(block);
+        updateLed();
         reg(iwdg::kr) = 0xAAAA;
     }
 }
@@ -76,7 +75,7 @@ void startCycleCounter() noexcept {
     startLed();
     startCycleCounter();
     startBrownOutDetector();
-    link.start({clock, countWatchdogReset(), &stackFree}, renderer, outputs, serial);
+    link.start({clock, countWatchdogReset(), &freeStackBytes}, renderer, outputs, serial);
     serial.start(clock, outputs);
     startHardwareWatchdog();
     startSampleTimer(clock);
@@ -93,7 +92,7 @@ void sampleTimerInterrupt() {
     physvib::board::outputs.playNext();
 }
 
-void serialInterrupt() { physvib::board::serial.serve(); }
+void serialInterrupt() { physvib::board::serial.onInterrupt(); }
 
 void work() { physvib::board::run(); }
 }

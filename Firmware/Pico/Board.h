@@ -37,9 +37,9 @@ static_assert(clockDivider * stepsPerFrame * sampleRateHz == systemClockHz);
 /// Waits until `isTrue()`; restarts after a millisecond. Main loop.
 template <class IsTrue>
 void waitOrRestart(IsTrue&& isTrue) noexcept {
-    constexpr std::uint32_t mostMicroseconds = 1000;
-    for (const std::uint32_t began = time_us_32(); !isTrue();)
-        if (time_us_32() - began > mostMicroseconds) restart();
+    constexpr std::uint32_t maxMicroseconds = 1000;
+    for (const std::uint32_t startUs = time_us_32(); !isTrue();)
+        if (time_us_32() - startUs > maxMicroseconds) restart();
 }
 
 /// Starts clocks, silence, the interrupt that renders tiles, and the watchdog. Main loop, once.

@@ -8,10 +8,10 @@
 
 namespace physvib::pico {
 
-/// Main loop only.
+/// Collects a line and answers it. Main loop only.
 class Console {
 public:
-    struct Facts {
+    struct Status {
         int channels;
         const char* serialNumber;
         bool isPlaying;
@@ -20,60 +20,60 @@ public:
             worstTileCycles;
     };
 
-    /// Adds a received character. True: a command is complete, and answer() is to be called.
-    bool take(char c) noexcept {
-        if (c == '\n' || c == '\r') return count_ > 0;
-        if (count_ < line_.size()) line_[count_] = c;
-        if (count_ <= line_.size()) ++count_; // count_ marks a line as too long
+    /// Adds a received character. True: a command is complete, and answer() must be called.
+    bool receive(char c) noexcept {
+        if (c == '\n' || c == '\r') return lineLength_ > 0;
+        if (lineLength_ < line_.size()) line_[lineLength_] = c;
+        if (lineLength_ <= line_.size()) ++lineLength_; // lineLength_ marks a line as too long
         return false;
     }
 
     /// Executes the command. The text is valid until the next call.
-    std::string_view answer(const Facts& f) noexcept {
-        const std::string_view line(line_.data(), count_ < line_.size() ? count_ : line_.size());
-        const bool isWhole = count_ <= line_.size();
-        length_ = 0;
-        count_ = 0;
-        if (isWhole && line == "info") {
+    std::string_view answer(const Status& status) noexcept {
+        const std::string_view line(line_.data(), lineLength_ < line_.size() ? lineLength_ : line_.size());
+        const bool isComplete = lineLength_ <= line_.size();
+        answerLength_ = 0;
+        lineLength_ = 0;
+        if (isComplete && line == "info") {
             add("physvib pico");
-            add(static_cast<std::uint32_t>(f.channels));
+            add(static_cast<std::uint32_t>(status.channels));
             add(" version " PHYSVIB_VERSION " serial ");
-            add(f.serialNumber);
-        } else if (isWhole && line == "counters") {
-            counters(f);
+            add(status.serialNumber);
+        } else if (isComplete && line == "counters") {
+            addCounters(status);
         } else if (line.substr(0, 7) == "silence") {
-            silenced_ = !(isWhole && line == "silence off");
-            add(silenced_ ? "silence on" : "silence off");
+            isSilenced_ = !(isComplete && line == "silence off");
+            add(isSilenced_ ? "silence on" : "silence off");
         } else {
             add("expected: info, counters, silence on, or silence off");
         }
         add("\r\n");
-        return {text_.data(), length_};
+        return {answer_.data(), answerLength_};
     }
 
-    bool isSilenced() const noexcept { return silenced_; }
-    void silence() noexcept { silenced_ = true; } ///< restores the silence from before a restart
+    bool isSilenced() const noexcept { return isSilenced_; }
+    void silence() noexcept { isSilenced_ = true; } ///< restores the silence from before a restart
 
 private:
-    void counters(const Facts& f) noexcept {
-        const auto value = [this](std::string_view name, std::uint32_t number) {
+    void addCounters(const Status& status) noexcept {
+        const auto addCounter = [this](std::string_view name, std::uint32_t number) {
             add(name);
             add(number);
         };
-        add(silenced_ ? "silenced" : f.isPlaying ? "playing" : "waiting");
-        value(" underruns ", f.underruns);
-        value(" overruns ", f.overruns);
-        value(" missing_packets ", f.missingPackets);
-        value(" wrong_sizes ", f.wrongSizes);
-        value(" restarts ", f.restarts);
-        value(" limited_tiles ", f.limitedTiles);
-        value(" level_frames ", f.levelFrames);
-        value(" ceiling ", static_cast<std::uint32_t>(f.ceiling));
-        value(" worst_tile_cycles ", f.worstTileCycles);
+        add(isSilenced_ ? "silenced" : status.isPlaying ? "playing" : "waiting");
+        addCounter(" underruns ", status.underruns);
+        addCounter(" overruns ", status.overruns);
+        addCounter(" missing_packets ", status.missingPackets);
+        addCounter(" wrong_sizes ", status.wrongSizes);
+        addCounter(" restarts ", status.restarts);
+        addCounter(" limited_tiles ", status.limitedTiles);
+        addCounter(" level_frames ", status.levelFrames);
+        addCounter(" ceiling ", static_cast<std::uint32_t>(status.ceiling));
+        addCounter(" worst_tile_cycles ", status.worstTileCycles);
     }
     void add(std::string_view text) noexcept {
         for (const char c : text)
-            if (length_ < text_.size()) text_[length_++] = c;
+            if (answerLength_ < answer_.size()) answer_[answerLength_++] = c;
     }
     void add(std::uint32_t number) noexcept {
         std::array<char, 10> digits{};
@@ -84,9 +84,9 @@ private:
     }
 
     std::array<char, 24> line_{};
-    std::array<char, 288> text_{};
-    std::size_t count_ = 0, length_ = 0;
-    bool silenced_ = false;
+    std::array<char, 288> answer_{};
+    std::size_t lineLength_ = 0, answerLength_ = 0;
+    bool isSilenced_ = false;
 };
 
 } // namespace physvib::pico

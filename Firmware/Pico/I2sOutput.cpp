@@ -14,41 +14,41 @@ namespace physvib::pico {
 namespace {
 
 // A reset of the USB bus may block the main loop for 50 ms, in which the output is silent.
-constexpr std::uint32_t patienceTiles = tilesPerSecond / 10;
+constexpr std::uint32_t maxUnattendedTiles = tilesPerSecond / 10;
 constexpr std::uint32_t watchdogMs = 4;
 constexpr int sides = 2;
 constexpr unsigned tileBytes = tileFrames * sizeof(std::uint32_t), tileBits = 6;
 static_assert(tileBytes == 1u << tileBits);
 
 // A word is a frame of one line. Aligned, so that DMA wraps at a tile's end.
-alignas(tileBytes) std::uint32_t words[sides][boardLines][tileFrames];
+alignas(tileBytes) std::uint32_t tileWords[sides][boardLines][tileFrames];
 unsigned dmaChannels[sides][boardLines];
-Player<boardChannels>* source = nullptr;
+Player<boardChannels>* activePlayer = nullptr;
 Tile<boardChannels> tile;
-std::uint32_t worstCycles = 0;
+std::uint32_t maxTileCycles = 0;
 
-void pack(int side) noexcept {
+void packTile(int side) noexcept {
     for (std::size_t line = 0; line < boardLines; ++line)
         for (std::size_t k = 0; k < tileFrames; ++k)
-            words[side][line][k] = static_cast<std::uint32_t>(static_cast<std::uint16_t>(tile[k][2 * line]))
-                                       << 16 |
-                                   static_cast<std::uint16_t>(tile[k][2 * line + 1]);
+            tileWords[side][line][k] =
+                static_cast<std::uint32_t>(static_cast<std::uint16_t>(tile[k][2 * line])) << 16 |
+                static_cast<std::uint16_t>(tile[k][2 * line + 1]);
 }
 
 // Interrupt of the last line's DMA: all lines have sent a tile.
-void sentTile() noexcept {
-    const auto began = systick_hw->cvr;
+void onTileSent() noexcept {
+    const auto startCycles = systick_hw->cvr;
     for (int side = 0; side < sides; ++side) {
         const unsigned channel = dmaChannels[side][boardLines - 1];
         if (!dma_channel_get_irq0_status(channel)) continue;
         dma_channel_acknowledge_irq0(channel);
-        source->render(tile);
-        pack(side);
+        activePlayer->render(tile);
+        packTile(side);
     }
-    gpio_put(amplifierPin, source->isAmplifierOn());
-    if (source->unattendedTiles() < patienceTiles) watchdog_update();
-    const std::uint32_t cycles = (began - systick_hw->cvr) & 0xffffff; // it counts down
-    if (cycles > worstCycles) worstCycles = cycles;
+    gpio_put(amplifierPin, activePlayer->isAmplifierOn());
+    if (activePlayer->unattendedTiles() < maxUnattendedTiles) watchdog_update();
+    const std::uint32_t cycles = (startCycles - systick_hw->cvr) & 0xffffff; // it counts down
+    if (cycles > maxTileCycles) maxTileCycles = cycles;
 }
 
 // I2S: the word clock changes one bit before the first bit of its channel. Side-set bit 0 is the bit clock,
@@ -96,8 +96,8 @@ void startDma(unsigned line) noexcept {
         channel_config_set_ring(&c, false, tileBits);
         channel_config_set_dreq(&c, pio_get_dreq(pio0, line, true));
         channel_config_set_chain_to(&c, dmaChannels[1 - side][line]);
-        dma_channel_configure(dmaChannels[side][line], &c, &pio0->txf[line], words[side][line], tileFrames,
-                              false);
+        dma_channel_configure(dmaChannels[side][line], &c, &pio0->txf[line], tileWords[side][line],
+                              tileFrames, false);
     }
     if (line == boardLines - 1)
         for (const auto& side : dmaChannels) dma_channel_set_irq0_enabled(side[line], true);
@@ -106,29 +106,29 @@ void startDma(unsigned line) noexcept {
 } // namespace
 
 void startOutput(Player<boardChannels>& player) noexcept {
-    source = &player;
+    activePlayer = &player;
     systick_hw->rvr = 0xffffff;
     systick_hw->csr = 5; // counts the processor's cycles
     pio_gpio_init(pio0, bitClockPin);
     pio_gpio_init(pio0, bitClockPin + 1);
     const unsigned offset = loadProgram();
-    std::uint32_t first = 0;
+    std::uint32_t firstChannels = 0;
     for (unsigned line = 0; line < boardLines; ++line) {
         startLine(line, offset);
         startDma(line);
-        first |= 1u << dmaChannels[0][line];
+        firstChannels |= 1u << dmaChannels[0][line];
     }
-    irq_set_exclusive_handler(DMA_IRQ_0, sentTile);
+    irq_set_exclusive_handler(DMA_IRQ_0, onTileSent);
     irq_set_priority(DMA_IRQ_0, PICO_HIGHEST_IRQ_PRIORITY); // above USB, whose packets may be late
     irq_set_enabled(DMA_IRQ_0, true);
-    dma_start_channel_mask(first);
-    // A line that started without data would wait for a step, and stay behind the clocks.
+    dma_start_channel_mask(firstChannels);
+    // A line that starts without data would stay behind the clocks.
     for (unsigned line = 0; line < boardLines; ++line)
         waitOrRestart([line] { return pio_sm_is_tx_fifo_full(pio0, line); });
     pio_enable_sm_mask_in_sync(pio0, (1u << boardLines) - 1);
     watchdog_enable(watchdogMs, true);
 }
 
-std::uint32_t worstTileCycles() noexcept { return worstCycles; }
+std::uint32_t worstTileCycles() noexcept { return maxTileCycles; }
 
 } // namespace physvib::pico

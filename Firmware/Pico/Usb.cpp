@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// USB: callbacks that TinyUSB calls from pollUsb, so in the main loop; settings that survive a restart; and
-// corrections of requests that TinyUSB 0.18 cannot handle, in functions that the linker puts before its own.
+// USB: the callbacks that TinyUSB calls from pollUsb(), in the main loop; settings that survive a restart;
+// and wrappers by the linker (__wrap) for requests that TinyUSB 0.18 cannot handle.
 #include "Usb.h"
 #include "Board.h"
 #include "Console.h"
@@ -20,46 +20,46 @@ namespace {
 
 constexpr auto deviceBytes = deviceDescriptor(boardChannels, PHYSVIB_VERSION);
 constexpr auto configurationBytes = configurationDescriptor(boardChannels);
-constexpr auto configurationWithThree = configurationDescriptor(boardChannels, 3);
+constexpr auto threeByteConfiguration = configurationDescriptor(boardChannels, 3);
 static_assert(configurationBytes.count == 9 + CFG_TUD_AUDIO_FUNC_1_DESC_LEN + TUD_CDC_DESC_LEN);
 static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
 
 Player<boardChannels>* player = nullptr;
 AudioControls<boardChannels> controls;
 Feedback feedback;
-MissingPackets missing;
+MissingPackets missingPackets;
 Console console;
 std::uint32_t wrongSizes = 0, restarts = 0;
-bool isStreaming = false;  // alternate setting 1 is selected
-FeedbackForm feedbackForm; // also read by the interrupt of USB
+bool isStreaming = false;      // alternate setting 1 is selected
+FeedbackFormat feedbackFormat; // also read by the interrupt of USB
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
 
 // Silence and volumes survive a restart by the watchdog in its scratch registers. The first of these counts
 // restarts, and the last four belong to the SDK.
-struct Kept {
+struct SavedSettings {
     std::array<std::uint8_t, boardChannels + 1> volumes;
     std::uint8_t isSilenced;
 };
-constexpr int keptWords = 3;
-static_assert(sizeof(Kept) <= keptWords * sizeof(std::uint32_t));
+constexpr int savedWords = 3;
+static_assert(sizeof(SavedSettings) <= savedWords * sizeof(std::uint32_t));
 
-void keep() noexcept {
-    const Kept kept{controls.kept(), console.isSilenced()};
-    std::uint32_t words[keptWords]{};
-    std::memcpy(words, &kept, sizeof kept);
-    for (int k = 0; k < keptWords; ++k) watchdog_hw->scratch[k + 1] = words[k];
+void saveSettings() noexcept {
+    const SavedSettings saved{controls.toBytes(), console.isSilenced()};
+    std::uint32_t words[savedWords]{};
+    std::memcpy(words, &saved, sizeof saved);
+    for (int k = 0; k < savedWords; ++k) watchdog_hw->scratch[k + 1] = words[k];
 }
-void restore() noexcept {
-    std::uint32_t words[keptWords];
-    for (int k = 0; k < keptWords; ++k) words[k] = watchdog_hw->scratch[k + 1];
-    Kept kept;
-    std::memcpy(&kept, words, sizeof kept);
-    controls.restore(kept.volumes);
-    if (kept.isSilenced != 0) console.silence();
+void restoreSettings() noexcept {
+    std::uint32_t words[savedWords];
+    for (int k = 0; k < savedWords; ++k) words[k] = watchdog_hw->scratch[k + 1];
+    SavedSettings saved;
+    std::memcpy(&saved, words, sizeof saved);
+    controls.setFromBytes(saved.volumes);
+    if (saved.isSilenced != 0) console.silence();
 }
 
 void applyVolume() noexcept {
-    keep();
+    saveSettings();
     for (int channel = 0; channel < boardChannels; ++channel)
         player->setVolume(channel, controls.gain(channel));
 }
@@ -67,37 +67,37 @@ void applyVolume() noexcept {
 // TinyUSB 0.18 leaves the endpoints of a stream that is closed armed, and stops for good when it arms them
 // again: a second program that opens the card would hang the board.
 void disarmStream() noexcept {
-    constexpr std::uint32_t both = USB_EP_ABORT_EP1_IN_BITS | USB_EP_ABORT_EP1_OUT_BITS;
+    constexpr std::uint32_t endpointBits = USB_EP_ABORT_EP1_IN_BITS | USB_EP_ABORT_EP1_OUT_BITS;
     const bool canAbort = rp2040_chip_version() >= 2; // erratum E2: the first chips cannot
     if (canAbort) {
-        hw_set_bits(&usb_hw->abort, both);
-        waitOrRestart([] { return (usb_hw->abort_done & both) == both; });
+        hw_set_bits(&usb_hw->abort, endpointBits);
+        waitOrRestart([] { return (usb_hw->abort_done & endpointBits) == endpointBits; });
     }
     usb_dpram->ep_buf_ctrl[1].in = 0;
     usb_dpram->ep_buf_ctrl[1].out = 0;
     if (!canAbort) return;
-    hw_clear_bits(&usb_hw->abort_done, both);
-    hw_clear_bits(&usb_hw->abort, both);
+    hw_clear_bits(&usb_hw->abort_done, endpointBits);
+    hw_clear_bits(&usb_hw->abort, endpointBits);
 }
 
 void answerConsole() noexcept {
     while (tud_cdc_available() > 0) {
         const auto c = static_cast<char>(tud_cdc_read_char());
-        if (!console.take(c)) continue;
-        const Console::Facts facts{boardChannels,
-                                   serialNumber,
-                                   player->isPlaying(),
-                                   player->ceiling(),
-                                   player->underruns(),
-                                   player->buffer.overruns(),
-                                   missing.count(),
-                                   wrongSizes,
-                                   restarts,
-                                   player->limitedTiles(),
-                                   player->buffer.level(),
-                                   worstTileCycles()};
-        const auto answer = console.answer(facts);
-        keep();
+        if (!console.receive(c)) continue;
+        const Console::Status status{boardChannels,
+                                     serialNumber,
+                                     player->isPlaying(),
+                                     player->ceiling(),
+                                     player->underruns(),
+                                     player->buffer.overruns(),
+                                     missingPackets.count(),
+                                     wrongSizes,
+                                     restarts,
+                                     player->limitedTiles(),
+                                     player->buffer.level(),
+                                     worstTileCycles()};
+        const auto answer = console.answer(status);
+        saveSettings();
         tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // the rest is dropped
         tud_cdc_write_flush();
     }
@@ -105,10 +105,10 @@ void answerConsole() noexcept {
 
 } // namespace
 
-void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
-    player = &to;
+void startUsb(Player<boardChannels>& output, std::uint32_t watchdogRestarts) noexcept {
+    player = &output;
     restarts = watchdogRestarts;
-    if (restarts > 0) restore();
+    if (restarts > 0) restoreSettings();
     applyVolume();
     pico_get_unique_board_id_string(serialNumber, sizeof serialNumber);
     tusb_rhport_init_t device{};
@@ -121,12 +121,12 @@ void pollUsb() noexcept {
     tud_task();
     answerConsole();
     const bool isStopped = !tud_ready() || console.isSilenced();
-    if (isStopped) player->startSoftly();
-    player->allow(isStreaming && !isStopped);
+    if (isStopped) player->requestSoftStart();
+    player->setAllowed(isStreaming && !isStopped);
 }
 
-std::uint32_t faults() noexcept {
-    return player->underruns() + player->buffer.overruns() + missing.count() + wrongSizes + restarts;
+std::uint32_t errorCount() noexcept {
+    return player->underruns() + player->buffer.overruns() + missingPackets.count() + wrongSizes + restarts;
 }
 
 } // namespace physvib::pico
@@ -137,7 +137,7 @@ extern "C" {
 
 std::uint8_t const* tud_descriptor_device_cb(void) { return deviceBytes.data(); }
 std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) {
-    return (feedbackForm.isThreeBytes() ? configurationWithThree : configurationBytes).data.data();
+    return (feedbackFormat.isThreeBytes() ? threeByteConfiguration : configurationBytes).data.data();
 }
 
 std::uint16_t const* tud_descriptor_string_cb(std::uint8_t index, std::uint16_t) {
@@ -181,7 +181,7 @@ bool tud_audio_set_req_entity_cb(std::uint8_t, tusb_control_request_t const* req
     return true;
 }
 
-bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return feedbackForm.isThreeBytes(); }
+bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return feedbackFormat.isThreeBytes(); }
 
 // A packet that came between a request to open the stream again and its execution is reported when the
 // endpoint is armed anew; TinyUSB would arm it twice, which it does not survive. False: it does nothing.
@@ -194,11 +194,11 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
     constexpr std::uint16_t frameBytes = sizeof(Frame<boardChannels>);
     static Frame<boardChannels> frames[packetBytes(boardChannels) / frameBytes];
     // The FIFO is emptied: a part of a frame would shift the channels of all later ones.
-    const auto taken = std::min<std::uint16_t>(tud_audio_read(frames, sizeof frames), bytes);
+    const auto readBytes = std::min<std::uint16_t>(tud_audio_read(frames, sizeof frames), bytes);
     if (tud_audio_available() > 0) tud_audio_clear_ep_out_ff();
-    if (missing.see(usb_hw->sof_rd, player->isPlaying())) player->buffer.miss();
-    player->buffer.write(frames, taken / frameBytes);
-    if (taken % frameBytes != 0) ++wrongSizes, player->buffer.miss();
+    if (missingPackets.update(usb_hw->sof_rd, player->isPlaying())) player->buffer.markGap();
+    player->buffer.write(frames, readBytes / frameBytes);
+    if (readBytes % frameBytes != 0) ++wrongSizes, player->buffer.markGap();
     tud_audio_n_fb_set(0, feedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
                                         player->isPlaying()));
     return true;
@@ -216,19 +216,19 @@ void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
 /// Refuses standard requests of the wrong direction: if a request for a descriptor sends data, TinyUSB 0.18
 /// overwrites the descriptor with it. Interrupt of USB, and main loop.
 void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
-    if (event->event_id == DCD_EVENT_BUS_RESET) feedbackForm.reset();
+    if (event->event_id == DCD_EVENT_BUS_RESET) feedbackFormat.reset();
     if (event->event_id != DCD_EVENT_SETUP_RECEIVED) return __real_dcd_event_handler(event, isInterrupt);
     dcd_event_t checked = *event;
     auto& request = checked.setup_received;
     if (request.bmRequestType_bit.type == TUSB_REQ_TYPE_STANDARD) {
-        const bool answers =
+        const bool isGetRequest =
             request.bRequest == TUSB_REQ_GET_STATUS || request.bRequest == TUSB_REQ_GET_DESCRIPTOR ||
             request.bRequest == TUSB_REQ_GET_CONFIGURATION || request.bRequest == TUSB_REQ_GET_INTERFACE;
-        constexpr std::uint8_t unknown = 0xff; // TinyUSB refuses it
+        constexpr std::uint8_t invalidRequest = 0xff; // TinyUSB refuses it
         if (request.bRequest == TUSB_REQ_GET_DESCRIPTOR)
-            feedbackForm.asks(static_cast<std::uint8_t>(request.wValue >> 8));
+            feedbackFormat.onDescriptorRequest(static_cast<std::uint8_t>(request.wValue >> 8));
         const bool isIn = request.bmRequestType_bit.direction == TUSB_DIR_IN;
-        if (answers ? !isIn : isIn || request.wLength > 0) request.bRequest = unknown;
+        if (isGetRequest ? !isIn : isIn || request.wLength > 0) request.bRequest = invalidRequest;
     }
     __real_dcd_event_handler(&checked, isInterrupt);
 }

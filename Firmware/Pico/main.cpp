@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Main program of the Pico as a USB sound card for actuators.
-//
 // The interrupt of the output renders tiles and comes first; USB is served by the main loop. If the main loop
 // hangs, the output ramps to silence within 4 ms, and the chip restarts after 100 ms. If the interrupt hangs,
 // the watchdog restarts the chip within 4 ms: its pins become inputs, and the amplifiers' shut-down line
@@ -45,8 +44,8 @@ std::uint32_t countRestarts() noexcept {
     for (;;) {
         pollUsb();
         const auto tiles = player.tiles();
-        player.setLowCeiling(!ceiling.see(tiles, !gpio_get(ceilingPin)));
-        const auto light = indicator.see(tiles, player.isPlaying(), player.limitedTiles(), faults());
+        player.setLowCeiling(!ceiling.update(tiles, !gpio_get(ceilingPin)));
+        const auto light = indicator.update(tiles, player.isPlaying(), player.limitedTiles(), errorCount());
         gpio_put(ledPin, Indicator::isOn(light, tiles));
         __wfi(); // until the next tile or packet
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Processor of the virtual board: the cycle cost of each instruction, decoded with Capstone; instruction
-// blocks, exceptions and sleep.
+// Processor of the virtual board: the cycles of instructions, decoded with Capstone; instruction blocks,
+// exceptions and sleep in Unicorn; and the ELF reader.
 #include "VirtualBoard.h"
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ struct Instruction {
         const bool hasBase = is({"ldm", "stm", "vldm", "vstm"});
         return n - (hasBase ? 1 : 0);
     }
-    bool movesMany() const { return is({"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop"}); }
+    bool isMultiple() const { return is({"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop"}); }
     bool isArithmetic() const {
         return is({"vadd", "vsub", "vmul", "vnmul", "vcvt", "vdiv", "vsqrt", "vmla", "vmls", "vfma", "vfms",
                    "vfnm"});
@@ -53,25 +53,26 @@ struct Instruction {
                    return o.type == ARM_OP_MEM && o.mem.base == ARM_REG_PC;
                });
     }
-    bool uses(int wanted) const {
+    bool reads(int registerId) const {
         for (std::size_t i = isStore() || is({"vcmp"}) ? 0 : 1; i < operands.size(); ++i)
-            if (reg(i) == wanted) return true;
+            if (reg(i) == registerId) return true;
         return false;
     }
 };
 
-// Cycles without stalls; `follows`: directly after another load or store.
-std::uint32_t plainCycles(const Instruction& i, bool follows, CostModel model) {
-    const bool slow = model == CostModel::pessimistic;
-    if (i.movesMany())
+// Cycles without stalls; `isConsecutive`: directly after another load or store.
+std::uint32_t plainCycles(const Instruction& i, bool isConsecutive, CostModel model) {
+    const bool isPessimistic = model == CostModel::pessimistic;
+    if (i.isMultiple())
         return 1 + i.words() +
-               (i.is({"pop", "ldm"}) && i.reg(i.operands.size() - 1) == ARM_REG_PC ? (slow ? 3 : 2) : 0);
+               (i.is({"pop", "ldm"}) && i.reg(i.operands.size() - 1) == ARM_REG_PC ? (isPessimistic ? 3 : 2)
+                                                                                   : 0);
     if (i.is({"ldrd", "strd"})) return 3;
     if (i.is({"vdiv", "vsqrt"})) return 14;
     if (i.is({"vmla", "vmls", "vfma", "vfms", "vfnm"})) return 3;
-    if (i.isLoad()) return slow || !follows ? 2 : 1;
-    if (i.isStore()) return slow && i.is({"vstr"}) ? 2 : 1;
-    if (i.is({"sdiv", "udiv"})) return slow ? 12 : 2;
+    if (i.isLoad()) return isPessimistic || !isConsecutive ? 2 : 1;
+    if (i.isStore()) return isPessimistic && i.is({"vstr"}) ? 2 : 1;
+    if (i.is({"sdiv", "udiv"})) return isPessimistic ? 12 : 2;
     if (i.is({"dmb", "dsb", "isb"})) return 4;
     return 1;
 }
@@ -90,38 +91,38 @@ CycleModel::~CycleModel() { cs_close(&disassembler_); }
 
 BlockCost CycleModel::cost(std::span<const std::uint8_t> code, std::uint32_t address) const {
     constexpr std::uint32_t flashEnd = 0x08010000, waitStates = 2, bytesPerFetch = 8;
-    const bool isFlash = address < flashEnd, slow = model_ == CostModel::pessimistic;
-    BlockCost b;
-    std::uint32_t shortest = 0, stored = 0;
+    const bool isFlash = address < flashEnd, isPessimistic = model_ == CostModel::pessimistic;
+    BlockCost block;
+    std::uint32_t minCycles = 0, storedWords = 0;
     int lastResult = ARM_REG_INVALID;
-    bool wasAccess = false;
-    std::size_t conditional = 0; // instructions of an IT block that are still to come
-    cs_insn* found = nullptr;
-    const std::size_t count = cs_disasm(disassembler_, code.data(), code.size(), address, 0, &found);
+    bool wasMemoryAccess = false;
+    std::size_t remainingConditional = 0; // instructions of an IT block that are still to come
+    cs_insn* instructions = nullptr;
+    const std::size_t count = cs_disasm(disassembler_, code.data(), code.size(), address, 0, &instructions);
     for (std::size_t k = 0; k < count; ++k) {
-        const auto& detail = found[k].detail->arm;
-        const Instruction i{found[k].mnemonic, {detail.operands, detail.op_count}};
-        stored = i.wordsStored();
-        if (found[k].id == ARM_INS_IT) { // "it", "ite", "ittt": one each
-            conditional = std::string_view{found[k].mnemonic}.size() - 1;
-            b.endsIfThen = false;
-        } else if (conditional > 0) {
-            b.endsIfThen = --conditional == 0;
+        const auto& detail = instructions[k].detail->arm;
+        const Instruction i{instructions[k].mnemonic, {detail.operands, detail.op_count}};
+        storedWords = i.wordsStored();
+        if (instructions[k].id == ARM_INS_IT) { // "it", "ite", "ittt": one each
+            remainingConditional = std::string_view{instructions[k].mnemonic}.size() - 1;
+            block.endsIfThen = false;
+        } else if (remainingConditional > 0) {
+            block.endsIfThen = --remainingConditional == 0;
         }
-        for (std::uint32_t w = 0; w < stored; ++w) b.storeCycles.push_back(shortest + w);
-        const std::uint32_t stall = lastResult != ARM_REG_INVALID && i.uses(lastResult) ? 1 : 0;
-        b.cycles += plainCycles(i, wasAccess, model_) + stall +
-                    (slow && isFlash && i.loadsConstant() ? waitStates : 0);
-        shortest += plainCycles(i, wasAccess, CostModel::optimistic) + stall;
+        for (std::uint32_t w = 0; w < storedWords; ++w) block.storeCycles.push_back(minCycles + w);
+        const std::uint32_t stall = lastResult != ARM_REG_INVALID && i.reads(lastResult) ? 1 : 0;
+        block.cycles += plainCycles(i, wasMemoryAccess, model_) + stall +
+                        (isPessimistic && isFlash && i.loadsConstant() ? waitStates : 0);
+        minCycles += plainCycles(i, wasMemoryAccess, CostModel::optimistic) + stall;
         lastResult = i.isArithmetic() ? i.reg(0) : ARM_REG_INVALID;
-        wasAccess = i.isLoad() || i.isStore();
+        wasMemoryAccess = i.isLoad() || i.isStore();
     }
-    if (count > 0) cs_free(found, count);
+    if (count > 0) cs_free(instructions, count);
     const auto fetches = static_cast<std::uint32_t>((code.size() + bytesPerFetch - 1) / bytesPerFetch);
-    if (isFlash && slow) b.cycles += waitStates * fetches;
-    if (isFlash && !slow) b.cycles = std::max(b.cycles, (1 + waitStates) * fetches);
-    b.takenCycles = slow ? 3 : 1 + (isFlash ? waitStates : 0);
-    return b;
+    if (isFlash && isPessimistic) block.cycles += waitStates * fetches;
+    if (isFlash && !isPessimistic) block.cycles = std::max(block.cycles, (1 + waitStates) * fetches);
+    block.takenCycles = isPessimistic ? 3 : 1 + (isFlash ? waitStates : 0);
+    return block;
 }
 
 namespace {
@@ -140,7 +141,7 @@ constexpr std::array<int, 16> stackedFloat{UC_ARM_REG_S0,  UC_ARM_REG_S1,  UC_AR
 constexpr std::uint32_t ifThenBits = 0x0600FC00; // of XPSR
 constexpr int entryCycles = 12, exitCycles = 12; // Arm 100166, 3.9.1
 
-void demand(uc_err error, const char* what) {
+void require(uc_err error, const char* what) {
     if (error != UC_ERR_OK)
         throw std::runtime_error(std::string("virtual board: ") + what + ": " + uc_strerror(error));
 }
@@ -149,28 +150,28 @@ void demand(uc_err error, const char* what) {
 
 VirtualBoard::VirtualBoard(const ElfImage& image, CostModel model, bool hasCrystal)
     : model_{model} {
-    io_.hasCrystal = hasCrystal;
-    demand(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &engine_), "open");
-    demand(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M4), "processor");
-    demand(uc_mem_map(engine_, flashBase, flashSize, UC_PROT_READ | UC_PROT_EXEC), "flash");
-    demand(uc_mem_map(engine_, sramBase, sramSize, UC_PROT_ALL), "memory");
-    demand(uc_mem_map(engine_, fastBase, fastSize, UC_PROT_ALL), "memory beside the core");
+    peripherals_.hasCrystal = hasCrystal;
+    require(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &engine_), "open");
+    require(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M4), "processor");
+    require(uc_mem_map(engine_, flashBase, flashSize, UC_PROT_READ | UC_PROT_EXEC), "flash");
+    require(uc_mem_map(engine_, sramBase, sramSize, UC_PROT_ALL), "memory");
+    require(uc_mem_map(engine_, fastBase, fastSize, UC_PROT_ALL), "memory beside the core");
     for (const auto& segment : image.segments)
-        demand(uc_mem_write(engine_, segment.address, segment.bytes.data(), segment.bytes.size()), "image");
+        require(uc_mem_write(engine_, segment.address, segment.bytes.data(), segment.bytes.size()), "image");
     for (const std::uint32_t base :
          {0x40001000u, 0x40003000u, 0x40004000u, 0x40007000u, 0x40010000u, 0x40013000u, 0x40021000u,
           0x40022000u, 0x48000000u, 0xE0001000u, 0xE000E000u}) {
         regions_.push_back(std::make_unique<Region>(Region{this, base}));
-        demand(
+        require(
             uc_mmio_map(engine_, base, 0x1000, onRead, regions_.back().get(), onWrite, regions_.back().get()),
             "registers");
     }
     uc_hook hook;
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(onBlock), this, 1, 0), "hook");
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(onException), this, 1, 0),
-           "hook");
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(onStore), this, 1, 0),
-           "hook");
+    require(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(onBlock), this, 1, 0), "hook");
+    require(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(onException), this, 1, 0),
+            "hook");
+    require(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(onStore), this, 1, 0),
+            "hook");
     reset(false);
 }
 
@@ -185,9 +186,9 @@ std::uint32_t VirtualBoard::reg(int id) const {
 void VirtualBoard::setReg(int id, std::uint32_t value) { uc_reg_write(engine_, id, &value); }
 
 void VirtualBoard::reset(bool byWatchdog) {
-    resets_ += byWatchdog ? 1 : 0;
-    active_.clear();
-    io_.reset(byWatchdog);
+    resetCount_ += byWatchdog ? 1 : 0;
+    exceptionStack_.clear();
+    peripherals_.reset(byWatchdog);
     std::array<std::uint32_t, 2> start{};
     uc_mem_read(engine_, flashBase, start.data(), sizeof start);
     setReg(UC_ARM_REG_SP, start[0]);
@@ -196,17 +197,17 @@ void VirtualBoard::reset(bool byWatchdog) {
 
 std::vector<std::uint8_t> VirtualBoard::memory(std::uint32_t address, std::size_t size) const {
     std::vector<std::uint8_t> bytes(size);
-    demand(uc_mem_read(engine_, address, bytes.data(), size), "read");
+    require(uc_mem_read(engine_, address, bytes.data(), size), "read");
     return bytes;
 }
 
-void VirtualBoard::poke(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-    demand(uc_mem_write(engine_, address, bytes.data(), bytes.size()), "write");
+void VirtualBoard::writeMemory(std::uint32_t address, std::span<const std::uint8_t> bytes) {
+    require(uc_mem_write(engine_, address, bytes.data(), bytes.size()), "write");
     uc_ctl_remove_cache(engine_, static_cast<std::uint64_t>(address),
                         static_cast<std::uint64_t>(address + bytes.size()));
 }
 
-// Time:
+// Advances time by instruction blocks.
 
 const BlockCost& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size) {
     const std::uint64_t key = static_cast<std::uint64_t>(address) << 32 | size;
@@ -219,20 +220,20 @@ const BlockCost& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size
 
 void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
     cycle_ += std::exchange(pendingCycles_, 0);
-    if (cycle_ >= deadline_ || io_.pendingInterrupt(currentPriority()) >= 0) {
-        stopped_ = true;
+    if (cycle_ >= deadline_ || peripherals_.pendingInterrupt(currentPriority()) >= 0) {
+        isStopped_ = true;
         uc_emu_stop(engine_);
         return;
     }
-    current_ = &blockAt(address, size);
-    pendingCycles_ = current_->cycles + (address != expectedAddress_ ? current_->takenCycles : 0);
+    currentBlock_ = &blockAt(address, size);
+    pendingCycles_ = currentBlock_->cycles + (address != expectedAddress_ ? currentBlock_->takenCycles : 0);
     expectedAddress_ = address + size;
     storesInBlock_ = 0;
 }
 
-std::uint64_t VirtualBoard::storeTime() const {
-    if (current_ == nullptr || storesInBlock_ == 0) return cycle_;
-    const auto& at = current_->storeCycles;
+std::uint64_t VirtualBoard::storeCycle() const {
+    if (currentBlock_ == nullptr || storesInBlock_ == 0) return cycle_;
+    const auto& at = currentBlock_->storeCycles;
     return cycle_ + (at.empty() ? 0 : at[std::min<std::size_t>(storesInBlock_, at.size()) - 1]);
 }
 
@@ -243,33 +244,33 @@ void VirtualBoard::onBlock(uc_engine*, std::uint64_t address, std::uint32_t size
 void VirtualBoard::onStore(uc_engine*, int, std::uint64_t, int, std::int64_t, void* self) {
     auto& board = *static_cast<VirtualBoard*>(self);
     ++board.storesInBlock_;
-    // Unicorn 2.1.4 has the bits of an IT block with a store in it until another block ends
-    if (board.current_ != nullptr && board.current_->endsIfThen)
+    // Unicorn 2.1.4 keeps the IT bits of a block with a store until another block ends, so they are cleared
+    if (board.currentBlock_ != nullptr && board.currentBlock_->endsIfThen)
         board.setReg(UC_ARM_REG_XPSR, board.reg(UC_ARM_REG_XPSR) & ~ifThenBits);
 }
 
 void VirtualBoard::onException(uc_engine* engine, std::uint32_t number, void* self) {
     auto& board = *static_cast<VirtualBoard*>(self);
-    board.exception_ = static_cast<int>(number);
-    board.stopped_ = true;
+    board.exceptionNumber_ = static_cast<int>(number);
+    board.isStopped_ = true;
     uc_emu_stop(engine);
 }
 
 std::uint64_t VirtualBoard::onRead(uc_engine*, std::uint64_t offset, unsigned, void* region) {
     const auto& r = *static_cast<Region*>(region);
-    return r.board->io_.read(r.base + static_cast<std::uint32_t>(offset), r.board->cycle_);
+    return r.board->peripherals_.read(r.base + static_cast<std::uint32_t>(offset), r.board->cycle_);
 }
 
 void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std::uint64_t value,
                            void* region) {
     const auto& r = *static_cast<Region*>(region);
-    r.board->io_.write(r.base + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), size,
-                       r.board->storeTime());
+    r.board->peripherals_.write(r.base + static_cast<std::uint32_t>(offset),
+                                static_cast<std::uint32_t>(value), size, r.board->storeCycle());
     // the write may have caused an earlier event
-    r.board->deadline_ = std::min(r.board->deadline_, r.board->io_.nextEvent());
+    r.board->deadline_ = std::min(r.board->deadline_, r.board->peripherals_.nextEvent());
 }
 
-// Exceptions (ARMv7-M manual, B1.5):
+// Exceptions (ARMv7-M manual, B1.5). Words of a stack frame: 0-7 core, 8-23 floating point, 24 FPSCR.
 
 void VirtualBoard::enterException(int vector, int number, int priority) {
     std::array<std::uint32_t, frameBytes / 4> frame{};
@@ -279,10 +280,10 @@ void VirtualBoard::enterException(int vector, int number, int priority) {
     frame[24] = reg(UC_ARM_REG_FPSCR);
     // Unicorn may stop between an IT instruction and the instructions that depend on it
     setReg(UC_ARM_REG_XPSR, frame[7] & ~ifThenBits);
-    const std::uint32_t before = reg(UC_ARM_REG_SP), stack = (before & ~7u) - frameBytes;
-    demand(uc_mem_write(engine_, stack, frame.data(), frameBytes), "stack");
+    const std::uint32_t oldStack = reg(UC_ARM_REG_SP), stack = (oldStack & ~7u) - frameBytes;
+    require(uc_mem_write(engine_, stack, frame.data(), frameBytes), "stack");
     setReg(UC_ARM_REG_SP, stack);
-    active_.push_back({number, priority, before});
+    exceptionStack_.push_back({number, priority, oldStack});
     std::uint32_t handler = 0;
     uc_mem_read(engine_, flashBase + 4u * static_cast<std::uint32_t>(vector), &handler, 4);
     setReg(UC_ARM_REG_LR, returnToThread);
@@ -297,41 +298,41 @@ void VirtualBoard::leaveException() {
     for (std::size_t i = 0; i < stackedFloat.size(); ++i) setReg(stackedFloat[i], frame[8 + i]);
     setReg(UC_ARM_REG_FPSCR, frame[24]);
     for (const std::size_t i : {0u, 1u, 2u, 3u, 4u, 5u, 7u}) setReg(stackedCore[i], frame[i]);
-    setReg(UC_ARM_REG_SP, active_.back().stack);
+    setReg(UC_ARM_REG_SP, exceptionStack_.back().stack);
     setReg(UC_ARM_REG_PC, frame[6] | 1);
-    active_.pop_back();
+    exceptionStack_.pop_back();
     cycle_ += exitCycles;
     expectedAddress_ = 0;
 }
 
-// Running:
+// Runs until the next event of a peripheral.
 
 void VirtualBoard::runSlice(std::uint64_t end) {
-    io_.advance(cycle_);
-    if (io_.watchdogExpired(cycle_)) reset(true);
-    if (const int number = io_.pendingInterrupt(currentPriority()); number >= 0)
-        enterException(firstExternal + number, number, io_.priority(number));
-    deadline_ = std::min(io_.nextEvent(), end);
-    stopped_ = asleep_ = false;
-    exception_ = -1;
+    peripherals_.advance(cycle_);
+    if (peripherals_.isWatchdogExpired(cycle_)) reset(true);
+    if (const int number = peripherals_.pendingInterrupt(currentPriority()); number >= 0)
+        enterException(firstExternal + number, number, peripherals_.priority(number));
+    deadline_ = std::min(peripherals_.nextEvent(), end);
+    isStopped_ = isAsleep_ = false;
+    exceptionNumber_ = -1;
     const uc_err error = uc_emu_start(engine_, reg(UC_ARM_REG_PC) | 1, 0xFFFFFFF0, 0, 0);
     cycle_ += std::exchange(pendingCycles_, 0);
-    current_ = nullptr;
-    const bool returns =
-        exception_ == unicornExceptionReturn || (reg(UC_ARM_REG_PC) & exceptionReturns) == exceptionReturns;
-    if (returns && !active_.empty()) return leaveException();
-    if (error != UC_ERR_OK || exception_ >= 0) {
-        if (++faults_ > 100) throw std::runtime_error("virtual board: fault upon fault");
+    currentBlock_ = nullptr;
+    const bool isReturn = exceptionNumber_ == unicornExceptionReturn ||
+                          (reg(UC_ARM_REG_PC) & exceptionReturns) == exceptionReturns;
+    if (isReturn && !exceptionStack_.empty()) return leaveException();
+    if (error != UC_ERR_OK || exceptionNumber_ >= 0) {
+        if (++faultCount_ > 100) throw std::runtime_error("virtual board: fault upon fault");
         return enterException(hardFault, -hardFault, faultPriority);
     }
-    if (stopped_ || io_.pendingInterrupt(currentPriority()) >= 0 || deadline_ <= cycle_) return;
-    asleep_ = active_.empty();
-    idle_ += deadline_ - cycle_;
+    if (isStopped_ || peripherals_.pendingInterrupt(currentPriority()) >= 0 || deadline_ <= cycle_) return;
+    isAsleep_ = exceptionStack_.empty();
+    idleCycles_ += deadline_ - cycle_;
     cycle_ = deadline_;
 }
 
 void VirtualBoard::runUntil(double seconds) {
-    const auto end = static_cast<std::uint64_t>(seconds * io_.hz());
+    const auto end = static_cast<std::uint64_t>(seconds * peripherals_.hz());
     while (cycle_ < end) runSlice(end);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Virtual board: runs the unmodified firmware image (ElfImage) in the Unicorn emulator, with models of its
-// surroundings (Peripherals) and of the duration of its instructions (CycleModel).
-//
+// Virtual board: runs the unmodified firmware image (ElfImage) in the Unicorn emulator, with models of the
+// peripherals (Peripherals) and of the duration of instructions (CycleModel).
 // Known limits: interrupts are taken between instruction blocks (up to about a hundred cycles late); the
 // clock runs at full speed from reset on; analogue behaviour is not modelled.
 #pragma once
@@ -18,7 +17,6 @@
 #include <vector>
 
 // Estimates the cycles of an instruction block on a Cortex-M4F, as an optimistic and a pessimistic bound.
-//
 // Both follow the instruction timings of Arm's Cortex-M4 manual (100166, 3.3.1 and 7.2.3): one cycle for
 // most, 1 + n for loads of n registers, 14 for floating-point divide and root, one more if a floating-point
 // result is used at once.
@@ -35,7 +33,7 @@ struct BlockCost {
     std::uint32_t cycles = 0;
     std::uint32_t takenCycles = 0;          ///< extra cycles if it was reached by a branch
     std::vector<std::uint32_t> storeCycles; ///< earliest cycle at which each stored word leaves the core
-    bool endsIfThen = false;                ///< has an IT block that ends in it
+    bool endsIfThen = false;                ///< an IT block ends in this block
 };
 
 class CycleModel {
@@ -52,8 +50,7 @@ private:
     csh disassembler_ = 0;
 };
 
-// The firmware's ELF file: segments with their flash addresses, and symbols.
-
+/// The firmware's ELF file: segments with their flash addresses, and symbols.
 struct ElfImage {
     struct Segment {
         std::uint32_t address = 0; ///< load address (flash)
@@ -66,7 +63,7 @@ struct ElfImage {
     std::map<std::string, Symbol> symbols; ///< by mangled name
 
     /// The symbol whose name contains `part`; throws std::runtime_error if there is none.
-    Symbol symbolLike(const std::string& part) const {
+    Symbol findSymbol(const std::string& part) const {
         for (const auto& [name, symbol] : symbols)
             if (name.find(part) != std::string::npos) return symbol;
         throw std::runtime_error("no symbol like " + part + " in the image");
@@ -90,30 +87,31 @@ public:
 
     /// Runs until that many seconds after power-on. Throws std::runtime_error if the emulator fails.
     void runUntil(double seconds);
-    double seconds() const { return static_cast<double>(cycle_) / io_.hz(); }
+    double seconds() const { return static_cast<double>(cycle_) / peripherals_.hz(); }
 
     /// Sends bytes to the board at line speed, from `seconds` on (0: now).
     void send(std::span<const std::uint8_t> bytes, double seconds = 0.0) {
-        const auto from = std::max(cycle_, static_cast<std::uint64_t>(seconds * io_.hz()));
-        for (const std::uint8_t byte : bytes) io_.lineIn(byte, from + io_.cyclesPerByte());
+        const auto from = std::max(cycle_, static_cast<std::uint64_t>(seconds * peripherals_.hz()));
+        for (const std::uint8_t byte : bytes)
+            peripherals_.queueByte(byte, from + peripherals_.cyclesPerByte());
     }
 
     /// Bytes sent by the board since the last call.
-    std::vector<LineByte> received() {
-        const auto bytes = std::exchange(io_.lineOut, {});
+    std::vector<TimedByte> received() {
+        const auto bytes = std::exchange(peripherals_.sentBytes, {});
         return {bytes.begin(), bytes.end()};
     }
 
-    Peripherals& io() { return io_; }
+    Peripherals& peripherals() { return peripherals_; }
     std::vector<std::uint8_t> memory(std::uint32_t address, std::size_t size) const;
-    void poke(std::uint32_t address, std::span<const std::uint8_t> bytes);
+    void writeMemory(std::uint32_t address, std::span<const std::uint8_t> bytes);
 
     std::uint64_t cycle() const { return cycle_; }
-    std::uint64_t idleCycles() const { return idle_; }
+    std::uint64_t idleCycles() const { return idleCycles_; }
     /// Whether the processor waits for an interrupt; its memory is then consistent.
-    bool isAsleep() const { return asleep_; }
-    int resets() const { return resets_; }
-    int faults() const { return faults_; }
+    bool isAsleep() const { return isAsleep_; }
+    int resets() const { return resetCount_; }
+    int faults() const { return faultCount_; }
 
 private:
     struct Exception {
@@ -132,8 +130,8 @@ private:
 
     void enterBlock(std::uint32_t address, std::uint32_t size);
     const BlockCost& blockAt(std::uint32_t address, std::uint32_t size);
-    std::uint64_t storeTime() const;
-    int currentPriority() const { return active_.empty() ? 256 : active_.back().priority; }
+    std::uint64_t storeCycle() const;
+    int currentPriority() const { return exceptionStack_.empty() ? 256 : exceptionStack_.back().priority; }
     void enterException(int vector, int number, int priority);
     void leaveException();
     void reset(bool byWatchdog);
@@ -143,15 +141,15 @@ private:
 
     uc_engine* engine_ = nullptr;
     CycleModel model_;
-    Peripherals io_;
+    Peripherals peripherals_;
     std::vector<std::unique_ptr<Region>> regions_;
     std::unordered_map<std::uint64_t, BlockCost> blocks_;
-    std::vector<Exception> active_;
-    const BlockCost* current_ = nullptr;
+    std::vector<Exception> exceptionStack_;
+    const BlockCost* currentBlock_ = nullptr;
     std::uint32_t storesInBlock_ = 0, expectedAddress_ = 0;
-    std::uint64_t cycle_ = 0, idle_ = 0, pendingCycles_ = 0, deadline_ = 0;
-    bool stopped_ = false, asleep_ = false;
-    int exception_ = -1, resets_ = 0, faults_ = 0;
+    std::uint64_t cycle_ = 0, idleCycles_ = 0, pendingCycles_ = 0, deadline_ = 0;
+    bool isStopped_ = false, isAsleep_ = false;
+    int exceptionNumber_ = -1, resetCount_ = 0, faultCount_ = 0;
 };
 
 } // namespace physvib::virtualboard

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // physvib-virtual-board: runs the firmware image in real time, with its serial line on a pseudo-terminal that
-// can be unplugged. Logs when it sounds, and writes its output as a WAV file.
+// can be unplugged (PluggableLine). Logs when it sounds (SoundLog), and can write its output as a WAV file.
 #include "Peripherals.h"
 #include "PseudoTerminal.h"
 #include "VirtualBoard.h"
@@ -22,26 +22,26 @@
 namespace physvib::virtualboard {
 
 /// Connects and disconnects the virtual board's serial port, like pulling a USB cable.
-class Plug {
+class PluggableLine {
 public:
     /// Connects. `link`: a symbolic link that stays the same between connections, or empty. Throws what
     /// PseudoTerminal and std::filesystem throw.
-    explicit Plug(std::string link)
+    explicit PluggableLine(std::string link)
         : link_{std::move(link)} {
-        move();
+        toggle();
     }
-    ~Plug() {
-        if (line_) pull();
+    ~PluggableLine() {
+        if (line_) disconnect();
     }
-    Plug(const Plug&) = delete;
-    Plug& operator=(const Plug&) = delete;
+    PluggableLine(const PluggableLine&) = delete;
+    PluggableLine& operator=(const PluggableLine&) = delete;
 
     /// Disconnects if connected, and vice versa; returns whether it is connected now.
-    bool move() {
+    bool toggle() {
         if (line_)
-            pull();
+            disconnect();
         else
-            putIn();
+            connect();
         return line_.has_value();
     }
 
@@ -54,13 +54,13 @@ public:
     }
 
 private:
-    void putIn() {
+    void connect() {
         line_.emplace();
         if (link_.empty()) return;
         std::filesystem::remove(link_);
         std::filesystem::create_symlink(line_->path(), link_);
     }
-    void pull() {
+    void disconnect() {
         if (!link_.empty()) std::filesystem::remove(link_);
         line_.reset();
     }
@@ -82,55 +82,54 @@ public:
     }
 
     /// Sets the time 0 of the board.
-    void begin(std::chrono::steady_clock::time_point at) { began_ = at; }
+    void begin(std::chrono::steady_clock::time_point at) { start_ = at; }
 
-    void note(const char* what, double seconds) {
-        const auto at = began_.time_since_epoch() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
+    void write(const char* what, double seconds) {
+        const auto at = start_.time_since_epoch() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
         if (file_.is_open())
             file_ << std::chrono::duration_cast<std::chrono::nanoseconds>(at).count() << ',' << what
                   << std::endl;
     }
 
     /// Evaluates the frames since the last call.
-    void follow(const Peripherals& io) {
-        for (; seen_ < io.frames.size(); ++seen_) {
+    void writeFrames(const Peripherals& io) {
+        for (; evaluatedFrames_ < io.frames.size(); ++evaluatedFrames_) {
             const bool isSilent =
-                std::ranges::all_of(io.frames[seen_], [](int code) { return code == midScale; });
-            if (!isSilent && silent_ >= pause) note("sound", secondsOf(io, seen_));
-            silent_ = isSilent ? silent_ + 1 : 0;
-            if (silent_ == pause) note("silence", secondsOf(io, seen_ + 1 - pause));
+                std::ranges::all_of(io.frames[evaluatedFrames_], [](int code) { return code == midScale; });
+            if (!isSilent && silentFrames_ >= silenceFrames) write("sound", secondsOf(io, evaluatedFrames_));
+            silentFrames_ = isSilent ? silentFrames_ + 1 : 0;
+            if (silentFrames_ == silenceFrames)
+                write("silence", secondsOf(io, evaluatedFrames_ + 1 - silenceFrames));
         }
     }
 
 private:
-    static constexpr std::size_t pause = 160; // frames
+    static constexpr std::size_t silenceFrames = 160;
     static constexpr int midScale = 128;
     static double secondsOf(const Peripherals& io, std::size_t frame) {
         return static_cast<double>(io.frameCycles[frame]) / io.hz();
     }
 
     std::ofstream file_;
-    std::chrono::steady_clock::time_point began_;
-    std::size_t seen_ = 0, silent_ = pause;
+    std::chrono::steady_clock::time_point start_;
+    std::size_t evaluatedFrames_ = 0, silentFrames_ = silenceFrames;
 };
 
-// Writes the converter codes as a WAV file: 8 bit, four channels, one sample per frame.
-
-/// False if the file cannot be written. `rate`: frames per second.
+/// Writes the converter codes as a WAV file (8 bit, four channels), `rate` per second; false: an error.
 inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames,
                      std::uint32_t rate) {
     std::ofstream out(path, std::ios::binary);
-    const auto number = [&out](std::uint32_t value, int bytes) {
+    const auto putInt = [&out](std::uint32_t value, int bytes) {
         for (int i = 0; i < bytes; ++i) out.put(static_cast<char>(value >> (8 * i)));
     };
     const auto size = static_cast<std::uint32_t>(frames.size() * 4);
     out << "RIFF";
-    number(36 + size, 4);
+    putInt(36 + size, 4);
     out << "WAVEfmt ";
-    number(16, 4), number(1, 2), number(4, 2), number(rate, 4), number(rate * 4, 4), number(4, 2),
-        number(8, 2);
+    putInt(16, 4), putInt(1, 2), putInt(4, 2), putInt(rate, 4), putInt(rate * 4, 4), putInt(4, 2),
+        putInt(8, 2);
     out << "data";
-    number(size, 4);
+    putInt(size, 4);
     for (const auto& frame : frames)
         for (const std::uint8_t code : frame) out.put(static_cast<char>(code));
     out.flush();
@@ -141,93 +140,94 @@ namespace {
 
 using namespace physvib::virtualboard;
 
-std::atomic<bool> interrupted{false}, plugMoved{false};
+std::atomic<bool> isInterrupted{false}, isPlugToggled{false};
 
 struct Options {
     std::string image, wav, link, log;
-    double seconds = 0; // 0: until interrupted
+    double seconds = 0; // 0: until SIGINT
     CostModel model = CostModel::optimistic;
     bool hasCrystal = true, isValid = true;
 };
 
 Options parse(int argc, char** argv) {
-    Options o;
+    Options options;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         const bool hasValue = i + 1 < argc;
         if (word == "--wav" && hasValue)
-            o.wav = argv[++i];
+            options.wav = argv[++i];
         else if (word == "--link" && hasValue)
-            o.link = argv[++i];
+            options.link = argv[++i];
         else if (word == "--log" && hasValue)
-            o.log = argv[++i];
+            options.log = argv[++i];
         else if (word == "--seconds" && hasValue)
-            o.seconds = std::strtod(argv[++i], nullptr);
+            options.seconds = std::strtod(argv[++i], nullptr);
         else if (word == "--pessimistic")
-            o.model = CostModel::pessimistic;
+            options.model = CostModel::pessimistic;
         else if (word == "--no-crystal")
-            o.hasCrystal = false;
-        else if (!word.starts_with("--") && o.image.empty())
-            o.image = word;
+            options.hasCrystal = false;
+        else if (!word.starts_with("--") && options.image.empty())
+            options.image = word;
         else
-            o.isValid = false;
+            options.isValid = false;
     }
-    o.isValid = o.isValid && !o.image.empty();
-    return o;
+    options.isValid = options.isValid && !options.image.empty();
+    return options;
 }
 
-void runLive(VirtualBoard& board, Plug& plug, SoundLog& log, double seconds) {
-    const auto began = std::chrono::steady_clock::now();
-    log.begin(began);
-    while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
+void runLive(VirtualBoard& board, PluggableLine& line, SoundLog& log, double seconds) {
+    const auto start = std::chrono::steady_clock::now();
+    log.begin(start);
+    while (!isInterrupted && (seconds <= 0 || board.seconds() < seconds)) {
         // Bytes are timed by when they are read. If the emulation paused for lack of processor time, they are
         // not sent into the past, so the board's clock stays steady.
-        const auto bytes = plug.read();
-        const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-        if (plugMoved.exchange(false)) log.note(plug.move() ? "plugged" : "unplugged", now);
-        board.send(bytes, now);
-        board.runUntil(now);
-        log.follow(board.io());
+        const auto bytes = line.read();
+        const double nowSeconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (isPlugToggled.exchange(false)) log.write(line.toggle() ? "plugged" : "unplugged", nowSeconds);
+        board.send(bytes, nowSeconds);
+        board.runUntil(nowSeconds);
+        log.writeFrames(board.peripherals());
         std::vector<std::uint8_t> answer;
         for (const auto& byte : board.received()) answer.push_back(byte.value);
-        if (!answer.empty()) plug.write(answer);
+        if (!answer.empty()) line.write(answer);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }
 
 void report(VirtualBoard& board) {
-    const auto& t = board.io().converters.timings();
+    const auto& times = board.peripherals().converters.observedTimes();
     const double load =
         100.0 - 100.0 * static_cast<double>(board.idleCycles()) / static_cast<double>(board.cycle());
-    std::cerr << board.seconds() << " s, " << board.io().frames.size() << " frames, load " << load << " %, "
-              << t.writes << " writes to the converters (shortest pulse " << t.writePulse << " ns, set-up "
-              << t.selectSetUp << " ns), " << t.violations << " against their times, "
-              << board.io().timerOverruns << " samples missed, " << board.resets() << " restarts, "
-              << board.faults() << " faults\n";
+    std::cerr << board.seconds() << " s, " << board.peripherals().frames.size() << " frames, load " << load
+              << " %, " << times.writes << " writes to the converters (shortest pulse " << times.writePulse
+              << " ns, set-up " << times.selectSetUp << " ns), " << times.violations
+              << " against their times, " << board.peripherals().timerOverruns << " samples missed, "
+              << board.resets() << " restarts, " << board.faults() << " faults\n";
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    const Options o = parse(argc, argv);
-    if (!o.isValid) {
+    const Options options = parse(argc, argv);
+    if (!options.isValid) {
         std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--link "
                      "PORT] [--log SOUND.csv] [--pessimistic] [--no-crystal]\n"
                      "SIGUSR1 pulls the plug of its serial line, and puts it back\n";
         return 2;
     }
     try {
-        VirtualBoard board(readElf(o.image), o.model, o.hasCrystal);
-        Plug plug{o.link};
-        SoundLog log{o.log};
-        std::signal(SIGINT, [](int) { interrupted = true; });
-        std::signal(SIGTERM, [](int) { interrupted = true; });
-        std::signal(SIGUSR1, [](int) { plugMoved = true; });
-        std::cout << plug.path() << std::endl; // port to connect to; scripts wait for this line
-        runLive(board, plug, log, o.seconds);
+        VirtualBoard board(readElf(options.image), options.model, options.hasCrystal);
+        PluggableLine line{options.link};
+        SoundLog log{options.log};
+        std::signal(SIGINT, [](int) { isInterrupted = true; });
+        std::signal(SIGTERM, [](int) { isInterrupted = true; });
+        std::signal(SIGUSR1, [](int) { isPlugToggled = true; });
+        std::cout << line.path() << std::endl; // port to connect to; scripts wait for this line
+        runLive(board, line, log, options.seconds);
         report(board);
-        if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000))
-            throw std::runtime_error(o.wav + ": cannot be written");
+        if (!options.wav.empty() && !writeWav(options.wav, board.peripherals().frames, 8000))
+            throw std::runtime_error(options.wav + ": cannot be written");
     } catch (const std::exception& e) {
         std::cerr << "physvib-virtual-board: " << e.what() << '\n';
         return 1;

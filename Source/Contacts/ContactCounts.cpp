@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds contact counts and lists them; words and names that explanations share.
+// Sums and listings of contact counts; number formats and names that explanations share.
 #include "Contacts/ContactCounts.h"
 #include <algorithm>
 #include <cstdio>
@@ -45,7 +45,7 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     settling += other.settling;
     dropped += other.dropped;
     handedOn += other.handedOn;
-    made({other.events, other.leastX, other.leastY, other.mostX, other.mostY});
+    addEvents({other.events, other.minX, other.minY, other.maxX, other.maxY});
     thresholdMetresPerSecond = other.thresholdMetresPerSecond;
     hasSources = other.hasSources;
     mayBePushed = other.mayBePushed;
@@ -58,11 +58,14 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     immovable += other.immovable;
     parting += other.parting;
     motionless += other.motionless;
-    strongestBelow = std::max(strongestBelow, other.strongestBelow);
-    fastestParting = std::max(fastestParting, other.fastestParting);
-    fastestApproach = std::max(fastestApproach, other.fastestApproach);
+    strongestBelowMetresPerSecond =
+        std::max(strongestBelowMetresPerSecond, other.strongestBelowMetresPerSecond);
+    fastestPartingMetresPerSecond =
+        std::max(fastestPartingMetresPerSecond, other.fastestPartingMetresPerSecond);
+    fastestApproachMetresPerSecond =
+        std::max(fastestApproachMetresPerSecond, other.fastestApproachMetresPerSecond);
     gravityMetresPerSecond2 = other.gravityMetresPerSecond2;
-    wantedThreshold = other.wantedThreshold;
+    configuredThresholdMetresPerSecond = other.configuredThresholdMetresPerSecond;
     fieldWidthMetres = other.fieldWidthMetres;
     isMuted = other.isMuted;
     notes = other.notes; // they are about now
@@ -70,7 +73,7 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
 }
 
 void ContactCounts::note(EngineNote what, std::int32_t body) noexcept {
-    Noted& noted = notes[static_cast<std::size_t>(what)];
+    NoteCount& noted = notes[static_cast<std::size_t>(what)];
     ++noted.count;
     noted.body = body;
 }
@@ -79,41 +82,42 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output) {
     const auto line = [](const std::string& name, std::uint64_t count) {
         return name + " " + std::to_string(count) + "\n";
     };
-    return inNames(explain(counts, counts, output), Names::scene) + "\n" + line("contacts", counts.contacts) +
-           line("below the threshold of " + threeDigits(counts.thresholdMetresPerSecond) + " m/s:",
+    return replaceNames(explain(counts, counts, output), Names::scene) + "\n" +
+           line("contacts", counts.contacts) +
+           line("below the threshold of " + formatThreeDigits(counts.thresholdMetresPerSecond) + " m/s:",
                 counts.belowThreshold) +
            line("no haptic source:", counts.withoutSource) + line("unplayable:", counts.unplayable) +
            line("muted:", counts.muted + counts.settling) + line("dropped:", counts.dropped) +
            line("handed on by movable sources:", counts.handedOn) + line("events:", counts.events);
 }
 
-std::string threeDigits(double value) {
+std::string formatThreeDigits(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g", value);
-    std::string shown = text.data();
-    std::replace(shown.begin(), shown.end(), ',', '.'); // whatever the locale
-    return shown;
+    std::string number = text.data();
+    std::replace(number.begin(), number.end(), ',', '.'); // whatever the locale
+    return number;
 }
 
-std::string counted(std::uint64_t count, std::string_view what) {
+std::string countWithNoun(std::uint64_t count, std::string_view what) {
     return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
 }
 
-std::string inNames(std::string sentence, Names wanted) {
-    std::string made;
-    for (std::string_view rest = sentence; !rest.empty();) {
-        const auto known =
-            std::ranges::find_if(names, [&](const Name& name) { return rest.starts_with(name.inC); });
-        const bool isWord = known != names.end();
+std::string replaceNames(std::string sentence, Names wanted) {
+    std::string replaced;
+    for (std::string_view text = sentence; !text.empty();) {
+        const auto match =
+            std::ranges::find_if(names, [&](const Name& name) { return text.starts_with(name.inC); });
+        const bool isWord = match != names.end();
         if (isWord)
-            made += wanted == Names::cpp     ? known->inCpp
-                    : wanted == Names::scene ? known->inScene
-                                             : known->inMixer;
+            replaced += wanted == Names::cpp     ? match->inCpp
+                        : wanted == Names::scene ? match->inScene
+                                                 : match->inMixer;
         else
-            made += rest.front();
-        rest.remove_prefix(isWord ? known->inC.size() : 1);
+            replaced += text.front();
+        text.remove_prefix(isWord ? match->inC.size() : 1);
     }
-    return made;
+    return replaced;
 }
 
 } // namespace physvib

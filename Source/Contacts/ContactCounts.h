@@ -12,26 +12,25 @@
 namespace physvib {
 class PhantomPanner;
 
-/// Why the physics engine lets a haptic source touch nothing: a look at its bodies says so.
+/// Why a haptic source can touch nothing in the physics engine, as the state of its bodies shows.
 enum class EngineNote : std::uint8_t { sensor, filtered, disabled, asleep };
 
 /// How many events were made, and the bounds of their places, m of the field.
-struct PlacesMade {
+struct EventBounds {
     std::uint64_t count = 0;
-    double leastX = std::numeric_limits<double>::infinity(), leastY = leastX, mostX = -leastX,
-           mostY = -leastX;
+    double minX = std::numeric_limits<double>::infinity(), minY = minX, maxX = -minX, maxY = -minX;
 
-    void add(std::size_t more, std::array<double, 2> least, std::array<double, 2> most) noexcept {
-        count += more - 2;
-        add(least[0], least[1]);
-        add(most[0], most[1]);
+    void add(std::size_t added, std::array<double, 2> min, std::array<double, 2> max) noexcept {
+        count += added - 2;
+        add(min[0], min[1]);
+        add(max[0], max[1]);
     }
     void add(double x, double y) noexcept {
         ++count;
-        leastX = std::min(leastX, x);
-        leastY = std::min(leastY, y);
-        mostX = std::max(mostX, x);
-        mostY = std::max(mostY, y);
+        minX = std::min(minX, x);
+        minY = std::min(minY, y);
+        maxX = std::max(maxX, x);
+        maxY = std::max(maxY, y);
     }
 };
 
@@ -49,8 +48,8 @@ struct ContactCounts {
     std::uint64_t events = 0;   ///< events created
     std::uint64_t handedOn = 0; ///< impacts that a movable source passed between its neighbours: push and
                                 ///< reaction cancel (Eq. 5.4), so it has no event
-    double leastX = 0.0, leastY = 0.0, mostX = 0.0, mostY = 0.0; ///< bounds of the events' places, m of the
-                                                                 ///< field
+    double minX = 0.0, minY = 0.0, maxX = 0.0, maxY = 0.0; ///< bounds of the events' places, m of the
+                                                           ///< field
     double thresholdMetresPerSecond = 0.0; ///< effective value: at least 1.5 g dt of the last step
     bool hasSources = false;               ///< a body is a haptic source now
     bool mayBePushed = false;              ///< one of them is movable
@@ -64,48 +63,49 @@ struct ContactCounts {
     std::uint64_t immovable = 0;     ///< of belowThreshold: both masses are 0
     std::uint64_t parting = 0;       ///< of belowThreshold: the surfaces part along the normal
     std::uint64_t motionless = 0;    ///< of belowThreshold: neither speed nor impulse nor motion was reported
-    double strongestBelow = 0.0;     ///< threshold that would let the strongest of belowThreshold pass, m/s
-    double fastestParting = 0.0;     ///< speed of the fastest of `parting`, m/s
-    double fastestApproach = 0.0;    ///< of all collisions, m/s
-    double gravityMetresPerSecond2 = 0.0; ///< of the last step
-    double wantedThreshold = 0.0;         ///< ImpactSettings::thresholdMetresPerSecond
-    double fieldWidthMetres = 0.0;        ///< ImpactSettings::fieldWidthMetres
-    bool isMuted = false;                 ///< ImpactSettings::isMuted
+    double strongestBelowMetresPerSecond = 0.0;  ///< threshold that would let the strongest of belowThreshold
+                                                 ///< pass, m/s
+    double fastestPartingMetresPerSecond = 0.0;  ///< speed of the fastest of `parting`, m/s
+    double fastestApproachMetresPerSecond = 0.0; ///< of all collisions, m/s
+    double gravityMetresPerSecond2 = 0.0;        ///< of the last step
+    double configuredThresholdMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
+    double fieldWidthMetres = 0.0;                   ///< ImpactSettings::fieldWidthMetres
+    bool isMuted = false;                            ///< ImpactSettings::isMuted
 
     /// What the engine says of haptic sources now: how many, by EngineNote, and the last body of each.
-    struct Noted {
+    struct NoteCount {
         std::uint32_t count = 0;
         std::int32_t body = -1;
     };
-    std::array<Noted, 4> notes{};
+    std::array<NoteCount, 4> notes{};
 
     /// Counts events.
-    void made(const PlacesMade& places) noexcept {
+    void addEvents(const EventBounds& places) noexcept {
         if (places.count == 0) return;
         const bool isFirst = std::exchange(events, events + places.count) == 0;
-        leastX = isFirst ? places.leastX : std::min(leastX, places.leastX);
-        leastY = isFirst ? places.leastY : std::min(leastY, places.leastY);
-        mostX = isFirst ? places.mostX : std::max(mostX, places.mostX);
-        mostY = isFirst ? places.mostY : std::max(mostY, places.mostY);
+        minX = isFirst ? places.minX : std::min(minX, places.minX);
+        minY = isFirst ? places.minY : std::min(minY, places.minY);
+        maxX = isFirst ? places.maxX : std::max(maxX, places.maxX);
+        maxY = isFirst ? places.maxY : std::max(maxY, places.maxY);
     }
 
     /// Notes what the engine says of a haptic source.
     void note(EngineNote what, std::int32_t body) noexcept;
 
     /// True if the world was stepped, or a contact was reported.
-    bool hasHappened() const noexcept { return steps + contacts + outsideSteps + unknownBodies > 0; }
+    bool hasActivity() const noexcept { return steps + contacts + outsideSteps + unknownBodies > 0; }
 
     /// Adds the counts of another world, whose threshold is then shown.
     ContactCounts& operator+=(const ContactCounts& other) noexcept;
 };
 
-/// What is known of the output that plays a world's events, to explain silence that the world cannot see. The
+/// State of the output that plays a world's events, to explain silence that the world cannot see. The
 /// owner of the renderer or device fills it in.
 struct OutputFacts {
     bool isMissing = false;                ///< no device asks for samples
-    bool isSilent = false;                 ///< silence is held
+    bool isSilent = false;                 ///< the output is muted
     std::string_view silentBy{};           ///< by whom, in words; empty: unknown
-    std::string_view trouble{};            ///< error of the device, in one line
+    std::string_view error{};              ///< error of the device, in one line
     int channels = 0;                      ///< that the device plays; 0: all of the layout
     double levelGain = 1.0;                ///< gain of all channels
     std::uint64_t mutedChannels = 0;       ///< bit j: channel j is muted, or its gain is 0
@@ -117,12 +117,12 @@ struct OutputFacts {
 };
 
 /// The most likely reason why nothing, or not everything, is felt, as one sentence with names of physvib.h.
-/// `since`: of the time since the last explanation; if nothing has happened since, the sentence is about
-/// `ever`, and says so. `output`: what plays the events; null: unknown. Its names are those of C,
-/// see inNames(). Any thread.
-std::string explain(const ContactCounts& since, const ContactCounts& ever,
+/// `recent`: of the time since the last explanation; if nothing has happened since, the sentence is about
+/// `total`, and says so. `output`: what plays the events; null: unknown. Its names are those of C,
+/// see replaceNames(). Any thread.
+std::string explain(const ContactCounts& recent, const ContactCounts& total,
                     const OutputFacts* output = nullptr);
-/// The same of one period. Any thread.
+/// The reason for one period alone. Any thread.
 inline std::string explain(const ContactCounts& counts) { return explain(counts, counts); }
 
 /// The output of `--explain`: the sentence, and a line per count. Any thread.
@@ -130,19 +130,19 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output = nu
 
 /// Why events that were made are not felt, as one sentence with names of physvib.h; empty: no reason is
 /// known. Any thread.
-std::string outputReason(const ContactCounts& made, const OutputFacts& output);
+std::string outputReason(const ContactCounts& counts, const OutputFacts& output);
 
-/// Three digits, with a point in every locale. Any thread.
-std::string threeDigits(double value);
+/// The value with three significant digits and a decimal point in every locale. Any thread.
+std::string formatThreeDigits(double value);
 
-/// `1 event`, `2 events`. Any thread.
-std::string counted(std::uint64_t count, std::string_view what);
+/// The number with its noun in singular or plural: `1 event`, `2 events`. Any thread.
+std::string countWithNoun(std::uint64_t count, std::string_view what);
 
 /// Whose names an explanation uses: those of the C++ classes, of scene files, or of the mixer's controls.
 enum class Names { cpp, scene, mixer };
 
 /// Replaces the names of physvib.h in an explanation. Languages with bindings do so themselves, by the names
 /// of their bindings. Any thread.
-std::string inNames(std::string sentence, Names names);
+std::string replaceNames(std::string sentence, Names names);
 
 } // namespace physvib

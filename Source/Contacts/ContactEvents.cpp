@@ -13,21 +13,21 @@ namespace physvib {
 namespace {
 
 // Two haptic sources per direct collision, two voices each, of this step and the one whose events are held.
-constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectCollisions;
+constexpr std::size_t maxPendingEvents = 8 * CollisionRecorder::maxDirectCollisions;
 
 bool isAutomatic(const ImpactSettings& settings) noexcept {
     return settings.fullScaleNewtonSeconds == ImpactSettings::automatic;
 }
 
 const ImpactSettings& checked(const ImpactSettings& settings) {
-    if (const std::string_view fault = faultOf(settings); !fault.empty())
-        throw std::invalid_argument(std::string(fault));
+    if (const std::string_view error = errorOf(settings); !error.empty())
+        throw std::invalid_argument(std::string(error));
     return settings;
 }
 
 } // namespace
 
-std::string_view faultOf(const ImpactSettings& settings) noexcept {
+std::string_view errorOf(const ImpactSettings& settings) noexcept {
     const auto isPositive = [](double value) { return value > 0.0 && std::isfinite(value); };
     const auto isAmount = [](double value) { return value >= 0.0 && std::isfinite(value); };
     if (!isPositive(settings.fieldWidthMetres)) return "field width: expected more than 0 m";
@@ -45,12 +45,12 @@ std::string_view faultOf(const ImpactSettings& settings) noexcept {
 ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& settings)
     : bodies_(bodies)
     , settings_(checked(settings))
-    , catcher_(table_, graph_)
-    , onset_(catcher_, table_, graph_)
-    , release_(catcher_, table_, graph_, bodies)
+    , recorder_(table_, graph_)
+    , onset_(recorder_, table_, graph_)
+    , release_(recorder_, table_, graph_, bodies)
     , lasting_(table_)
-    , held_(heldImpacts) {
-    impacts_.reserve(CollisionCatcher::expectedCollisions);
+    , pendingEvents_(maxPendingEvents) {
+    impacts_.reserve(CollisionRecorder::expectedCollisions);
 }
 
 void ContactEvents::configure(const ImpactSettings& settings) {
@@ -61,44 +61,44 @@ void ContactEvents::configure(const ImpactSettings& settings) {
         onset_.reset();
 }
 
-std::int32_t ContactEvents::know(std::uint64_t fixture, const BodyFacts& body) {
-    const std::int32_t slot = table_.know(fixture, body);
+std::int32_t ContactEvents::findOrAdd(std::uint64_t fixture, const BodyFacts& body) {
+    const std::int32_t slot = table_.findOrAdd(fixture, body);
     graph_.setPassing(slot, body.isDynamic);
     return slot;
 }
 
-std::int32_t ContactEvents::know(std::int32_t slot, const BodyFacts& body) {
-    table_.know(slot, body);
+std::int32_t ContactEvents::updateBody(std::int32_t slot, const BodyFacts& body) {
+    table_.updateBody(slot, body);
     graph_.setPassing(slot, body.isDynamic);
     return slot;
 }
 
 SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre,
                              const HapticFixture& values, std::int32_t id) {
-    if (const std::string_view fault = faultOf(values); !fault.empty()) return {-1, fault};
+    if (const std::string_view error = errorOf(values); !error.empty()) return {-1, error};
     if (id < FixtureTable::none) return {-1, "id: expected a number from 0 on"};
-    const std::int32_t given = table_.set(know(fixture, body), values, centre, id);
-    if (given == FixtureTable::none) return {-1, "id: expected one that no other fixture has"};
+    const std::int32_t newId = table_.set(findOrAdd(fixture, body), values, centre, id);
+    if (newId == FixtureTable::none) return {-1, "id: expected one that no other fixture has"};
     if (values.texture.roughness > 0.0) lasting_.reserve();
-    return {given, {}};
+    return {newId, {}};
 }
 
 void ContactEvents::remove(std::int32_t slot) {
     forget(slot, true, !settings_.keepsHitsOfDestroyed);
-    table_.unset(slot);
+    table_.removeValues(slot);
 }
 
-void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA,
-                        const BodyMotion& motionB) {
-    conclude();
-    catcher_.cut(a, b);
+void ContactEvents::endOutsideStep(std::int32_t a, std::int32_t b, const BodyMotion& motionA,
+                                   const BodyMotion& motionB) {
+    processReports();
+    recorder_.endOutsideStep(a, b);
     impacts_.clear();
-    release_.cut({a, b, 0, 1.0, motionA, motionB}, span_, impacts_);
+    release_.endOutsideStep({a, b, 0, 1.0, motionA, motionB}, span_, impacts_);
     addImpacts();
 }
 
-void ContactEvents::vanish(std::int32_t slot) {
-    conclude();
+void ContactEvents::handleDestruction(std::int32_t slot) {
+    processReports();
     if (settings_.keepsHitsOfDestroyed) {
         impacts_.clear();
         StepSpan span = span_;
@@ -111,17 +111,17 @@ void ContactEvents::vanish(std::int32_t slot) {
 }
 
 void ContactEvents::release(std::int32_t slot) {
-    const bool isWithdrawn = !settings_.keepsHitsOfDestroyed;
-    forget(slot, isWithdrawn, isWithdrawn);
+    const bool dropsEvents = !settings_.keepsHitsOfDestroyed;
+    forget(slot, dropsEvents, dropsEvents);
     graph_.isolate(slot);
     table_.release(slot);
 }
 
-void ContactEvents::forget(std::int32_t slot, bool isWithdrawn, bool othersToo) {
-    if (isWithdrawn) held_.withdraw(table_[slot].id, othersToo);
-    catcher_.forget(slot);
-    onset_.forget(slot, othersToo);
-    release_.forget(slot, othersToo);
+void ContactEvents::forget(std::int32_t slot, bool dropsEvents, bool dropsCaused) {
+    if (dropsEvents) pendingEvents_.removeEventsOf(table_[slot].id, dropsCaused);
+    recorder_.forget(slot);
+    onset_.forget(slot, dropsCaused);
+    release_.forget(slot, dropsCaused);
     lasting_.forget(slot);
 }
 
@@ -129,36 +129,37 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
     span_.earliestNs = span_.startNs;
     span_.startNs = span_.endNs;
     span_.endNs = std::max(span_.startNs, endNs);
-    span_.leastMetresPerSecond = settings_.thresholdMetresPerSecond;
+    span_.minThresholdMetresPerSecond = settings_.thresholdMetresPerSecond;
     span_.gravityMetresPerSecond2 = gravity;
     model_ = {settings_.normalisation.value_or(defaultNormalisation(settings_.fieldWidthMetres)),
               settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))),
               settings_.driveGain,
               isAutomatic(settings_) ? fullScale_.newtonSeconds() : settings_.fullScaleNewtonSeconds};
-    catcher_.beginStep(span_);
-    isConcluded_ = false;
-    ContactCounts& tally = catcher_.tally();
+    recorder_.beginStep(span_);
+    isProcessed_ = false;
+    ContactCounts& tally = recorder_.tally();
     ++tally.steps;
     tally.zeroSteps += span_.endNs == span_.startNs ? 1 : 0;
     tally.longestStepSeconds = std::max(tally.longestStepSeconds, span_.seconds());
 }
 
-void ContactEvents::conclude() {
-    if (catcher_.hasHeard() || lasting_.hasHeard()) finish();
+void ContactEvents::processReports() {
+    if (recorder_.hasReports() || lasting_.hasReports()) processStep();
 }
 
 void ContactEvents::endStep() {
-    finish();
-    catcher_.endStep();
+    processStep();
+    recorder_.endStep();
     lasting_.endStep();
 }
 
-void ContactEvents::finish() {
-    if (std::exchange(isConcluded_, true)) return;
-    catcher_.settle();
-    for (const Collision& collision : catcher_.collisions())
-        if (!span_.isStrike(collision.impulse(), collision.lighterMassKg, collision.gravityScale))
-            catcher_.passOver(collision.a, collision.b, collision.impulse() / collision.lighterMassKg);
+void ContactEvents::processStep() {
+    if (std::exchange(isProcessed_, true)) return;
+    recorder_.endReports();
+    for (const Collision& collision : recorder_.collisions())
+        if (!span_.isImpact(collision.impulse(), collision.lighterMassKg, collision.gravityScale))
+            recorder_.countBelowThreshold(collision.a, collision.b,
+                                          collision.impulse() / collision.lighterMassKg);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
@@ -170,9 +171,9 @@ void ContactEvents::finish() {
         return addImpacts();
     }
     addImpacts();
-    if (!lasting_.hasHeard()) return;
+    if (!lasting_.hasReports()) return;
     EventMaker maker = makeEvents();
-    lasting_.collectFor(span_, maker);
+    lasting_.collectInto(span_, maker);
 }
 
 void ContactEvents::keepStrongest(std::size_t count) {
@@ -188,7 +189,7 @@ void ContactEvents::keepStrongest(std::size_t count) {
 
 void ContactEvents::addImpacts() {
     if (const double endNs = settings_.settlingSeconds * 1.0e9; endNs > 0.0)
-        catcher_.tally().settling += std::erase_if(
+        recorder_.tally().settling += std::erase_if(
             impacts_, [endNs](const Impact& impact) { return static_cast<double>(impact.timeNs) < endNs; });
     if (impacts_.empty()) return;
     if (isAutomatic(settings_)) {
@@ -200,32 +201,32 @@ void ContactEvents::addImpacts() {
 }
 
 EventMaker ContactEvents::makeEvents() noexcept {
-    return {table_, pairs_, bodies_, model_, settings_, held_, catcher_.tally()};
+    return {table_, pairs_, bodies_, model_, settings_, pendingEvents_, recorder_.tally()};
 }
 
 ContactCounts ContactEvents::recent() const noexcept {
-    ContactCounts counts = catcher_.tally();
-    counts.dropped = drops() + overBudget_ - past_.dropped;
+    ContactCounts counts = recorder_.tally();
+    counts.dropped = drops() + overBudget_ - earlierCounts_.dropped;
     counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
-    counts.hasSources = table_.hasCameras();
+    counts.hasSources = table_.hasSources();
     for (std::int32_t slot = 0; slot < table_.size() && counts.hasSources && !counts.mayBePushed; ++slot)
-        counts.mayBePushed = table_.isCamera(slot) && table_[slot].isDynamic();
+        counts.mayBePushed = table_.isSource(slot) && table_[slot].isDynamic();
     counts.gravityMetresPerSecond2 = static_cast<double>(span_.gravityMetresPerSecond2.length());
-    counts.wantedThreshold = settings_.thresholdMetresPerSecond;
+    counts.configuredThresholdMetresPerSecond = settings_.thresholdMetresPerSecond;
     counts.fieldWidthMetres = settings_.fieldWidthMetres;
     counts.isMuted = settings_.isMuted;
     return counts;
 }
 
 ContactCounts ContactEvents::counts() const noexcept {
-    ContactCounts all = past_;
+    ContactCounts all = earlierCounts_;
     return all += recent();
 }
 
 ContactCounts ContactEvents::takeRecent() noexcept {
     const ContactCounts now = recent();
-    past_ += now;
-    catcher_.tally() = {};
+    earlierCounts_ += now;
+    recorder_.tally() = {};
     return now;
 }
 

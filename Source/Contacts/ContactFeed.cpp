@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Validates what the caller reports of bodies and contacts; what is valid goes to ReportedContacts.
+// Validates reported bodies and contacts, and passes valid ones to ReportedContacts.
 #include "Contacts/ContactFeed.h"
 #include "Contacts/ReportedContacts.h"
 #include <cmath>
@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-constexpr std::string_view unknownBody = "body: expected one that has been told";
+constexpr std::string_view unknownBody = "body: expected one that was set";
 constexpr std::string_view outsideStep = "step: expected to be within one";
 constexpr std::string_view withinStep = "step: expected not to be within one";
 
@@ -24,37 +24,37 @@ SpaceMotion inSpace(const BodyMotion& motion) noexcept {
 }
 
 // False for NaN.
-bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; }
+bool isWithin(double value, double min, double max) noexcept { return value >= min && value <= max; }
 
 // False for NaN. The tolerance is for engines that round.
 bool isUnit(Vector3 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; }
 
-const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
+const ImpactSettings& requireOnsetTiming(const ImpactSettings& settings) {
     if (settings.timing != ImpactTiming::onset)
-        throw std::invalid_argument("timing: expected onset: others' contacts are not told to their end");
+        throw std::invalid_argument("timing: expected onset: the end of a reported contact is not known");
     return settings;
 }
 
 // Checks the contact's own numbers; the next function looks up its bodies.
-std::string_view faultOf(const FedContact& contact) noexcept {
-    constexpr double most = 1.0e12;
+std::string_view errorOf(const FedContact& contact) noexcept {
+    constexpr double bound = 1.0e12;
     if (contact.a == contact.b) return "bodies: expected two";
     if (!isFinite(contact.point)) return "point: expected numbers";
     if (!isUnit(contact.normal)) return "normal: expected a length of 1";
-    if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -most, most) ||
-        !isWithin(contact.tangentialNewtonSeconds, -most, most) || !isFinite(contact.frictionNewtonSeconds))
+    if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -bound, bound) ||
+        !isWithin(contact.tangentialNewtonSeconds, -bound, bound) || !isFinite(contact.frictionNewtonSeconds))
         return "impulse: expected a number of N s";
-    if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -most, most))
+    if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -bound, bound))
         return "approach: expected a number of m/s";
     if (!isWithin(contact.restitution, 0.0, 1.0)) return "restitution: expected 0 to 1";
-    if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, most))
+    if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, bound))
         return "effective mass: expected 0 to 10^12 kg";
     if (!isWithin(contact.fraction.value_or(0.0), -1.0, FedContact::latestFraction))
         return "fraction: expected -1 to 2";
     if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
     for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
-        if (!isWithin(along.value_or(0.0), -most, most))
+        if (!isWithin(along.value_or(0.0), -bound, bound))
             return "speed along a surface: expected a number of m/s";
     if (contact.pointId < FedContact::byPlace)
         return "point: expected a number from 0 on, -1 (none) or -2 (by place)";
@@ -63,8 +63,8 @@ std::string_view faultOf(const FedContact& contact) noexcept {
     return {};
 }
 
-std::string_view faultOf(ReportedContacts& contacts, const FedContact& contact) {
-    ContactCounts& tally = contacts.events().catcher().tally();
+std::string_view errorOf(ReportedContacts& contacts, const FedContact& contact) {
+    ContactCounts& tally = contacts.events().recorder().tally();
     if (!contacts.isStepping()) return ++tally.outsideSteps, outsideStep;
     for (const std::int32_t body : {contact.a, contact.b})
         if (!contacts.bodies().has(body)) {
@@ -72,19 +72,20 @@ std::string_view faultOf(ReportedContacts& contacts, const FedContact& contact) 
             tally.unknownBody = body;
             return unknownBody;
         }
-    return faultOf(contact);
+    return errorOf(contact);
 }
 
 using Reported = ReportedContacts;
-std::string_view told(Reported& contacts, const FedContact& it, void (Reported::*tell)(const FedContact&)) {
-    const std::string_view fault = faultOf(contacts, it);
-    if (fault.empty()) (contacts.*tell)(it);
-    return fault;
+std::string_view report(Reported& contacts, const FedContact& contact,
+                        void (Reported::*method)(const FedContact&)) {
+    const std::string_view error = errorOf(contacts, contact);
+    if (error.empty()) (contacts.*method)(contact);
+    return error;
 }
 
 } // namespace
 
-std::string_view faultOf(const FedBody& body) noexcept {
+std::string_view errorOf(const FedBody& body) noexcept {
     constexpr auto isMass = [](double value) { return value >= 0.0 && value <= 1.0e12; }; // not NaN
     if (!isMass(body.massKg)) return "mass: expected 0 to 10^12 kg";
     if (!isMass(body.inertiaKgSquareMetres)) return "inertia: expected 0 to 10^12 kg m^2";
@@ -93,36 +94,36 @@ std::string_view faultOf(const FedBody& body) noexcept {
 }
 
 ContactFeed::ContactFeed(const ImpactSettings& settings)
-    : contacts_(std::make_unique<ReportedContacts>(onsetAlone(settings))) {}
+    : contacts_(std::make_unique<ReportedContacts>(requireOnsetTiming(settings))) {}
 ContactFeed::~ContactFeed() = default;
 
 void ContactFeed::configure(const ImpactSettings& settings) {
-    contacts_->events().configure(onsetAlone(settings));
+    contacts_->events().configure(requireOnsetTiming(settings));
 }
 const ImpactSettings& ContactFeed::settings() const noexcept { return contacts_->events().settings(); }
 
 std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const HapticFixture& values) {
     if (id < 0) return "body: expected a number from 0 on";
-    if (const std::string_view refusal = physvib::faultOf(body); !refusal.empty()) return refusal;
-    if (const std::string_view refusal = physvib::faultOf(values); !refusal.empty()) return refusal;
+    if (const std::string_view error = physvib::errorOf(body); !error.empty()) return error;
+    if (const std::string_view error = physvib::errorOf(values); !error.empty()) return error;
     ReportedBodies& bodies = contacts_->bodies();
     bodies.set(id, body);
-    const std::uint64_t name = ReportedBodies::idOf(id);
-    return contacts_->events().set(name, bodies.facts(name), {}, values, id).refusal;
+    const std::uint64_t fixture = ReportedBodies::idOf(id);
+    return contacts_->events().set(fixture, bodies.facts(fixture), {}, values, id).refusal;
 }
 
 std::string_view ContactFeed::setMass(std::int32_t id, double massKg) {
     ReportedBodies& bodies = contacts_->bodies();
     if (!bodies.has(id)) return unknownBody;
-    FedBody body = bodies.told(id);
+    FedBody body = bodies.reported(id);
     if (massKg == body.massKg) return {};
     if (body.massKg > 0.0 && massKg > 0.0) body.inertiaKgSquareMetres *= massKg / body.massKg;
     body.massKg = massKg;
-    if (const std::string_view refusal = physvib::faultOf(body); !refusal.empty()) return refusal;
+    if (const std::string_view error = physvib::errorOf(body); !error.empty()) return error;
     bodies.set(id, body);
-    const std::uint64_t name = ReportedBodies::idOf(id);
-    if (const auto slot = contacts_->events().fixtures().find(name); slot != FixtureTable::none)
-        contacts_->events().know(slot, bodies.facts(name));
+    const std::uint64_t fixture = ReportedBodies::idOf(id);
+    if (const auto slot = contacts_->events().fixtures().find(fixture); slot != FixtureTable::none)
+        contacts_->events().updateBody(slot, bodies.facts(fixture));
     return {};
 }
 
@@ -149,7 +150,7 @@ std::string_view ContactFeed::movedInSpace(std::int32_t id, const SpaceMotion& m
     if (!contacts_->bodies().has(id)) return unknownBody;
     if (!contacts_->isStepping()) return outsideStep;
     if (!isFinite(motion)) return "velocity: expected numbers";
-    contacts_->bodies().moveAfter(id, motion);
+    contacts_->bodies().setMotionAfter(id, motion);
     return {};
 }
 
@@ -173,9 +174,15 @@ std::string_view ContactFeed::beginStep(std::int64_t endNs, double gravityMetres
     return {};
 }
 
-std::string_view ContactFeed::touch(const FedContact& it) { return told(*contacts_, it, &Reported::touch); }
-std::string_view ContactFeed::begin(const FedContact& it) { return told(*contacts_, it, &Reported::begin); }
-std::string_view ContactFeed::push(const FedContact& it) { return told(*contacts_, it, &Reported::push); }
+std::string_view ContactFeed::touch(const FedContact& contact) {
+    return report(*contacts_, contact, &Reported::touch);
+}
+std::string_view ContactFeed::begin(const FedContact& contact) {
+    return report(*contacts_, contact, &Reported::begin);
+}
+std::string_view ContactFeed::push(const FedContact& contact) {
+    return report(*contacts_, contact, &Reported::push);
+}
 
 std::string_view ContactFeed::end(std::int32_t a, std::int32_t b) {
     if (!contacts_->bodies().has(a) || !contacts_->bodies().has(b) || a == b) return unknownBody;
@@ -190,7 +197,7 @@ std::string_view ContactFeed::endStep() {
 
 std::int64_t ContactFeed::timeNs() const noexcept { return contacts_->events().timeNs(); }
 std::int64_t ContactFeed::settledNs() const noexcept { return contacts_->events().settledNs(); }
-void ContactFeed::take(std::vector<CollisionEvent>& events) { contacts_->events().drain(events); }
+void ContactFeed::take(std::vector<CollisionEvent>& events) { contacts_->events().appendFinal(events); }
 void ContactFeed::flush(std::vector<CollisionEvent>& events) { contacts_->events().flush(events); }
 std::uint64_t ContactFeed::drops() const noexcept { return contacts_->events().drops(); }
 std::uint64_t ContactFeed::overBudget() const noexcept { return contacts_->events().overBudget(); }
@@ -201,8 +208,8 @@ ContactCounts ContactFeed::takeRecent() noexcept { return contacts_->events().ta
 std::string_view ContactFeed::note(std::int32_t id, EngineNote what) {
     if (!contacts_->bodies().has(id)) return unknownBody;
     ContactEvents& events = contacts_->events();
-    if (events.fixtures().isCamera(events.fixtures().find(ReportedBodies::idOf(id))))
-        events.catcher().tally().note(what, id);
+    if (events.fixtures().isSource(events.fixtures().find(ReportedBodies::idOf(id))))
+        events.recorder().tally().note(what, id);
     return {};
 }
 

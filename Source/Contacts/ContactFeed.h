@@ -25,8 +25,8 @@ struct FedBody {
     double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
 };
 
-/// What is wrong with it, and what was expected; empty if it can be used. Any thread.
-std::string_view faultOf(const FedBody& body) noexcept;
+/// The error of a value, with what was expected; empty if all are valid. Any thread.
+std::string_view errorOf(const FedBody& body) noexcept;
 
 /// Two bodies touch. Report the impulse, or the speed at which they approach each other. With both, the
 /// impulse says how hard the impact is (unless contacts are soft), and the speed says whether it is an impact
@@ -88,7 +88,7 @@ struct FedContact {
 /// is one impact, however many points it has. A refused call changes nothing.
 ///
 /// All methods: world thread (M). None allocates after a step with as many bodies and contacts, except where
-/// the caller's vector grows. Only the constructor and configure throw, and any method without memory.
+/// the caller's vector grows. Only the constructor and configure throw, except for lack of memory.
 class ContactFeed final {
 public:
     /// Throws std::invalid_argument if a setting is out of range; the timing is onset.
@@ -110,7 +110,7 @@ public:
 
     /// Centre of mass, and motion before the engine's solver.
     std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
-    /// The same in space. `inverse`: of its moments of inertia as it is turned now; without it,
+    /// move() in space. `inverse`: of its moments of inertia as it is turned now; without it,
     /// FedBody::inertiaKgSquareMetres counts about every axis, as of a ball.
     std::string_view moveInSpace(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
                                  const std::optional<InverseInertia>& inverse = {});
@@ -120,14 +120,14 @@ public:
     /// impulses follow from their momentum; how hard a soft impact is still follows from its speed. `move`
     /// then has the velocity without contacts: with what gravity adds in the step.
     std::string_view moved(std::int32_t id, const BodyMotion& motion);
-    /// The same in space.
+    /// moved() in space.
     std::string_view movedInSpace(std::int32_t id, const SpaceMotion& motion);
 
     /// Removes a body, not within a step. Its events so far stay, or not
     /// (ImpactSettings::keepsHitsOfDestroyed).
     std::string_view remove(std::int32_t id);
 
-    /// Empty, or what is wrong with it: see PairSounds.
+    /// Sets the sound of a pair of surface kinds, see PairSounds. Returns the error, or empty.
     std::string_view setPair(int surface, int other, const PairSound& sound);
 
     /// The step ends at `endNs` (not before timeNs()). Gravity, m/s^2, tells resting contacts from impacts.
@@ -137,7 +137,7 @@ public:
     /// missing has ended. Several points of a pair are several calls.
     std::string_view touch(const FedContact& contact);
 
-    /// For engines that report changes: a pair begins to touch. Again while it touches: with another corner.
+    /// For engines that report changes: a pair begins to touch. Call it again for another of its corners.
     std::string_view begin(const FedContact& contact);
     /// The impulse of this step of a pair that goes on touching: how impacts pass through it.
     std::string_view push(const FedContact& contact);
@@ -146,7 +146,7 @@ public:
     std::string_view endStep(); ///< All contacts of the step were reported.
 
     std::int64_t timeNs() const noexcept; ///< World time after the last step.
-    /// No event before it is still to come.
+    /// Time before which all events are final, ns.
     std::int64_t settledNs() const noexcept;
     /// Appends the events before settledNs(), in time order.
     void take(std::vector<CollisionEvent>& events);
@@ -157,17 +157,17 @@ public:
     std::uint64_t overBudget() const noexcept;
     /// Grains left out so far by thinning; the others carry their power.
     std::uint64_t thinned() const noexcept;
-    /// What became of all contacts so far; see explain().
+    /// Counts of all contacts so far; see explain().
     ContactCounts counts() const noexcept;
-    /// The same since the last call of this, or since the beginning: explain(takeRecent(), counts()).
+    /// Counts since the last call of this, or since the beginning: explain(takeRecent(), counts()).
     ContactCounts takeRecent() noexcept;
-    /// What the engine says of a body. It counts for the next explanation if the body is a haptic source.
+    /// Notes why the engine lets a body touch nothing, for the next explanation if it is a haptic source.
     std::string_view note(std::int32_t id, EngineNote what);
     /// From an impulse to an amplitude: the constants of Eq. 5.4.
     const ImpactModel& impactModel() const noexcept;
 
 private:
-    std::unique_ptr<ReportedContacts> contacts_; // what it is made of, which is not installed
+    std::unique_ptr<ReportedContacts> contacts_; // the implementation, whose header is not installed
 };
 
 } // namespace physvib

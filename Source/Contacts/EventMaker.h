@@ -31,15 +31,15 @@ public:
     /// Adds an event; when full, or without memory, the weakest of all is dropped and counted. Fixtures
     /// without haptic values have no id: as the other one they are released as -1.
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
-        if (count_ == places_ && !grow() && !dropWeakest(event.amplitude)) return;
-        leastNewNs_ = std::min(leastNewNs_, event.timeNs);
+        if (count_ == slotCount_ && !grow() && !dropWeakest(event.amplitude)) return;
+        earliestNewNs_ = std::min(earliestNewNs_, event.timeNs);
         const std::size_t at = place(count_++);
         held_[at] = event;
         held_[at].source.other = std::max(event.source.other, -1);
-        waiting_[at] = {event.timeNs, event.source.fixture, event.source.other};
+        keys_[at] = {event.timeNs, event.source.fixture, event.source.other};
     }
 
-    /// Adds all of these, like `model` otherwise. False, and nothing is done: there is no room.
+    /// Adds an event per grain; other values are those of `model`. False, and nothing is added: no room.
     bool push(const GrainRuns& grains, const CollisionEvent& model) noexcept;
 
     /// Moves all events before `beforeNs` to the end of `finished`.
@@ -50,20 +50,20 @@ public:
         release(std::numeric_limits<std::int64_t>::max(), finished);
     }
 
-    /// Removes the events of a fixture (by its id), and if `asOther` also those that it caused of others.
-    void withdraw(std::int32_t fixture, bool asOther) noexcept;
+    /// Removes the events of a fixture (by its id), and if `dropsCaused` also those that it caused of others.
+    void removeEventsOf(std::int32_t fixture, bool dropsCaused) noexcept;
 
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:
-    struct Waiting {
+    struct HeldKey {
         std::int64_t timeNs;
         std::int32_t fixture, other;
     };
-    struct Turn { // of one that is being released
+    struct ReleaseOrder { // sort key of an event that is being released
         std::int64_t timeNs;
         std::uint64_t rank; // fixture, then arrival
-        friend bool operator<(const Turn& a, const Turn& b) noexcept {
+        friend bool operator<(const ReleaseOrder& a, const ReleaseOrder& b) noexcept {
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.rank < b.rank;
         }
     };
@@ -71,22 +71,22 @@ private:
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void sort(std::size_t count) noexcept;
-    template <class IsLeft>
-    void leave(std::size_t count, IsLeft isLeft) noexcept;
+    template <class IsRemoved>
+    void removeIf(std::size_t count, IsRemoved isRemoved) noexcept;
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
     // A ring in order of arrival; its size is a power of two, one more than the mask
-    std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
-    std::size_t old_ = 0;         // those up to the last release; no later one is before
+    std::size_t first_ = 0, count_ = 0, slotCount_ = 0, mask_ = 0;
+    std::size_t oldCount_ = 0;    // events up to the last release; later ones come after them
     std::int64_t releasedNs_ = 0; // events before it have been released
-    std::int64_t leastNewNs_ = std::numeric_limits<std::int64_t>::max();
+    std::int64_t earliestNewNs_ = std::numeric_limits<std::int64_t>::max();
     std::vector<CollisionEvent> held_;
-    std::vector<Waiting> waiting_; // of each held one
-    // Of those being released, as long as held_: their buckets in time
-    std::vector<std::uint32_t> shares_;
-    std::vector<Turn> turns_, other_;
-    std::vector<std::uint32_t> ends_; // ends of the buckets
+    std::vector<HeldKey> keys_; // of each held event
+    // Buckets in time of the events being released, as many as held_ has
+    std::vector<std::uint32_t> buckets_;
+    std::vector<ReleaseOrder> order_, sorted_;
+    std::vector<std::uint32_t> bucketEnds_; // ends of the buckets
 };
 
 /// Adds one event per impact and mode (Eq. 5.4). If the source's voice is `both`, both bodies sound, each
@@ -104,21 +104,21 @@ public:
                ContactCounts& counts) noexcept;
     EventMaker(const EventMaker&) = delete;
     EventMaker& operator=(const EventMaker&) = delete;
-    ~EventMaker() { counts_.made(made_); }
+    ~EventMaker() { counts_.addEvents(eventBounds_); }
     [[gnu::noinline]] void add(const Impact& impact) {
-        meet(impact.camera, impact.other);
+        selectPair(impact.source, impact.other);
         if (isMuted_ || modeCount_ != 1) [[unlikely]]
             return addModesOf(impact);
-        sound(modes_[0], impact, amplitudeOf(impact));
+        addEvent(modes_[0], impact, amplitudeOf(impact));
     }
     /// Sets the source and the partner of the next impacts.
-    void meet(std::int32_t camera, std::int32_t other) {
-        if (camera != camera_) setSource(camera);
-        if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
+    void selectPair(std::int32_t source, std::int32_t other) {
+        if (source != source_) setSource(source);
+        if (!isMuted_ && (!hasPartner_ || other != other_)) setPartner(other);
     }
-    /// The same for runs of grains. False: they are to be added one by one.
-    bool prepare(std::int32_t camera, std::int32_t other, GrainRuns& runs) {
-        meet(camera, other);
+    /// Selects the pair, and sets its factors in `runs`. False: its grains have to be added one by one.
+    bool prepare(std::int32_t source, std::int32_t other, GrainRuns& runs) {
+        selectPair(source, other);
         const bool isUsed = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ &&
                             modes_[0].isPlayable && runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
         runs.perNewtonSecond = perNewtonSecond_;
@@ -132,19 +132,19 @@ public:
         return isUsed;
     }
     std::int32_t idOf(std::int32_t other) const noexcept { return table_[other].id; }
-    void addAll(const GrainRuns& of);
+    void addGrains(const GrainRuns& runs);
 
 private:
     struct Mode {
         double frequencyHz, decayPerSecond, relativeAmplitude;
         SoundNumber sound;
-        bool isPlayable; // as far as it does not depend on the impact
+        bool isPlayable; // isPlayable() of the values that do not depend on the impact
     };
-    void addModesOf(const Impact& impact); ///< any number of modes, or none: it is muted
+    void addModesOf(const Impact& impact); ///< for any number of modes; only counts it if muted
     double amplitudeOf(const Impact& impact) const noexcept {
         return pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
     }
-    [[gnu::always_inline]] void sound(const Mode& mode, const Impact& impact, double amplitude) noexcept {
+    [[gnu::always_inline]] void addEvent(const Mode& mode, const Impact& impact, double amplitude) noexcept {
         if (isAtContact_) place(impact.point);
         event_.timeNs = impact.timeNs;
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
@@ -162,14 +162,14 @@ private:
             return;
         }
         events_.push(event_);
-        made_.add(event_.x, event_.y);
+        eventBounds_.add(event_.x, event_.y);
     }
     void setMode(const Mode& mode) noexcept {
         event_.frequencyHz = mode.frequencyHz;
         event_.decayPerSecond = mode.decayPerSecond;
         event_.sound = mode.sound;
     }
-    void setSource(std::int32_t camera);
+    void setSource(std::int32_t source);
     void setPartner(std::int32_t other);
     template <class Sound>
     void addModes(const Sound& sound) noexcept;
@@ -191,15 +191,15 @@ private:
     const float cos_, sin_;  // rotation of the field
     const bool isAtContact_; // else events are at the source's fixture
     CollisionEvent event_;
-    PlacesMade made_;
+    EventBounds eventBounds_;
     // Of the current haptic source:
-    std::int32_t camera_ = FixtureTable::none;
+    std::int32_t source_ = FixtureTable::none;
     double perNewtonSecond_ = 0.0, amplitudeDivisor_ = 1.0; // ImpactModel::amplitude, in its order of
                                                             // operations
     double gain_ = 0.0;
     bool isMuted_ = false;
     // Of its current partner:
-    bool hasMet_ = false, hasOwnSound_ = false; // the source's own, for any partner
+    bool hasPartner_ = false, hasOwnSound_ = false; // the source's own, for any partner
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
     int modeCount_ = 0;
@@ -230,7 +230,7 @@ public:
     static constexpr double longestPauseSeconds = 1.0;
     static constexpr double fadePerSecond = 30.0;
     static constexpr double firstThresholds = 10.0;
-    static constexpr double leastThresholds = 2.0;
+    static constexpr double minThresholds = 2.0;
 
     /// Learns from the impacts of a step, whatever their order. Those of muted sources do not count, and
     /// grains do not raise the level.

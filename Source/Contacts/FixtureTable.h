@@ -15,7 +15,7 @@
 
 namespace physvib {
 /// One fixture of the world.
-struct KnownFixture {
+struct FixtureEntry {
     std::uint64_t fixture = 0; ///< the engine's number; 0: the slot is free
     BodyFacts body;            ///< at the last contact that began
     std::int32_t id = 0;       ///< id in events; below -1: no haptic values
@@ -23,7 +23,7 @@ struct KnownFixture {
     Vector2 centre; ///< centre of mass in the body's frame; for fixtures with values
 
     bool isUsed() const noexcept { return fixture != 0; }
-    bool isNamed() const noexcept { return id >= 0; }
+    bool hasHapticValues() const noexcept { return id >= 0; }
     bool isDynamic() const noexcept { return body.isDynamic; }
     /// m_i of Eq. 5.4, kg.
     double massKg() const noexcept { return isDynamic() ? body.massKg : values.staticMassKg; }
@@ -43,8 +43,8 @@ public:
     static constexpr std::int32_t none = IntegerMap::none;
 
     /// The slot of a fixture, a new one if necessary; `body` replaces what is stored of its body.
-    std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
-    void know(std::int32_t slot, const BodyFacts& body); ///< updates a registered fixture
+    std::int32_t findOrAdd(std::uint64_t fixture, const BodyFacts& body);
+    void updateBody(std::int32_t slot, const BodyFacts& body); ///< updates a registered fixture
 
     /// Assigns values to a registered fixture, or replaces them. `id`: the caller's (>= 0), or `none`: its
     /// present one, else the next of 0, 1, 2... Returns the id; `none`, and nothing is changed, if another
@@ -52,26 +52,25 @@ public:
     std::int32_t set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id = none);
 
     /// Removes the values; the fixture stays registered, without an id.
-    void unset(std::int32_t slot);
+    void removeValues(std::int32_t slot);
 
-    /// Frees the slot of a destroyed fixture.
-    void release(std::int32_t slot);
+    void release(std::int32_t slot); ///< Frees the slot of a destroyed fixture.
 
     std::int32_t find(std::uint64_t fixture) const noexcept { return slots_.find(fixture); }
-    const KnownFixture& operator[](std::int32_t slot) const noexcept {
-        return known_[static_cast<std::size_t>(slot)];
+    const FixtureEntry& operator[](std::int32_t slot) const noexcept {
+        return entries_[static_cast<std::size_t>(slot)];
     }
     /// Bits that decide in each step whether reports of a contact matter.
     enum Trait : std::uint8_t { source = 1, rough = 2 };
     unsigned traits(std::int32_t slot) const noexcept { return traits_[static_cast<std::size_t>(slot)]; }
-    bool isCamera(std::int32_t slot) const noexcept { return (traits(slot) & source) != 0; }
-    /// By the engine's number, without a search; false is certain.
-    bool mayBeCamera(std::uint64_t fixture) const noexcept { return cameraNames_.mayHave(fixture); }
+    bool isSource(std::int32_t slot) const noexcept { return (traits(slot) & source) != 0; }
+    /// By the engine's number, without a search. False is certain, true is not.
+    bool mayBeSource(std::uint64_t fixture) const noexcept { return sourceFilter_.mayContain(fixture); }
     /// A number that changes whenever the values of a fixture change.
     std::uint32_t revision() const noexcept { return revision_; }
     bool isRough(std::int32_t slot) const noexcept { return (traits(slot) & rough) != 0; }
 
-    /// Two properties of KnownFixture that are read often.
+    /// Two properties of FixtureEntry that are read often.
     struct Mobility {
         double movableMassKg = std::numeric_limits<double>::infinity();
         float gravityScale = 0.0F;
@@ -79,32 +78,31 @@ public:
     const Mobility& mobility(std::int32_t slot) const noexcept {
         return mobility_[static_cast<std::size_t>(slot)];
     }
-    bool hasCameras() const noexcept { return cameras_ > 0; }
-    std::int32_t size() const noexcept {
-        return static_cast<std::int32_t>(known_.size());
-    } ///< slots, free ones too
+    bool hasSources() const noexcept { return sourceCount_ > 0; }
+    /// Slots, free ones too.
+    std::int32_t size() const noexcept { return static_cast<std::int32_t>(entries_.size()); }
 
     /// The largest staticMassKg of fixtures whose body is enabled and not dynamic, kg.
     double largestStaticMassKg(const BodyReader& bodies);
 
 private:
-    KnownFixture& at(std::int32_t slot) noexcept { return known_[static_cast<std::size_t>(slot)]; }
-    void lose(std::int32_t slot);
-    void noteBody(std::int32_t slot, const BodyFacts& body) noexcept;
-    void noteTraits(std::int32_t slot, bool isCamera, bool isRough) noexcept;
-    void weigh(const KnownFixture& known);
+    FixtureEntry& at(std::int32_t slot) noexcept { return entries_[static_cast<std::size_t>(slot)]; }
+    void dropId(std::int32_t slot);
+    void storeBody(std::int32_t slot, const BodyFacts& body) noexcept;
+    void storeTraits(std::int32_t slot, bool isSource, bool isRough) noexcept;
+    void addStaticMass(const FixtureEntry& entry);
 
-    std::vector<KnownFixture> known_;
-    std::vector<std::uint8_t> traits_; // by slot, as the next: read for each contact in each step, so compact
+    std::vector<FixtureEntry> entries_;
+    std::vector<std::uint8_t> traits_; // by slot, as mobility_; compact, since each step reads them
     std::vector<Mobility> mobility_;
-    std::int32_t cameras_ = 0;
+    std::int32_t sourceCount_ = 0;
     std::uint32_t revision_ = 0;
-    NameSketch cameraNames_;
+    CountingFilter sourceFilter_;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;    // by the engine's fixture number
     IntegerMap slotOfId_; // by id + 1
     std::int32_t nextId_ = 0;
-    std::int32_t nextNameless_ = -2;
+    std::int32_t nextUnnamedId_ = -2;
 
     struct StaticBody {
         std::uint64_t body;
@@ -112,44 +110,43 @@ private:
     };
     std::vector<StaticBody> staticBodies_;
     IntegerMap staticBodyOf_; // by body
-    bool isWeightStale_ = false;
+    bool areStaticMassesStale_ = false;
 };
 
 /// A pair of slots has a number, under which its data are found without a search, while it touches or while
-/// one of its fields is set. Check a number kept for longer with `is`. Allocates only to grow. World thread
-/// (M).
+/// one of its fields is set; later matches() checks it. Allocates only to grow. World thread (M).
 class TouchingPairs {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
 
     /// Two slots in the order of their contact, and their number.
-    struct Name {
+    struct Handle {
         std::int32_t a = none, b = none, number = none;
     };
 
     struct Pair {
-        std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
-        std::int32_t contacts = 0;       ///< that touch
-        std::int32_t edge = none;        ///< the graph's; none: nothing touches
-        std::int32_t collision = none;   ///< index of its collision in this step
-        std::int32_t last = none;        ///< index of its collision in the last step
-        std::int32_t load = none;        ///< index of its resting load
+        std::int32_t a = none, b = none;    ///< slots in any order; none: the number is free
+        std::int32_t contacts = 0;          ///< that touch
+        std::int32_t edgeIndex = none;      ///< the graph's; none: nothing touches
+        std::int32_t collisionIndex = none; ///< index of its collision in this step
+        std::int32_t lastIndex = none;      ///< index of its collision in the last step
+        std::int32_t loadIndex = none;      ///< index of its resting load
 
-        bool isTouching() const noexcept { return edge != none; }
+        bool isTouching() const noexcept { return edgeIndex != none; }
     };
 
     explicit TouchingPairs(std::size_t pairs)
         : numbers_(pairs) {
         pairs_.reserve(pairs);
         free_.reserve(pairs);
-        loose_.reserve(pairs);
+        releaseCandidates_.reserve(pairs);
     }
 
     /// The number of a pair, or `none`.
     std::int32_t find(std::int32_t a, std::int32_t b) const noexcept { return numbers_.find(pairKey(a, b)); }
 
     /// The number of a pair, a new one if necessary.
-    std::int32_t know(std::int32_t a, std::int32_t b) {
+    std::int32_t findOrAdd(std::int32_t a, std::int32_t b) {
         if (const std::int32_t known = find(a, b); known != none) return known;
         if (free_.empty()) {
             free_.push_back(static_cast<std::int32_t>(pairs_.size()));
@@ -159,14 +156,14 @@ public:
         free_.pop_back();
         numbers_.set(pairKey(a, b), number);
         (*this)[number] = {.a = a, .b = b};
-        loosen(number);
+        releaseWhenUnused(number);
         return number;
     }
 
-    bool is(const Name& name) const noexcept {
-        if (name.number == none) return false;
-        const Pair& pair = (*this)[name.number];
-        return (pair.a == name.a && pair.b == name.b) || (pair.a == name.b && pair.b == name.a);
+    bool matches(const Handle& handle) const noexcept {
+        if (handle.number == none) return false;
+        const Pair& pair = (*this)[handle.number];
+        return (pair.a == handle.a && pair.b == handle.b) || (pair.a == handle.b && pair.b == handle.a);
     }
 
     Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
@@ -175,20 +172,20 @@ public:
     }
 
     /// All contacts of a pair have ended: the number is freed once no field is set.
-    void loosen(std::int32_t number) { loose_.push_back(number); }
+    void releaseWhenUnused(std::int32_t number) { releaseCandidates_.push_back(number); }
 
-    /// Calls see(pair) for pairs that may have ended, some of them twice.
-    template <class See>
-    void forLoose(See see) const {
-        for (const std::int32_t number : loose_) see((*this)[number]);
+    /// Calls visit(pair) for pairs that may have ended, some of them twice.
+    template <class Visit>
+    void forEachReleaseCandidate(Visit visit) const {
+        for (const std::int32_t number : releaseCandidates_) visit((*this)[number]);
     }
 
     /// Call at the end of a step: frees numbers.
     void endStep() {
-        std::erase_if(loose_, [&](std::int32_t number) {
+        std::erase_if(releaseCandidates_, [&](std::int32_t number) {
             Pair& pair = (*this)[number];
             if (pair.a == none || pair.isTouching()) return true;
-            if (pair.collision != none || pair.last != none || pair.load != none) return false;
+            if (pair.collisionIndex != none || pair.lastIndex != none || pair.loadIndex != none) return false;
             numbers_.erase(pairKey(pair.a, pair.b));
             pair = {};
             free_.push_back(number);
@@ -200,7 +197,7 @@ private:
     std::vector<Pair> pairs_;
     IntegerMap numbers_; // by the pair
     std::vector<std::int32_t> free_;
-    std::vector<std::int32_t> loose_; // candidates to be freed
+    std::vector<std::int32_t> releaseCandidates_; // candidates to be freed
 };
 
 /// Which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3): an undirected
@@ -222,7 +219,7 @@ public:
 
     /// Nodes are passing by default. A change costs a rebuild.
     void setPassing(std::int32_t node, bool isPassing) {
-        make(node);
+        ensureNode(node);
         if (at(node).isPassing != isPassing) changePassing(node);
     }
 
@@ -243,9 +240,9 @@ public:
         prepare(node + 1);
         return preparedComponent(node);
     }
-    /// The same of nodes below `nodes`, for many at once.
+    /// Call before preparedComponent() for nodes below `nodes`: one rebuild for many queries.
     void prepare(std::int32_t nodes) {
-        make(nodes - 1);
+        ensureNode(nodes - 1);
         if (isStale_) rebuild();
     }
     std::int32_t preparedComponent(std::int32_t node) noexcept {
@@ -265,22 +262,22 @@ public:
         return pair != TouchingPairs::none && pairs_[pair].isTouching();
     }
 
-    /// Calls see(neighbour) for each node that touches `node`. Iterates over all edges.
-    template <class See>
-    void forNeighbours(std::int32_t node, See see) const {
+    /// Calls visit(neighbour) for each node that touches `node`. Iterates over all edges.
+    template <class Visit>
+    void forEachNeighbour(std::int32_t node, Visit visit) const {
         for (const Edge& edge : edges_) {
-            if (edge.a == node) see(edge.b);
-            if (edge.b == node) see(edge.a);
+            if (edge.a == node) visit(edge.b);
+            if (edge.b == node) visit(edge.a);
         }
     }
 
-    /// Calls see(node) once for each node that touches another. Iterates over all edges.
-    template <class See>
-    void forTouching(See see) {
+    /// Calls visit(node) once for each node that touches another. Iterates over all edges.
+    template <class Visit>
+    void forEachTouching(Visit visit) {
         ++visits_;
         for (const Edge& edge : edges_)
             for (const std::int32_t node : {edge.a, edge.b})
-                if (std::exchange(at(node).visit, visits_) != visits_) see(node);
+                if (std::exchange(at(node).visit, visits_) != visits_) visit(node);
     }
 
 private:
@@ -297,7 +294,7 @@ private:
     };
 
     Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
-    void make(std::int32_t node) {
+    void ensureNode(std::int32_t node) {
         while (static_cast<std::int32_t>(nodes_.size()) <= node)
             nodes_.push_back({static_cast<std::int32_t>(nodes_.size())});
     }

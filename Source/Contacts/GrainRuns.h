@@ -9,49 +9,49 @@
 
 namespace physvib {
 
-/// Grains of one surface and one haptic source: first which, then with place, time and strength, then as
-/// events. Every lane has the operations of a single grain in their order: the same bits with each processor.
+/// Grains of one surface and one haptic source: keys and places, then by compute() times and strengths, by
+/// write() events. Each lane computes as for a single grain, so the bits are the same with each processor.
 struct GrainRuns {
-    static constexpr std::size_t mostGrains = 128, mostRuns = 64;
+    static constexpr std::size_t maxGrains = 128, maxRuns = 64;
 
     /// A point's way along the surface, which does not reverse.
     struct alignas(32) Run {
         double start, metresPerSecond, metresPerSecond2, sign; ///< of the motion; sign: of its direction
-        double slip, newtons, every, unused;
-        std::array<float, 3> point, velocity;
+        double slip, newtons, every, unused;  ///< m/s; load, N; thinning: one grain of so many
+        std::array<float, 3> point, velocity; ///< of the contact point at the step's end, m, m/s, world
         std::int32_t otherId, unusedToo;
     };
 
-    double seconds, backSeconds, perSecond; ///< of the step
+    double seconds, backSeconds, perSecond; ///< of the step: length, 1.5 lengths, 1 / length
     std::int64_t startNs;
     double lengthNs; ///< below 2^31
-    // Of the surface: see Grains and GrainChance. Where grains are regular the weakest is 1, and the range 0
-    double leastStrength, strengthRange, rolling, steepness;
-    // Of the events: as EventMaker has them
+    // Of the surface: see Grains and GrainChance. For regular grains minStrength is 1, the range 0
+    double minStrength, strengthRange, rolling, steepness;
+    // Of the events: EventMaker's factors
     double perNewtonSecond, divisor, gain, pairGain, relativeAmplitude;
     Vector2 origin;
     float cosine, sine;
 
     std::size_t runCount = 0, count = 0;
-    std::array<Run, mostRuns> runs;
+    std::array<Run, maxRuns> runs;
     template <class Value>
-    using All = std::array<Value, mostGrains + 4>; // lanes behind the last grain are of no use
+    using All = std::array<Value, maxGrains + 4>; // the last vector may reach beyond the last grain
     alignas(32) All<double> metres;
-    alignas(32) All<std::uint64_t> names; ///< Grains::nameOf
-    All<std::uint32_t> runAt;             ///< bytes from the first run to the grain's
+    alignas(32) All<std::uint64_t> keys; ///< Grains::keyOf
+    All<std::uint32_t> runOffsets;       ///< bytes from the first run to the grain's
 
     // Of each grain, by compute()
     alignas(32) All<std::int64_t> timeNs;
     alignas(32) All<double> newtonSeconds, amplitude, x, y, z; ///< x, y, z: of the field
     alignas(32) All<std::int64_t> kinds;                       ///< as ContactKind; a hit: too slow to be felt
     /// Bounds of all places in the field, m: x, y.
-    std::array<double, 2> least, most;
+    std::array<double, 2> minPlace, maxPlace;
 
     void compute() noexcept;
-    bool isUsual; ///< by compute(): all are fast enough to be felt, and have usable places and amplitudes
+    bool isPlayable; ///< by compute(): all are fast enough to be felt, and have usable places and amplitudes
 
     const Run& runOf(std::size_t grain) const noexcept {
-        return *reinterpret_cast<const Run*>(reinterpret_cast<const char*>(runs.data()) + runAt[grain]);
+        return *reinterpret_cast<const Run*>(reinterpret_cast<const char*>(runs.data()) + runOffsets[grain]);
     }
     /// After compute(): makes events of some of them, like `model` otherwise.
     void write(std::size_t first, std::size_t last, const CollisionEvent& model,

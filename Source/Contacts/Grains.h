@@ -10,15 +10,15 @@
 
 namespace physvib {
 
-/// Of the roughness elements of a surface (grains). random: like cloth, stone or wood. regular: ridges, felt
+/// Arrangement of a surface's roughness elements. random: like cloth, stone or wood. regular: ridges, felt
 /// as a tone of frequency speed / spacing.
 enum class GrainPattern { random, regular };
 
 /// Grains of a surface. Passing a grain gives both bodies a small impact.
 struct Texture {
-    static constexpr double finestMetres = 1.0e-5;  ///< between grains
-    static constexpr double coarsestMetres = 10.0;  ///< between grains
-    static constexpr double mostRoughness = 1000.0; ///< of `roughness`
+    static constexpr double finestMetres = 1.0e-5; ///< between grains
+    static constexpr double coarsestMetres = 10.0; ///< between grains
+    static constexpr double maxRoughness = 1000.0; ///< of `roughness`
 
     double grainMetres = 0.0; ///< mean spacing; 0, or finer than finestMetres: smooth, and silent
     double roughness = 1.0;   ///< strength factor, see grainImpulse()
@@ -38,10 +38,10 @@ constexpr double grainImpulse(double roughness, double loadNewtons, double metre
 }
 
 /// The error of a value, with what was expected; empty if all are valid. Any thread.
-inline std::string_view faultOf(const Texture& texture) noexcept {
+inline std::string_view errorOf(const Texture& texture) noexcept {
     if (!(texture.grainMetres >= 0.0 && texture.grainMetres <= Texture::coarsestMetres))
         return "grain: expected 0 (smooth) to 10 m";
-    if (!(texture.roughness >= 0.0 && texture.roughness <= Texture::mostRoughness))
+    if (!(texture.roughness >= 0.0 && texture.roughness <= Texture::maxRoughness))
         return "roughness: expected 0 to 1000";
     if (!(texture.rolling >= 0.0 && texture.rolling <= 1.0)) return "rolling: expected 0 to 1";
     return {};
@@ -71,7 +71,7 @@ struct SurfaceMotion {
 /// Ranges of random grains: position within the spacing, and strength, both uniformly distributed.
 struct GrainChance {
     static constexpr double spacingRange = 0.9;  ///< of the spacing
-    static constexpr double leastStrength = 0.2; ///< the weakest
+    static constexpr double minStrength = 0.2;   ///< the weakest
     static constexpr double strengthRange = 1.6; ///< from the weakest to the strongest
 };
 
@@ -83,7 +83,7 @@ struct GrainGap {
     bool isUp = true;        ///< that is `toMetres`
 
     /// True if a motion that does not reverse certainly stays within.
-    bool holds(const SurfaceMotion& motion) const noexcept {
+    bool contains(const SurfaceMotion& motion) const noexcept {
         constexpr double rounding = 1.0e-14; // relative; a hundred times what is lost
         const double start = motion.startMetres, end = motion.metresAt(motion.seconds);
         const double margin = rounding * (std::abs(start) + std::abs(end));
@@ -109,16 +109,16 @@ public:
         const double jitter = isRandom_ ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
         return (static_cast<double>(index) + 0.5 + jitter) * grainMetres_;
     }
-    /// Its strength; 1 of all where they are regular.
+    /// Strength of a grain; 1 if the pattern is regular.
     double strengthOf(std::int64_t index) const noexcept {
-        return isRandom_ ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
+        return isRandom_ ? GrainChance::minStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
     }
 
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
     /// they are passed. Returns where the point is then. `gap`: the same of the step before, of these grains
     /// and this `every`, which saves a search; or null.
     template <class Passed>
-    [[gnu::always_inline]] GrainGap along(const SurfaceMotion& motion, std::int64_t every,
+    [[gnu::always_inline]] GrainGap visit(const SurfaceMotion& motion, std::int64_t every,
                                           const GrainGap* gap, Passed&& passed) const {
         double from = 0.0, to = motion.turn();
         GrainGap at;
@@ -131,18 +131,18 @@ public:
         }
     }
 
-    /// Sets what runs over these need to know of them.
-    void describe(GrainRuns& runs) const noexcept {
-        runs.leastStrength = isRandom_ ? GrainChance::leastStrength : 1.0;
+    /// Sets the range of strengths in `runs`.
+    void configure(GrainRuns& runs) const noexcept {
+        runs.minStrength = isRandom_ ? GrainChance::minStrength : 1.0;
         runs.strengthRange = isRandom_ ? GrainChance::strengthRange : 0.0;
     }
-    /// What the strength of a grain is drawn by, see GrainRuns.
-    std::uint64_t nameOf(std::int64_t index) const noexcept { return nameOf(index, 1); }
+    /// The hash key from which a grain's strength is drawn, see GrainRuns.
+    std::uint64_t keyOf(std::int64_t index) const noexcept { return keyOf(index, 1); }
 
-    /// Where a point that leaves `start` comes first: the index of that grain. `behind` and `ahead` become
-    /// the places between which it is then.
-    std::int64_t begin(double start, bool isUp, std::int64_t every, const GrainGap* gap, double& behind,
-                       double& ahead) const noexcept {
+    /// Index of the first grain that a point from `start` (m) reaches. `behind` and `ahead` become the places
+    /// of the grains between which it starts, m.
+    std::int64_t findFirst(double start, bool isUp, std::int64_t every, const GrainGap* gap, double& behind,
+                           double& ahead) const noexcept {
         if (gap != nullptr && gap->isUp == isUp && gap->fromMetres < start && start < gap->toMetres) {
             behind = isUp ? gap->fromMetres : gap->toMetres;
             ahead = isUp ? gap->toMetres : gap->fromMetres;
@@ -155,12 +155,12 @@ public:
     }
 
 private:
-    std::uint64_t nameOf(std::int64_t index, std::uint64_t which) const noexcept {
+    std::uint64_t keyOf(std::int64_t index, std::uint64_t which) const noexcept {
         return (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U + (seed_ + which * seedFactor);
     }
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
     double chance(std::int64_t index, std::uint64_t which) const noexcept {
-        std::uint64_t z = nameOf(index, which);
+        std::uint64_t z = keyOf(index, which);
         z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
         z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
         z ^= z >> 31U;
@@ -197,7 +197,7 @@ private:
         const double sign = isUp ? 1.0 : -1.0;
         double behind = 0.0;
         Grain grain;
-        grain.index = begin(start, isUp, every, gap, behind, grain.metres);
+        grain.index = findFirst(start, isUp, every, gap, behind, grain.metres);
         for (; sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
             behind = grain.metres;
             const double far = grain.metres - start;

@@ -52,9 +52,9 @@ constexpr bool isEndless(double frequencyHz, double decayPerSecond) noexcept {
 }
 
 /// The error of a value, with what was expected; empty if all are valid. Any thread.
-inline std::string_view faultOf(const HapticFixture& values) noexcept {
+inline std::string_view errorOf(const HapticFixture& values) noexcept {
     // false for NaN
-    constexpr auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; };
+    constexpr auto isWithin = [](double value, double max) { return value >= 0.0 && value <= max; };
     if (!isWithin(values.frequencyHz, limits::maxFrequencyHz)) return "frequency: expected 0 to 20000 Hz";
     if (!isWithin(values.decayPerSecond, limits::maxDecayPerSecond))
         return "decay: expected 0 to 2000 per second";
@@ -77,7 +77,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     if (!isWithin(values.handMassKg.value_or(0.0), 1.0e12)) return "hand mass: expected 0 to 10^12 kg";
     if (values.sound < 0) return "sound: expected a number from 0 on";
     if (values.part < 0) return "part: expected a number from 0 on";
-    return faultOf(values.texture);
+    return errorOf(values.texture);
 }
 
 /// Result of assigning values to a fixture.
@@ -102,21 +102,21 @@ public:
     /// Sets or replaces the sound of a pair. Returns the error (nothing is changed) or empty. Allocates.
     std::string_view set(int surface, int other, const PairSound& sound) {
         if (surface <= 0 || other <= 0) return "surface: expected more than 0";
-        if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,
+        if (const std::string_view error = errorOf({.frequencyHz = sound.frequencyHz,
                                                     .decayPerSecond = sound.decayPerSecond,
                                                     .overtones = sound.overtones,
                                                     .gain = sound.gain,
                                                     .sound = sound.sound});
-            !fault.empty())
-            return fault;
+            !error.empty())
+            return error;
         sounds_.insert_or_assign(std::minmax(surface, other), sound);
         return {};
     }
 
     /// nullptr: the pair has no sound of its own.
     const PairSound* find(int surface, int other) const noexcept {
-        const auto known = sounds_.find(std::minmax(surface, other));
-        return known != sounds_.end() ? &known->second : nullptr;
+        const auto entry = sounds_.find(std::minmax(surface, other));
+        return entry != sounds_.end() ? &entry->second : nullptr;
     }
 
 private:

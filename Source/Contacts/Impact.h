@@ -20,8 +20,8 @@ struct BodyFacts {
     bool isEnabled = true;
 };
 
-/// Asked for few bodies, and only when something has happened to them, so nothing is copied for those at
-/// rest. Each method: M, within a step or right after it, for a body that is in the world.
+/// Reads bodies from the engine. It is asked only for the few to which something has happened, so nothing is
+/// copied for those at rest. World thread (M), within a step or right after it, for bodies in the world.
 class BodyReader {
 public:
     virtual ~BodyReader() = default;
@@ -46,7 +46,7 @@ struct StepSpan {
     std::int64_t earliestNs = 0; ///< start of the step before: contacts may be reported up to a step late
     std::int64_t startNs = 0;
     std::int64_t endNs = 0;
-    double leastMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
+    double minThresholdMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
     Vector2 gravityMetresPerSecond2;
 
     /// Rounds to nearest, halves away from zero, like std::llround; inline, because it runs for each grain.
@@ -63,8 +63,8 @@ struct StepSpan {
         return std::max(earliestNs, startNs + roundedNs(sinceStart));
     }
 
-    /// The same for a fraction that is not below 0; inline, because it runs for each grain.
-    std::int64_t laterNs(double fraction) const noexcept {
+    /// timeNs() of a fraction that is not below 0; inline, because it runs for each grain.
+    std::int64_t timeNsAfterStart(double fraction) const noexcept {
         const double sinceStart = fraction * static_cast<double>(endNs - startNs);
         const auto whole = static_cast<std::int64_t>(sinceStart);
         return startNs + whole + (sinceStart - static_cast<double>(whole) >= 0.5 ? 1 : 0);
@@ -76,24 +76,24 @@ struct StepSpan {
         constexpr double restingSteps = 1.5;
         const double g = static_cast<double>(gravityMetresPerSecond2.length()) *
                          std::abs(static_cast<double>(gravityScale));
-        return std::max(leastMetresPerSecond, restingSteps * g * seconds());
+        return std::max(minThresholdMetresPerSecond, restingSteps * g * seconds());
     }
     /// Approach speed from which surfaces collide: two thirds of the threshold. With a restitution of 0.5
     /// that gives just the threshold, and it is what a resting body may gain in a step.
-    double leastApproach(float gravityScale) const noexcept {
+    double minApproachMetresPerSecond(float gravityScale) const noexcept {
         return thresholdMetresPerSecond(gravityScale) / 1.5;
     }
 
     /// N s that change the lighter body's velocity by the threshold.
-    double leastNewtonSeconds(double lighterMassKg, float gravityScale) const noexcept {
+    double minNewtonSeconds(double lighterMassKg, float gravityScale) const noexcept {
         return thresholdMetresPerSecond(gravityScale) * lighterMassKg;
     }
     /// True if an impulse is at least that.
-    static bool isStrike(double newtonSeconds, double leastNewtonSeconds) noexcept {
-        return newtonSeconds > 0.0 && newtonSeconds >= leastNewtonSeconds;
+    static bool isImpact(double newtonSeconds, double minNewtonSeconds) noexcept {
+        return newtonSeconds > 0.0 && newtonSeconds >= minNewtonSeconds;
     }
-    bool isStrike(double newtonSeconds, double lighterMassKg, float gravityScale) const noexcept {
-        return isStrike(newtonSeconds, leastNewtonSeconds(lighterMassKg, gravityScale));
+    bool isImpact(double newtonSeconds, double lighterMassKg, float gravityScale) const noexcept {
+        return isImpact(newtonSeconds, minNewtonSeconds(lighterMassKg, gravityScale));
     }
 };
 
@@ -111,14 +111,15 @@ struct Collision {
     double expectedNewtonSeconds = 0.0; // estimate from approach speed and lighter mass, before the solver
     BodyMotion motionA, motionB;        // before the solver; these two for `release` timing, which is planar
     Vector2 armA, armB;                 // from the centre of mass to the point
-    double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, of the parts that met, summed over the solver
-                                                         // passes of the step
-    Vector3 frictionNewtonSeconds; // of engines that report it as a vector, instead of tangentialImpulse
+    double normalNewtonSeconds = 0.0, tangentialNewtonSeconds = 0.0; // N s, of the parts that met, summed
+                                                                     // over the solver passes of the step
+    Vector3 frictionNewtonSeconds; // of engines that report it as a vector, instead of
+                                   // tangentialNewtonSeconds
 
     double impulse() const noexcept {
         // hypot of a 0 is exact, so a world in the plane keeps its bits
         const auto friction = static_cast<double>(frictionNewtonSeconds.length());
-        return portable::hypot(normalImpulse, portable::hypot(tangentialImpulse, friction));
+        return portable::hypot(normalNewtonSeconds, portable::hypot(tangentialNewtonSeconds, friction));
     }
 };
 
@@ -132,7 +133,7 @@ struct ContactEnd {
 
 /// An impact that a haptic source received: |J_i| of Eq. 5.4, time and place.
 struct Impact {
-    std::int32_t camera; // slot of the haptic source
+    std::int32_t source; // slot of the haptic source
     std::int32_t other;  // slot of the fixture that touches it there, or FixtureTable::none
     std::int64_t timeNs;
     double newtonSeconds;

@@ -60,7 +60,7 @@ struct ImpactSettings {
 };
 
 /// The error of a setting, with what was expected; empty if all are valid. Any thread.
-std::string_view faultOf(const ImpactSettings& settings) noexcept;
+std::string_view errorOf(const ImpactSettings& settings) noexcept;
 
 /// Eq. 5.4 with a drive gain, which raises a scene to the level of its actuators.
 struct ImpactModel {

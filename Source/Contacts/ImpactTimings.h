@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From collisions to impacts, at their onset or, as in the thesis, at their release.
+// From collisions to impacts, at their onset (OnsetImpacts) or, as in the thesis, at their release
+// (ReleaseImpacts); which collisions cause a transmitted impact (ImpactCauses).
 #pragma once
-#include "Contacts/CollisionCatcher.h"
+#include "Contacts/CollisionRecorder.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
@@ -15,47 +16,47 @@ struct HardCollision {
     std::int32_t a, b, pair; // slots, and the number of their pair
     std::int64_t timeNs;
     double newtonSeconds;
-    double aftermath = 0.0; // N s that the pair added in the next step
+    double aftermathNewtonSeconds = 0.0; // N s that the pair added in the next step
     std::int32_t componentA = 0, componentB = 0;
     std::int32_t nextA = SlotMap::none, nextB = SlotMap::none; // the next weaker collision of the same slot
 };
 
-/// Sums are kept per component of the graph, so that a query costs the same however many collisions there
-/// are: a shaken box of haptic sources has hundreds of collisions and a thousand queries per step. World
-/// thread (M) only.
-class StrikeCauses {
+/// Collisions that may cause transmitted impacts, summed per component of the graph. So a query costs the
+/// same however many there are: a shaken box of haptic sources has hundreds of collisions and a thousand
+/// queries per step. World thread (M) only.
+class ImpactCauses {
 public:
-    StrikeCauses();
+    ImpactCauses();
 
-    struct Found {
-        const HardCollision* strongest = nullptr;    // nullptr: none
-        double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
+    struct CauseSum {
+        const HardCollision* strongest = nullptr;                 // nullptr: none
+        double newtonSeconds = 0.0, aftermathNewtonSeconds = 0.0; // of all of them
     };
-    void clear() noexcept { strikes_.clear(); }
-    void add(const HardCollision& strike);
-    bool isEmpty() const noexcept { return strikes_.empty(); }
+    void clear() noexcept { collisions_.clear(); }
+    void add(const HardCollision& collision);
+    bool isEmpty() const noexcept { return collisions_.empty(); }
 
     /// Reads what the pairs added in the next step, after which the graph has changed.
-    void follow(const CollisionCatcher& catcher);
+    void addAftermath(const CollisionRecorder& recorder);
 
     /// Sum and strongest of the collisions that reach a haptic source in the present graph, without its own.
-    /// The first query after add() or follow() visits each collision. Valid until the next.
-    const Found& find(std::int32_t camera, ContactGraph& graph) {
-        if (strikes_.empty()) return around_ = {};
-        prepare(graph, camera + 1);
-        return findPrepared(camera, graph);
+    /// The first query after add() or addAftermath() visits each collision. Valid until the next.
+    const CauseSum& find(std::int32_t source, ContactGraph& graph) {
+        if (collisions_.empty()) return sourceSum_ = {};
+        prepare(graph, source + 1);
+        return findPrepared(source, graph);
     }
-    /// The same for many sources, below `slots`, if there are collisions.
+    /// Call before findPrepared() for sources below `slots`; only if there are collisions.
     void prepare(ContactGraph& graph, std::int32_t slots) {
         graph.prepare(slots);
         if (!isLocated_) locate(graph);
     }
-    const Found& findPrepared(std::int32_t camera, ContactGraph& graph) {
-        const std::int32_t component = graph.preparedComponent(camera);
-        if (component == ContactGraph::noComponent || struck_.find(camera) != SlotMap::none)
-            return findAround(camera, graph);
+    const CauseSum& findPrepared(std::int32_t source, ContactGraph& graph) {
+        const std::int32_t component = graph.preparedComponent(source);
+        if (component == ContactGraph::noComponent || ownCollisions_.find(source) != SlotMap::none)
+            return findAtSource(source, graph);
         const std::int32_t at = sumOf_.find(component); // the usual case
-        return at == SlotMap::none ? around_ = {} : sums_[static_cast<std::size_t>(at)];
+        return at == SlotMap::none ? sourceSum_ = {} : sums_[static_cast<std::size_t>(at)];
     }
 
     /// The slot is freed or reassigned: drops its collisions.
@@ -63,17 +64,17 @@ public:
 
 private:
     void locate(ContactGraph& graph);
-    const Found& findAround(std::int32_t camera, ContactGraph& graph);
-    void sum(std::int32_t component, std::size_t strike);
-    bool isReached(const HardCollision& strike) const noexcept;
+    const CauseSum& findAtSource(std::int32_t source, ContactGraph& graph);
+    void addToSum(std::int32_t component, std::size_t collision);
+    bool isReached(const HardCollision& collision) const noexcept;
 
-    std::vector<HardCollision> strikes_; // sorted by strength once located
-    std::vector<Found> sums_;
+    std::vector<HardCollision> collisions_; // sorted by strength once located
+    std::vector<CauseSum> sums_;
     bool isLocated_ = false;
     SlotMap sumOf_;                     // by component
-    SlotMap struck_;                    // the strongest of a slot's own collisions
+    SlotMap ownCollisions_;             // the strongest of a slot's own collisions
     std::vector<std::int32_t> reached_; // components at the current source
-    Found around_;                      // the last that was looked for, or none
+    CauseSum sourceSum_;                // result of the last findAtSource(), or none
 };
 
 /// `onset` timing: from the solver's impulses, when a contact begins. A haptic source that takes part in a
@@ -86,7 +87,7 @@ private:
 /// collisions and transmitted impulses, not with the size of the world. World thread (M).
 class OnsetImpacts {
 public:
-    OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
+    OnsetImpacts(CollisionRecorder& recorder, const FixtureTable& table, ContactGraph& graph);
 
     /// Appends the impacts that the step, now settled, has completed.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
@@ -98,40 +99,41 @@ public:
     void shift(Vector2 by) noexcept;
 
     /// Completes what a haptic source has received so far, because it is about to be destroyed.
-    void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
+    void finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const;
 
-    /// The slot is freed or reassigned. Impacts that it caused at others stay, unless `withdraws`.
-    void forget(std::int32_t slot, bool withdraws) noexcept;
+    /// The slot is freed or reassigned. Impacts that it caused at others stay, unless `dropsCaused`.
+    void forget(std::int32_t slot, bool dropsCaused) noexcept;
 
 private:
-    struct HandedOn {
-        std::int32_t camera;
-        std::int64_t timeNs;        // of the strongest cause
-        std::int32_t a, b;          // the slots of that cause
-        double causedNewtonSeconds; // by all causes
-        ChainLoads::Passed passed;  // in the first step
-        Vector3 point;              // there
+    struct TransmittedImpact {
+        std::int32_t source;
+        std::int64_t timeNs;                       // of the strongest cause
+        std::int32_t a, b;                         // the slots of that cause
+        double causedNewtonSeconds;                // by all causes
+        TransmittedImpulses::Transmitted received; // in the first step
+        Vector3 point;                             // of the contact that transmitted most, world
     };
-    void strike(const StepSpan& span, std::vector<Impact>& impacts);
-    void complete(const StepSpan& span, std::vector<Impact>& impacts);
+    void addDirect(const StepSpan& span, std::vector<Impact>& impacts);
+    void completePending(const StepSpan& span, std::vector<Impact>& impacts);
     void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
-    struct Limit { // of an impulse that is an impact
+    struct Limit { // smallest impulse that is an impact, by mass and gravity
         double lighterMassKg;
         float gravityScale;
     };
-    Limit limitOf(std::int32_t slot, const ChainLoads::Passed& main) const noexcept;
-    bool isWhole(double newtonSeconds, const ChainLoads::Passed& main, double least) const noexcept;
+    Limit limitOf(std::int32_t slot, const TransmittedImpulses::Transmitted& mainPart) const noexcept;
+    bool isImpact(double newtonSeconds, const TransmittedImpulses::Transmitted& mainPart,
+                  double minImpulse) const noexcept;
     template <class Later>
-    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
-                  std::vector<Impact>& impacts) const;
-    void begin();
+    void complete(const TransmittedImpact& transmitted, const TransmittedImpulses::Transmitted& now,
+                  Later later, const StepSpan& span, std::vector<Impact>& impacts) const;
+    void beginTransmitted();
 
-    CollisionCatcher& catcher_;
+    CollisionRecorder& recorder_;
     const FixtureTable& table_;
     ContactGraph& graph_;
-    StrikeCauses strikes_, before_; // of this step and of the last
-    std::vector<HandedOn> waiting_; // pending until the next step
-    SlotMap isUsed_;                // sources whose impulse of this step has been used
+    ImpactCauses causes_, lastCauses_;       // of this step and of the last
+    std::vector<TransmittedImpact> pending_; // pending until the next step
+    SlotMap usedSources_;                    // sources whose impulse of this step has been used
 };
 
 /// `release` timing, as in the thesis: from the velocities before a contact and at its end. Eq. 5.2 and 5.3:
@@ -146,7 +148,7 @@ class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
 
-    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph,
+    ReleaseImpacts(const CollisionRecorder& recorder, const FixtureTable& table, ContactGraph& graph,
                    const BodyReader& bodies);
 
     /// Appends the impacts of contacts that ended or expired in a settled step.
@@ -154,73 +156,73 @@ public:
 
     /// Drops pending impacts.
     void reset() noexcept {
-        strikes_.clear();
-        before_.clear();
+        pending_.clear();
+        lastCauses_.clear();
     }
 
     /// The world's origin has moved: shifts all places by this.
     void shift(Vector2 by) noexcept {
-        for (Strike& strike : strikes_) strike.point += by;
+        for (PendingImpact& pending : pending_) pending.point += by;
     }
 
     /// Ends a contact outside a step.
-    void cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts);
+    void endOutsideStep(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts);
 
     /// Completes what a haptic source has received so far, because it is about to be destroyed.
-    void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
+    void finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const;
 
     /// The slot is freed or reassigned. A destroyed source gets no impacts; a source whose partner is
-    /// destroyed keeps what it received so far, unless `withdraws`.
-    void forget(std::int32_t slot, bool withdraws) noexcept;
+    /// destroyed keeps what it received so far, unless `dropsCaused`.
+    void forget(std::int32_t slot, bool dropsCaused) noexcept;
 
     /// Impacts dropped so far because the buffer was full.
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:
-    struct Strike {
-        std::int32_t camera, other; // slots; other: none once it is destroyed
+    struct PendingImpact {
+        std::int32_t source, other; // slots; other: none once it is destroyed
         std::int32_t a, b;          // the contact
         std::int32_t order;         // of its beginning within the step; in earlier steps: -1
-        bool isDirect, isOver;
+        bool isDirect, hasEnded;
         std::int64_t beginNs;
         Vector3 point;
         Vector2 arm; // from the centre of mass to the point, -l of Eq. 5.3
         BodyMotion start;
         double lighterMassKg;
         float gravityScale;
-        Vector2 gained{};                 // N s, from the bodies that touch an immovable source
+        Vector2 gainedMomentum{};         // N s, from the bodies that touch an immovable source
         double causedNewtonSeconds = 0.0; // of a transmitted impact: the sum of all connected collisions so
                                           // far
     };
     void open(const StepSpan& span);
     void openDirect(const Collision& collision, const StepSpan& span);
-    void openHandedOn(std::int32_t camera, const StepSpan& span);
+    void openTransmitted(std::int32_t source, const StepSpan& span);
     void findCauses(const StepSpan& span);
     bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;
-    void push(const Strike& strike);
-    void follow();
-    void followCauses();
-    Vector2 gain(std::int32_t camera);
-    Vector2 gainOf(std::int32_t slot);
+    void push(const PendingImpact& pending);
+    void addMomentumChanges();
+    void addCausedImpulses();
+    Vector2 momentumChange(std::int32_t source);
+    Vector2 momentumChangeOf(std::int32_t slot);
     void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
-    template <class Choice>
-    void release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Choice choice);
+    template <class Filter>
+    void release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Filter filter);
     void expire(const StepSpan& span, std::vector<Impact>& impacts);
-    void finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs, const StepSpan& span,
-                std::vector<Impact>& impacts) const;
-    Vector2 impulse(const Strike& strike, const BodyMotion& end) const;
+    void finish(const PendingImpact& pending, const BodyMotion& end, std::int64_t timeNs,
+                const StepSpan& span, std::vector<Impact>& impacts) const;
+    Vector2 impulse(const PendingImpact& pending, const BodyMotion& end) const;
 
-    const CollisionCatcher& catcher_;
+    const CollisionRecorder& recorder_;
     const FixtureTable& table_;
     ContactGraph& graph_;
     const BodyReader& bodies_;
-    std::vector<Strike> strikes_;
-    static constexpr std::int32_t handedOn = 0, direct = 1;
-    SlotMap underWay_;                  // whether a source has a transmitted or a direct impact pending
-    SlotMap isStruckA_, isStruckB_;     // slots of pending impacts, whose contacts' ends matter
+    std::vector<PendingImpact> pending_;
+    static constexpr std::int32_t transmitted = 0, direct = 1;
+    SlotMap pendingKindOf_;             // whether a source has a transmitted or a direct impact pending
+    SlotMap struckA_, struckB_;         // slots of pending impacts, whose contacts' ends matter
     std::vector<double> impulses_;      // of this step's collisions
     SlotMap strongestOf_;               // strongest collision by component
-    StrikeCauses causes_, before_;      // of this step and of the last
+    ImpactCauses causes_, lastCauses_;  // of this step and of the last
     std::vector<std::int32_t> reached_; // components at the current source
     IntegerMap counted_;                // by body: the last sum in which it was counted
     std::int32_t sums_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps from numbers to indices, for lookups inside contact callbacks.
+// Maps from numbers to indices (IntegerMap, SlotMap) and a filter of numbers, for use in contact callbacks.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -151,19 +151,20 @@ private:
 /// A counting hash filter in the first-level cache. Never returns false for a number that was added; returns
 /// true for others with a probability that grows with the set. Counts how often a number was added. One
 /// thread at a time.
-class NameSketch {
+class CountingFilter {
 public:
-    void add(std::uint64_t name) noexcept { ++counts_[place(name)]; }
+    void add(std::uint64_t number) noexcept { ++counts_[place(number)]; }
 
     /// Removes a number that was added.
-    void remove(std::uint64_t name) noexcept { --counts_[place(name)]; }
+    void remove(std::uint64_t number) noexcept { --counts_[place(number)]; }
 
-    bool mayHave(std::uint64_t name) const noexcept { return counts_[place(name)] != 0; }
+    bool mayContain(std::uint64_t number) const noexcept { return counts_[place(number)] != 0; }
 
 private:
     static constexpr int bits = 11;
-    static constexpr std::size_t place(std::uint64_t name) noexcept {
-        return static_cast<std::size_t>((name * 0x9E3779B97F4A7C15U) >> (64 - bits)); // hash as in IntegerMap
+    static constexpr std::size_t place(std::uint64_t number) noexcept {
+        return static_cast<std::size_t>((number * 0x9E3779B97F4A7C15U) >> (64 - bits)); // hash as in
+                                                                                        // IntegerMap
     }
 
     std::array<std::uint16_t, std::size_t{1} << bits> counts_{}; // enough for a hundred million numbers

@@ -11,9 +11,9 @@
 #endif
 
 namespace physvib {
-/// The results of FaceRuns, as arrays with one number per point.
+/// The results of FaceMotion, as arrays with one number per point.
 struct FaceMoves {
-    std::array<double, faceLanes> metres, speed, slip;
+    std::array<double, faceLanes> faceMetres, faceMetresPerSecond, slipMetresPerSecond;
     std::array<float, faceLanes> x, y, xMetresPerSecond, yMetresPerSecond;
 };
 } // namespace physvib
@@ -61,55 +61,57 @@ LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
 
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
-    follow(span.seconds());
-    const Taker list{
+    computePassages(span.seconds());
+    const ImpactSink list{
         [](void* to, const Impact& impact) { static_cast<std::vector<Impact>*>(to)->push_back(impact); },
         &impacts};
     for (const Passage& passage : std::span{passages_.data(), passageCount_})
-        if (const GrainGap* gap = nullptr; passage.every > 0 && !stays(passage, span.seconds(), gap))
-            passEach(passage, span, gap, list);
+        if (const GrainGap* gap = nullptr; passage.every > 0 && !staysInGap(passage, span.seconds(), gap))
+            addGrainImpacts(passage, span, gap, list);
 }
 
-// Does what pass() does, one grain after the other, for passages that a run cannot have.
-void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
-                               Taker taker) {
-    Told& told = *passage.told;
+// As pass(), but one grain after the other: for passages that cannot become a run.
+void LastingContacts::addGrainImpacts(const Passage& passage, const StepSpan& span, const GrainGap* gap,
+                                      ImpactSink sink) {
+    TrackedPoint& tracked = *passage.tracked;
     const SurfaceMotion motion = passage.motion(span.seconds());
-    const LastingPoint& point = told.point;
-    const KnownFixture& surface = table_[passage.surface];
+    const LastingPoint& point = tracked.point;
+    const FixtureEntry& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
-    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
-    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
+    const bool isSourceA = table_.isSource(point.a), isSourceB = table_.isSource(point.b);
+    const std::int32_t source = isSourceA ? point.a : point.b, other = isSourceA ? point.b : point.a;
     struct Constants {
         double power, perSecond, backSeconds, slipping, perSpeed, rolling;
         Vector3 from, velocity;
-    } of; // computed at the first grain: many points pass none
+    } constants; // computed at the first grain: many points pass none
     std::size_t passed = 0;
-    told.gap = grains.along(
+    tracked.gap = grains.visit(
         motion, passage.every, gap, [&](std::int64_t index, double t) __attribute__((always_inline)) {
             if (passed++ == 0)
-                of = {std::sqrt(static_cast<double>(passage.every)),
-                      1.0 / motion.seconds,
-                      1.5 * motion.seconds,
-                      std::abs(point.slipMetresPerSecond),
-                      grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
-                      texture.rolling,
-                      point.point,
-                      point.metresPerSecond};
+                constants = {std::sqrt(static_cast<double>(passage.every)),
+                             1.0 / motion.seconds,
+                             1.5 * motion.seconds,
+                             std::abs(point.slipMetresPerSecond),
+                             grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
+                             texture.rolling,
+                             point.point,
+                             point.velocity};
             const double speed = std::abs(motion.speedAt(t));
-            if (speed < leastMetresPerSecond || !(isFeltByA || isFeltByB)) return;
-            const double slip = std::min(speed, of.slipping);
-            const Impact grain{one,
+            if (speed < minMetresPerSecond || !(isSourceA || isSourceB)) return;
+            const double slip = std::min(speed, constants.slipping);
+            const Impact grain{source,
                                other,
-                               span.laterNs(t * of.perSecond),
-                               of.power * grains.strengthOf(index) *
-                                   (of.perSpeed * (slip + of.rolling * (speed - slip))),
-                               of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
+                               span.timeNsAfterStart(t * constants.perSecond),
+                               constants.power * grains.strengthOf(index) *
+                                   (constants.perSpeed * (slip + constants.rolling * (speed - slip))),
+                               constants.from +
+                                   static_cast<float>(t - constants.backSeconds) * constants.velocity,
                                slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
-            taker.add(taker.to, grain);
-            if (isFeltByA && isFeltByB) // by turns, which matters where there is no room for all
-                taker.add(taker.to, {other, one, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
+            sink.add(sink.to, grain);
+            if (isSourceA && isSourceB) // in turn, which matters if there is no room for all
+                sink.add(sink.to,
+                         {other, source, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
         });
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
 }
@@ -132,13 +134,13 @@ void LastingContacts::computeFaces(LastingContacts& all) {
         PHYSVIB_LANES(moveFaces)(&all.faces_[first], moves);
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
             const FacePoint& of = all.faces_[first + i];
-            const SurfacePath face{moves.metres[i], moves.speed[i]},
+            const SurfacePath face{moves.faceMetres[i], moves.faceMetresPerSecond[i]},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
             if (!isNear(face) || (of.isDiscRough && !isNear(other))) continue;
-            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds), moves.slip[i],
-                     Vector2{moves.x[i], moves.y[i]},
+            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
+                     moves.slipMetresPerSecond[i], Vector2{moves.x[i], moves.y[i]},
                      Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
-                     of.isTurned ? other : face, of.isTurned ? face : other},
+                     of.isFaceOfB ? other : face, of.isFaceOfB ? face : other},
                     of.pairsKey);
         }
     }
@@ -146,13 +148,13 @@ void LastingContacts::computeFaces(LastingContacts& all) {
 
 /// Adds the point's passage along a surface.
 template <SurfacePath LastingPoint::*path>
-inline void LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
-    const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
+inline void LastingContacts::addPassage(TrackedPoint& tracked, std::int32_t surface, double seconds) {
+    const double newtons = pairs_[tracked.pair].steadyShare * tracked.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const SurfacePath to = told.point.*path, from = told.before != StepMemory<Told>::none
-                                                        ? points_.before(told.before).point.*path
-                                                        : SurfacePath{unknown, unknown};
+    const SurfacePath to = tracked.point.*path, from = tracked.before != StepRecords<TrackedPoint>::none
+                                                           ? points_.before(tracked.before).point.*path
+                                                           : SurfacePath{unknown, unknown};
     passages_[passageCount_++] = {from.metres,
                                   from.metresPerSecond,
                                   to.metres,
@@ -161,71 +163,73 @@ inline void LastingContacts::follow(Told& told, std::int32_t surface, double sec
                                   table_[surface].values.texture.grainMetres,
                                   0.0,
                                   0.0,
-                                  &told,
+                                  &tracked,
                                   surface,
                                   1};
 }
 
 // Finds what each point passes in the step, and thins the grains of all points together.
-void LastingContacts::follow(double seconds) {
+void LastingContacts::computePassages(double seconds) {
     passageCount_ = 0;
-    compute();
-    if (!hasHeard()) return;
-    if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
-    for (Pair& pair : pairs_.now()) weigh(pair, seconds);
-    if (const std::size_t most = 2 * points_.count() + 3; passages_.size() < most) passages_.resize(most);
-    for (Told& told : points_.now()) {
-        if (table_.isRough(told.point.a)) follow<&LastingPoint::onA>(told, told.point.a, seconds);
-        if (table_.isRough(told.point.b)) follow<&LastingPoint::onB>(told, told.point.b, seconds);
+    computePending();
+    if (!hasReports()) return;
+    if (!(seconds > 0.0) || seconds > longestStepSeconds) return dropStep();
+    for (Pair& pair : pairs_.now()) updateLoad(pair, seconds);
+    if (const std::size_t slots = 2 * points_.count() + 3; passages_.size() < slots) passages_.resize(slots);
+    for (TrackedPoint& tracked : points_.now()) {
+        if (table_.isRough(tracked.point.a))
+            addPassage<&LastingPoint::onA>(tracked, tracked.point.a, seconds);
+        if (table_.isRough(tracked.point.b))
+            addPassage<&LastingPoint::onB>(tracked, tracked.point.b, seconds);
     }
     PHYSVIB_LANES(moveAlong)(&passages_.data()->startMetres, sizeof(Passage), passageCount_, seconds);
     double grains = 0.0;
     for (Passage& passage : std::span{passages_.data(), passageCount_}) {
         const double fastest = std::abs(passage.fastest), perSecond = fastest / passage.grainMetres;
-        if (fastest < leastMetresPerSecond) {
+        if (fastest < minMetresPerSecond) {
             passage.every = 0;
             continue;
         }
-        if (perSecond > mostPerSecond) {
+        if (perSecond > maxGrainsPerSecond) {
             const std::uint64_t every =
-                std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond)));
+                std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / maxGrainsPerSecond)));
             passage.every = static_cast<std::int64_t>(every);
             passage.grains /= static_cast<double>(passage.every);
         }
         grains += passage.grains;
     }
-    const double most = mostTogetherPerSecond * seconds;
-    if (!(grains > most)) return;
-    const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
+    const double allowed = maxTotalGrainsPerSecond * seconds;
+    if (!(grains > allowed)) return;
+    const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / allowed)));
     for (Passage& passage : std::span{passages_.data(), passageCount_})
         passage.every *= static_cast<std::int64_t>(times);
 }
 
-void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
+void LastingContacts::updateLoad(Pair& pair, double seconds) const noexcept {
     pair.newtons = pair.newtonSeconds / seconds;
-    pair.steadyShare = pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)
+    pair.steadyShare = pair.before == StepRecords<Pair>::none || !(pair.newtons > 0.0)
                            ? 0.0
                            : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
 void LastingContacts::endStep() {
-    compute();
+    computePending();
     points_.endStep();
     pairs_.endStep();
 }
 
-void LastingContacts::forgetStep() noexcept {
-    points_.forgetStep();
-    pairs_.forgetStep();
+void LastingContacts::dropStep() noexcept {
+    points_.dropStep();
+    pairs_.dropStep();
 }
 
 void LastingContacts::forget(std::int32_t slot) {
-    compute();
-    points_.changeAll([slot](Told& told) {
-        if (told.point.a != slot && told.point.b != slot) return;
-        told.point.onA.metres = told.point.onB.metres = farMetres; // so that a new contact at this key counts
-                                                                   // as a jump
-        told.point.normalNewtonSeconds = 0.0; // so that this step's points give no impacts
+    computePending();
+    points_.changeAll([slot](TrackedPoint& tracked) {
+        if (tracked.point.a != slot && tracked.point.b != slot) return;
+        tracked.point.onA.metres = tracked.point.onB.metres = farMetres; // so that a new contact at this key
+                                                                         // counts as a jump
+        tracked.point.normalNewtonSeconds = 0.0; // so that this step's points give no impacts
     });
 }
 

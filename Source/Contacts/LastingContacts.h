@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rolling and sliding: an impact per grain that a point passes (LastingContacts); StepMemory matches steps.
+// Rolling and sliding: an impact per grain that a point passes (LastingContacts); StepRecords matches steps.
 #pragma once
 #include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
@@ -25,11 +25,11 @@ namespace physvib {
 /// `none`. Records are reused without being cleared: the caller sets the other members of a new one.
 /// Allocates when a step has more records than any before. One thread at a time.
 template <class Record>
-class StepMemory {
+class StepRecords {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
     /// The index of the record in this step. At the first report in this step it is new: count() grows.
-    [[gnu::always_inline]] std::int32_t tell(std::uint64_t key) {
+    [[gnu::always_inline]] std::int32_t findOrAdd(std::uint64_t key) {
         Record& before = before_[next_]; // behind the last one: without a key
         if (before.key != key || before.now != none) [[unlikely]]
             return search(key);
@@ -56,7 +56,7 @@ public:
     }
 
     /// Drops this step's records.
-    void forgetStep() noexcept {
+    void dropStep() noexcept {
         for (std::size_t i = 0; i < countBefore_; ++i) before_[i].now = none;
         clear();
     }
@@ -89,10 +89,10 @@ private:
 
     [[gnu::always_inline]] std::int32_t add(std::uint64_t key, std::int32_t& now, std::int32_t before) {
         if (count_ == capacity_) grow();
-        Record& made = now_[count_];
-        made.key = key;
-        made.now = none;
-        made.before = before;
+        Record& record = now_[count_];
+        record.key = key;
+        record.now = none;
+        record.before = before;
         return now = static_cast<std::int32_t>(count_++);
     }
     [[gnu::noinline]] void grow() {
@@ -158,7 +158,7 @@ struct LastingPoint {
     double normalNewtonSeconds = 0.0;
     double slipMetresPerSecond = 0.0; ///< of one surface relative to the other
     Vector3 point;                    ///< world, at the end of the step
-    Vector3 metresPerSecond;          ///< of the contact point itself
+    Vector3 velocity;                 ///< of the contact point itself
     SurfacePath onA, onB;
 };
 
@@ -171,12 +171,12 @@ struct LastingPoint {
 class LastingContacts {
 public:
     /// Slower contacts count as resting.
-    static constexpr double leastMetresPerSecond = 0.01;
+    static constexpr double minMetresPerSecond = 0.01;
     /// More grains per second than this are thinned to every second, fourth, eighth... grain, amplified by
     /// the square root: equal power at bounded cost.
-    static constexpr double mostPerSecond = 2000.0;
+    static constexpr double maxGrainsPerSecond = 2000.0;
     /// Limit for all points together, which are thinned alike, so that a rattling heap has bounded cost.
-    static constexpr double mostTogetherPerSecond = 50'000.0;
+    static constexpr double maxTotalGrainsPerSecond = 50'000.0;
     static constexpr double longestStepSeconds = 0.1; ///< longer steps are not tracked: the motion within is
                                                       ///< not known
 
@@ -192,24 +192,23 @@ public:
         return traits == (FixtureTable::source | FixtureTable::rough);
     }
 
-    /// Only paths along rough surfaces are used.
-    bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); }
+    bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); } ///< else paths are unused
 
     /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
     void touch(const LastingPoint& point) { touch(point, pairKey(point.a, point.b)); }
-    /// The same where the pair's key is known.
+    /// The same with the pair's key, which the caller has.
     void touch(const LastingPoint& point, std::uint64_t pairsKey) {
-        compute();
+        computePending();
         if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
     }
-    /// The same for a point on a face: the caller fills it in; its motion is computed later, four at once.
+    /// Reports a point on a face: the caller fills it in; its motion is computed later, four at once.
     [[gnu::always_inline]] FacePoint& touchFace() {
         if (faceCount_ == faces_.size()) [[unlikely]]
-            compute();
+            computePending();
         computeFaces_ = &computeFaces; // so that programs without faces do not have it
         return faces_[faceCount_++];
     }
-    bool hasHeard() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
+    bool hasReports() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
 
     /// Reserves memory for the usual number of points; call it when a surface becomes rough.
     void reserve() {
@@ -220,10 +219,10 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same, passed to `maker.add(impact)`, or to `maker` as runs of grains, without a list in between.
+    /// As collect(), but passes impacts to `maker.add(impact)`, or runs of grains to `maker`, without a list.
     template <class Maker>
-    void collectFor(const StepSpan& span, Maker& maker) {
-        follow(span.seconds());
+    void collectInto(const StepSpan& span, Maker& maker) {
+        computePassages(span.seconds());
         if (passageCount_ == 0) return;
         Runs runs;
         runs.seconds = span.seconds();
@@ -235,24 +234,24 @@ public:
             if (passage.every > 0) pass(passage, span, runs, maker);
         flush(runs, maker);
     }
-    void endStep();
+    void endStep(); ///< After collect(): this step's points become those of the last.
 
-    /// The slot is freed or reassigned.
+    /// The slot is freed or reassigned: its points count as new.
     void forget(std::int32_t slot);
-    void reset() noexcept;
+    void reset() noexcept; ///< Forgets all points.
 
     /// Grains left out so far by thinning; the remaining ones carry their power.
     std::uint64_t thinned() const noexcept { return thinned_; }
 
 private:
-    static constexpr std::size_t mostPoints = 4096; // per step; denser contacts are noise to the touch
-    static constexpr double farMetres = 1.0e9;      // beyond it a double cannot resolve grains
+    static constexpr std::size_t maxPoints = 4096; // per step; denser contacts are noise to the touch
+    static constexpr double farMetres = 1.0e9;     // beyond it a double cannot resolve grains
 
-    struct Told {
+    struct TrackedPoint {
         std::uint64_t key = 0;
-        std::int32_t now = 0, before = 0, pair = 0; // as StepMemory needs them; index into pairs_
+        std::int32_t now = 0, before = 0, pair = 0; // as StepRecords needs them; index into pairs_
         LastingPoint point;
-        std::int32_t inGapOf = 0; // slot of the surface of what follows; none: unknown
+        std::int32_t gapSurface = 0; // slot of the surface of what follows; none: unknown
         std::uint32_t revision = 0;
         std::int64_t every = 0;
         GrainGap gap; // between two grains of that surface, as of that revision: where the point is
@@ -260,8 +259,8 @@ private:
     struct Pair {
         std::uint64_t key = 0;
         std::int32_t now = 0, before = 0;
-        double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
-        double steadyShare = 0.0;                  // of its load: what it had in the last step, 0 to 1
+        double newtonSeconds = 0.0, newtons = 0.0; // impulse and load of all its points in the step
+        double steadyShare = 0.0;                  // share of its load that it had in the last step, 0 to 1
     };
     static std::uint64_t keyOf(std::uint64_t pairsKey, std::uint64_t feature) noexcept {
         std::uint64_t key = pairsKey * 0x9E3779B97F4A7C15U + feature;
@@ -277,7 +276,7 @@ private:
         double startMetres, metresPerSecond, metresPerSecond2, endMetres;
         double loadNewtons, grainMetres, grains; // grains: about so many
         double fastest;                          // m/s; below 0: it reverses
-        Told* told;
+        TrackedPoint* tracked;
         std::int32_t surface; // slot
         std::int64_t every;   // 0: the point is at rest
         SurfaceMotion motion(double seconds) const noexcept {
@@ -285,67 +284,68 @@ private:
         }
     };
 
-    void compute() {
+    void computePending() {
         if (faceCount_ > 0) computeFaces_(*this);
     }
     static void computeFaces(LastingContacts& of);
     [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
-        if (points_.count() == mostPoints || !(point.normalNewtonSeconds >= 0.0)) return;
-        const std::size_t known = points_.count();
-        const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
-        if (points_.count() == known) return;
+        if (points_.count() == maxPoints || !(point.normalNewtonSeconds >= 0.0)) return;
+        const std::size_t countBefore = points_.count();
+        const std::int32_t at = points_.findOrAdd(keyOf(pairsKey, point.feature));
+        if (points_.count() == countBefore) return;
         const std::size_t pairs = pairs_.count();
-        const std::int32_t pairAt = pairs_.tell(pairsKey);
+        const std::int32_t pairAt = pairs_.findOrAdd(pairsKey);
         Pair& pair = pairs_[pairAt];
         if (pairs_.count() != pairs) pair.newtonSeconds = 0.0;
         pair.newtonSeconds += point.normalNewtonSeconds;
-        Told& told = points_[at];
-        told.pair = pairAt;
-        told.point = point;
-        told.inGapOf = FixtureTable::none;
+        TrackedPoint& tracked = points_[at];
+        tracked.pair = pairAt;
+        tracked.point = point;
+        tracked.gapSurface = FixtureTable::none;
     }
-    void follow(double seconds);
+    void computePassages(double seconds);
     template <SurfacePath LastingPoint::*path>
-    [[gnu::always_inline]] void follow(Told& told, std::int32_t surface, double seconds);
-    void weigh(Pair& pair, double seconds) const noexcept;
-    void forgetStep() noexcept;
+    [[gnu::always_inline]] void addPassage(TrackedPoint& tracked, std::int32_t surface, double seconds);
+    void updateLoad(Pair& pair, double seconds) const noexcept;
+    void dropStep() noexcept;
     /// Where the passage's point was between grains of this surface at the end of the last step, if that is
     /// known.
     [[gnu::always_inline]] const GrainGap* gapBefore(const Passage& passage) const noexcept {
-        if (passage.told->before == StepMemory<Told>::none) return nullptr;
-        const Told& before = points_.before(passage.told->before);
-        return before.inGapOf == passage.surface && before.every == passage.every &&
+        if (passage.tracked->before == StepRecords<TrackedPoint>::none) return nullptr;
+        const TrackedPoint& before = points_.before(passage.tracked->before);
+        return before.gapSurface == passage.surface && before.every == passage.every &&
                        before.revision == table_.revision()
                    ? &before.gap
                    : nullptr;
     }
     struct Runs : GrainRuns {
-        std::int32_t surface = FixtureTable::none, camera = FixtureTable::none;
+        std::int32_t surface = FixtureTable::none, source = FixtureTable::none;
         bool isUsed = false; // the maker accepts these as runs
         Grains grains{0, Texture{1.0}};
     };
     template <class Maker>
     [[gnu::noinline]] static void flush(Runs& runs, Maker& maker);
     template <class Maker>
-    [[gnu::noinline]] void begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+    [[gnu::noinline]] void begin(const Passage& passage, std::int32_t source, std::int32_t other, Runs& runs,
                                  Maker& maker);
     /// True if the passage ends between the grains where it begins; else that gap, or null.
-    [[gnu::always_inline]] bool stays(const Passage& passage, double seconds, const GrainGap*& gap) noexcept;
+    [[gnu::always_inline]] bool staysInGap(const Passage& passage, double seconds,
+                                           const GrainGap*& gap) noexcept;
     template <class Maker>
     [[gnu::always_inline]] void pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker);
-    struct Taker {
+    struct ImpactSink {
         void (*add)(void* to, const Impact& impact);
         void* to;
     };
-    [[gnu::noinline]] void passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
-                                    Taker taker);
+    [[gnu::noinline]] void addGrainImpacts(const Passage& passage, const StepSpan& span, const GrainGap* gap,
+                                           ImpactSink sink);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
     std::size_t faceCount_ = 0;
     void (*computeFaces_)(LastingContacts&) = nullptr;
-    StepMemory<Told> points_;
-    StepMemory<Pair> pairs_;
+    StepRecords<TrackedPoint> points_;
+    StepRecords<Pair> pairs_;
     std::vector<Passage> passages_; // the first passageCount_ are in use
     std::size_t passageCount_ = 0;
     std::uint64_t thinned_ = 0;
@@ -355,55 +355,58 @@ template <class Maker>
 void LastingContacts::flush(Runs& runs, Maker& maker) {
     if (runs.count > 0) {
         runs.compute();
-        maker.addAll(runs);
+        maker.addGrains(runs);
     }
     runs.count = runs.runCount = 0;
 }
 
 template <class Maker>
-void LastingContacts::begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+void LastingContacts::begin(const Passage& passage, std::int32_t source, std::int32_t other, Runs& runs,
                             Maker& maker) {
     flush(runs, maker);
-    const KnownFixture& surface = table_[passage.surface];
+    const FixtureEntry& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
     runs.surface = passage.surface;
-    runs.camera = camera;
-    runs.isUsed = maker.prepare(camera, other, runs);
+    runs.source = source;
+    runs.isUsed = maker.prepare(source, other, runs);
     runs.grains = Grains{static_cast<std::uint64_t>(surface.id), texture};
-    runs.grains.describe(runs);
+    runs.grains.configure(runs);
     runs.steepness = grainSlope * texture.roughness;
     runs.rolling = texture.rolling;
 }
 
-inline bool LastingContacts::stays(const Passage& passage, double seconds, const GrainGap*& gap) noexcept {
-    Told& told = *passage.told;
-    told.inGapOf = passage.surface;
-    told.revision = table_.revision();
-    told.every = passage.every;
+inline bool LastingContacts::staysInGap(const Passage& passage, double seconds,
+                                        const GrainGap*& gap) noexcept {
+    TrackedPoint& tracked = *passage.tracked;
+    tracked.gapSurface = passage.surface;
+    tracked.revision = table_.revision();
+    tracked.every = passage.every;
     gap = gapBefore(passage);
-    if (gap == nullptr || passage.grains >= 0.75 || !gap->holds(passage.motion(seconds))) return false;
-    told.gap = *gap; // as of most slow points
+    if (gap == nullptr || passage.grains >= 0.75 || !gap->contains(passage.motion(seconds))) return false;
+    tracked.gap = *gap; // the usual case of slow points
     return true;
 }
 
+/// Adds the grains between the ends of a passage to `runs`, as one run; flushes the runs when they are full.
 template <class Maker>
 inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
     const GrainGap* gap = nullptr;
-    if (stays(passage, runs.seconds, gap)) return;
+    if (staysInGap(passage, runs.seconds, gap)) return;
     const auto passOneByOne = [&] {
         flush(runs, maker);
         runs.surface = FixtureTable::none; // the maker's source or partner may change
-        passEach(passage, span, gap,
-                 {[](void* to, const Impact& impact) { static_cast<Maker*>(to)->add(impact); }, &maker});
+        addGrainImpacts(
+            passage, span, gap,
+            {[](void* to, const Impact& impact) { static_cast<Maker*>(to)->add(impact); }, &maker});
     };
-    Told& told = *passage.told;
-    const LastingPoint& point = told.point;
-    const bool isFeltByA = table_.isCamera(point.a);
-    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
-    if (isFeltByA == table_.isCamera(point.b) || passage.fastest < 0.0) [[unlikely]]
+    TrackedPoint& tracked = *passage.tracked;
+    const LastingPoint& point = tracked.point;
+    const bool isSourceA = table_.isSource(point.a);
+    const std::int32_t source = isSourceA ? point.a : point.b, other = isSourceA ? point.b : point.a;
+    if (isSourceA == table_.isSource(point.b) || passage.fastest < 0.0) [[unlikely]]
         return passOneByOne();
-    if (runs.surface != passage.surface || runs.camera != one) [[unlikely]]
-        begin(passage, one, other, runs, maker);
+    if (runs.surface != passage.surface || runs.source != source) [[unlikely]]
+        begin(passage, source, other, runs, maker);
     if (!runs.isUsed) [[unlikely]]
         return passOneByOne();
     const double end = passage.endMetres;
@@ -411,9 +414,9 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
     const double sign = isUp ? 1.0 : -1.0;
     const std::int64_t step = isUp ? passage.every : -passage.every;
     double behind = 0.0, ahead = 0.0;
-    std::int64_t index = runs.grains.begin(passage.startMetres, isUp, passage.every, gap, behind, ahead);
+    std::int64_t index = runs.grains.findFirst(passage.startMetres, isUp, passage.every, gap, behind, ahead);
     if (sign * (end - ahead) >= 0.0) {
-        if (runs.runCount == GrainRuns::mostRuns) [[unlikely]]
+        if (runs.runCount == GrainRuns::maxRuns) [[unlikely]]
             flush(runs, maker);
         GrainRuns::Run* run = &runs.runs[runs.runCount++];
         run->start = passage.startMetres;
@@ -424,24 +427,24 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
         run->newtons = passage.loadNewtons;
         run->every = static_cast<double>(passage.every);
         run->point = {point.point.x, point.point.y, point.point.z};
-        run->velocity = {point.metresPerSecond.x, point.metresPerSecond.y, point.metresPerSecond.z};
+        run->velocity = {point.velocity.x, point.velocity.y, point.velocity.z};
         run->otherId = maker.idOf(other);
         const std::int64_t first = index;
         std::size_t count = runs.count;
         do {
-            if (count == GrainRuns::mostGrains) [[unlikely]] {
-                const GrainRuns::Run same = *run;
+            if (count == GrainRuns::maxGrains) [[unlikely]] {
+                const GrainRuns::Run copy = *run;
                 runs.count = count;
                 flush(runs, maker);
                 count = 0;
                 run = &runs.runs[runs.runCount++];
-                *run = same;
+                *run = copy;
             }
             behind = ahead;
             runs.metres[count] = ahead;
-            runs.names[count] = runs.grains.nameOf(index);
-            runs.runAt[count++] = static_cast<std::uint32_t>(reinterpret_cast<const char*>(run) -
-                                                             reinterpret_cast<const char*>(runs.runs.data()));
+            runs.keys[count] = runs.grains.keyOf(index);
+            runs.runOffsets[count++] = static_cast<std::uint32_t>(
+                reinterpret_cast<const char*>(run) - reinterpret_cast<const char*>(runs.runs.data()));
             index += step;
             ahead = runs.grains.metresOf(index);
         } while (sign * (end - ahead) >= 0.0);
@@ -450,7 +453,7 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
             thinned_ += static_cast<std::uint64_t>((index - first) / step) *
                         static_cast<std::uint64_t>(passage.every - 1);
     }
-    told.gap = {isUp ? behind : ahead, isUp ? ahead : behind, index, isUp};
+    tracked.gap = {isUp ? behind : ahead, isUp ? ahead : behind, index, isUp};
 }
 
 } // namespace physvib

@@ -1,242 +1,252 @@
 // SPDX-License-Identifier: MIT
-// `onset` timing: direct impacts are finished at once, transmitted ones a step later.
+// `onset` timing: direct impacts are finished at once, transmitted ones, with their causes, a step later.
 #include "Contacts/ImpactTimings.h"
 #include <algorithm>
 #include <utility>
 
 namespace physvib {
-OnsetImpacts::OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
-    : catcher_(catcher)
+OnsetImpacts::OnsetImpacts(CollisionRecorder& recorder, const FixtureTable& table, ContactGraph& graph)
+    : recorder_(recorder)
     , table_(table)
     , graph_(graph) {
-    waiting_.reserve(CollisionCatcher::expectedCollisions);
+    pending_.reserve(CollisionRecorder::expectedCollisions);
 }
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
-    strike(span, impacts);
-    complete(span, impacts);
-    waiting_.clear();
-    begin();
-    std::swap(before_, strikes_);
+    addDirect(span, impacts);
+    completePending(span, impacts);
+    pending_.clear();
+    beginTransmitted();
+    std::swap(lastCauses_, causes_);
 }
 
 void OnsetImpacts::reset() noexcept {
-    waiting_.clear();
-    before_.clear();
+    pending_.clear();
+    lastCauses_.clear();
 }
 
 void OnsetImpacts::shift(Vector2 by) noexcept {
-    for (HandedOn& handedOn : waiting_) handedOn.point += by;
+    for (TransmittedImpact& transmitted : pending_) transmitted.point += by;
 }
 
-void OnsetImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
-    before_.forget(slot);
-    std::erase_if(waiting_, [&](const HandedOn& handedOn) {
-        return handedOn.camera == slot || (withdraws && (handedOn.a == slot || handedOn.b == slot));
+void OnsetImpacts::forget(std::int32_t slot, bool dropsCaused) noexcept {
+    lastCauses_.forget(slot);
+    std::erase_if(pending_, [&](const TransmittedImpact& transmitted) {
+        return transmitted.source == slot ||
+               (dropsCaused && (transmitted.a == slot || transmitted.b == slot));
     });
-    for (HandedOn& handedOn : waiting_)
-        if (handedOn.passed.other == slot) handedOn.passed.other = FixtureTable::none;
+    for (TransmittedImpact& transmitted : pending_)
+        if (transmitted.received.other == slot) transmitted.received.other = FixtureTable::none;
 }
 
-void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
-    strikes_.clear();
-    for (const Collision& collision : catcher_.collisions()) {
+void OnsetImpacts::addDirect(const StepSpan& span, std::vector<Impact>& impacts) {
+    causes_.clear();
+    for (const Collision& collision : recorder_.collisions()) {
         const double impulse = collision.impulse();
-        if (!span.isStrike(impulse, collision.lighterMassKg, collision.gravityScale)) continue;
+        if (!span.isImpact(impulse, collision.lighterMassKg, collision.gravityScale)) continue;
         const std::int64_t timeNs = span.timeNs(collision.fraction);
-        strikes_.add({collision.a, collision.b, collision.pair, timeNs, impulse});
-        if (table_.isCamera(collision.a))
+        causes_.add({collision.a, collision.b, collision.pair, timeNs, impulse});
+        if (table_.isSource(collision.a))
             impacts.push_back({collision.a, collision.b, timeNs, impulse, collision.point});
-        if (table_.isCamera(collision.b))
+        if (table_.isSource(collision.b))
             impacts.push_back({collision.b, collision.a, timeNs, impulse, collision.point});
     }
 }
 
-void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) {
-    before_.follow(catcher_);
-    isUsed_.clear();
-    isUsed_.fit(table_.size());
-    for (const HandedOn& handedOn : waiting_) {
-        isUsed_.mark(handedOn.camera);
-        const auto later = [&] { return before_.find(handedOn.camera, graph_).aftermath; };
-        complete(handedOn, catcher_.loads().passed(handedOn.camera), later, span, impacts);
+void OnsetImpacts::completePending(const StepSpan& span, std::vector<Impact>& impacts) {
+    lastCauses_.addAftermath(recorder_);
+    usedSources_.clear();
+    usedSources_.fit(table_.size());
+    for (const TransmittedImpact& transmitted : pending_) {
+        usedSources_.mark(transmitted.source);
+        const auto later = [&] {
+            return lastCauses_.find(transmitted.source, graph_).aftermathNewtonSeconds;
+        };
+        complete(transmitted, recorder_.loads().transmittedTo(transmitted.source), later, span, impacts);
     }
-    if (!before_.isEmpty()) completeLate(span, impacts);
+    if (!lastCauses_.isEmpty()) completeLate(span, impacts);
 }
 
 // Haptic sources that transmitted impulses of the last step's collisions reach only in this step.
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
-    const double usual = span.thresholdMetresPerSecond(1.0F);
-    before_.prepare(graph_, table_.size());
-    for (const std::int32_t camera : catcher_.loads().receivers()) {
-        if (isUsed_.isMarked(camera)) continue;
-        const StrikeCauses::Found& found = before_.findPrepared(camera, graph_);
+    const double defaultThreshold = span.thresholdMetresPerSecond(1.0F);
+    lastCauses_.prepare(graph_, table_.size());
+    for (const std::int32_t source : recorder_.loads().receivers()) {
+        if (usedSources_.isMarked(source)) continue;
+        const ImpactCauses::CauseSum& found = lastCauses_.findPrepared(source, graph_);
         if (found.strongest == nullptr) continue;
-        isUsed_.mark(camera);
-        const ChainLoads::Passed& now = catcher_.loads().received(camera);
-        const Limit limit = limitOf(camera, now);
+        usedSources_.mark(source);
+        const TransmittedImpulses::Transmitted& now = recorder_.loads().transmittedToReceiver(source);
+        const Limit limit = limitOf(source, now);
         const double threshold =
-            limit.gravityScale == 1.0F ? usual : span.thresholdMetresPerSecond(limit.gravityScale);
-        const double least = threshold * limit.lighterMassKg,
-                     whole = static_cast<double>(now.newtonSeconds.length());
-        if (!isWhole(whole, now, least)) continue;
-        const double impulse = std::min(whole, found.newtonSeconds + found.aftermath);
-        if (StepSpan::isStrike(impulse, least))
-            impacts.push_back({camera, now.other, std::max(span.earliestNs, found.strongest->timeNs), impulse,
-                               catcher_.loads().pointOf(now)});
+            limit.gravityScale == 1.0F ? defaultThreshold : span.thresholdMetresPerSecond(limit.gravityScale);
+        const double minImpulse = threshold * limit.lighterMassKg,
+                     total = static_cast<double>(now.newtonSeconds.length());
+        if (!isImpact(total, now, minImpulse)) continue;
+        const double impulse = std::min(total, found.newtonSeconds + found.aftermathNewtonSeconds);
+        if (StepSpan::isImpact(impulse, minImpulse))
+            impacts.push_back({source, now.other, std::max(span.earliestNs, found.strongest->timeNs), impulse,
+                               recorder_.loads().pointOf(now)});
     }
 }
 
-// Of what a source received, most of it as `main`.
-inline OnsetImpacts::Limit OnsetImpacts::limitOf(std::int32_t slot,
-                                                 const ChainLoads::Passed& main) const noexcept {
-    const FixtureTable::Mobility& camera = table_.mobility(slot);
+// Threshold values of an impulse that a source received, mainly as `mainPart`.
+inline OnsetImpacts::Limit
+OnsetImpacts::limitOf(std::int32_t slot, const TransmittedImpulses::Transmitted& mainPart) const noexcept {
+    const FixtureTable::Mobility& source = table_.mobility(slot);
     const FixtureTable::Mobility& other =
-        main.other == FixtureTable::none ? camera : table_.mobility(main.other);
-    return {std::min(camera.movableMassKg, other.movableMassKg),
-            std::max(camera.gravityScale, other.gravityScale)};
+        mainPart.other == FixtureTable::none ? source : table_.mobility(mainPart.other);
+    return {std::min(source.movableMassKg, other.movableMassKg),
+            std::max(source.gravityScale, other.gravityScale)};
 }
 
-// True if it is an impact; counts what is none although its strongest part would be one.
-inline bool OnsetImpacts::isWhole(double newtonSeconds, const ChainLoads::Passed& main,
-                                  double least) const noexcept {
-    if (StepSpan::isStrike(newtonSeconds, least)) return true;
-    catcher_.tally().handedOn += StepSpan::isStrike(static_cast<double>(main.strongest), least) ? 1 : 0;
+// True for an impact. Otherwise counts it as handed on if its strongest part alone would be one.
+inline bool OnsetImpacts::isImpact(double newtonSeconds, const TransmittedImpulses::Transmitted& mainPart,
+                                   double minImpulse) const noexcept {
+    if (StepSpan::isImpact(newtonSeconds, minImpulse)) return true;
+    recorder_.tally().handedOn +=
+        StepSpan::isImpact(static_cast<double>(mainPart.strongest), minImpulse) ? 1 : 0;
     return false;
 }
 
-// `later` returns the causes' impulse in their second step; called only where that could matter: seldom.
+// `later` returns the causes' impulse in their second step; it is slow, and called for impacts alone.
 template <class Later>
-inline void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
+inline void OnsetImpacts::complete(const TransmittedImpact& transmitted,
+                                   const TransmittedImpulses::Transmitted& now, Later later,
                                    const StepSpan& span, std::vector<Impact>& impacts) const {
-    if (!table_.isCamera(handedOn.camera)) return;
-    const bool isLate = now.strongest > handedOn.passed.strongest;
-    const ChainLoads::Passed& main = isLate ? now : handedOn.passed;
-    const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const Limit limit = limitOf(handedOn.camera, main);
-    const double least = span.leastNewtonSeconds(limit.lighterMassKg, limit.gravityScale);
-    if (!isWhole(whole, main, least)) return;
-    const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
-    if (StepSpan::isStrike(impulse, least))
-        impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse,
-                           isLate ? catcher_.loads().pointOf(now) : handedOn.point});
+    if (!table_.isSource(transmitted.source)) return;
+    const bool isLate = now.strongest > transmitted.received.strongest;
+    const TransmittedImpulses::Transmitted& mainPart = isLate ? now : transmitted.received;
+    const auto total = static_cast<double>((transmitted.received.newtonSeconds + now.newtonSeconds).length());
+    const Limit limit = limitOf(transmitted.source, mainPart);
+    const double minImpulse = span.minNewtonSeconds(limit.lighterMassKg, limit.gravityScale);
+    if (!isImpact(total, mainPart, minImpulse)) return;
+    const double impulse = std::min(total, transmitted.causedNewtonSeconds + later());
+    if (StepSpan::isImpact(impulse, minImpulse))
+        impacts.push_back({transmitted.source, mainPart.other, std::max(span.earliestNs, transmitted.timeNs),
+                           impulse, isLate ? recorder_.loads().pointOf(now) : transmitted.point});
 }
 
-void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
-    for (const HandedOn& handedOn : waiting_)
-        if (handedOn.camera == camera)
+void OnsetImpacts::finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const {
+    for (const TransmittedImpact& transmitted : pending_)
+        if (transmitted.source == source)
             complete(
-                handedOn, {}, [] { return 0.0; }, span, impacts);
+                transmitted, {}, [] { return 0.0; }, span, impacts);
 }
 
-void OnsetImpacts::begin() {
-    if (strikes_.isEmpty()) return;
-    strikes_.prepare(graph_, table_.size());
-    for (const std::int32_t camera : catcher_.loads().receivers()) {
-        if (isUsed_.isMarked(camera)) continue;
-        if (const auto& found = strikes_.findPrepared(camera, graph_); found.strongest != nullptr) {
-            const ChainLoads::Passed& passed = catcher_.loads().received(camera);
-            waiting_.push_back({camera, found.strongest->timeNs, found.strongest->a, found.strongest->b,
-                                found.newtonSeconds, passed, catcher_.loads().pointOf(passed)});
+void OnsetImpacts::beginTransmitted() {
+    if (causes_.isEmpty()) return;
+    causes_.prepare(graph_, table_.size());
+    for (const std::int32_t source : recorder_.loads().receivers()) {
+        if (usedSources_.isMarked(source)) continue;
+        if (const auto& found = causes_.findPrepared(source, graph_); found.strongest != nullptr) {
+            const TransmittedImpulses::Transmitted& received =
+                recorder_.loads().transmittedToReceiver(source);
+            pending_.push_back({source, found.strongest->timeNs, found.strongest->a, found.strongest->b,
+                                found.newtonSeconds, received, recorder_.loads().pointOf(received)});
         }
     }
 }
 
-StrikeCauses::StrikeCauses() {
-    strikes_.reserve(CollisionCatcher::expectedCollisions);
-    sums_.reserve(CollisionCatcher::expectedCollisions);
-    reached_.reserve(CollisionCatcher::expectedCollisions);
+ImpactCauses::ImpactCauses() {
+    collisions_.reserve(CollisionRecorder::expectedCollisions);
+    sums_.reserve(CollisionRecorder::expectedCollisions);
+    reached_.reserve(CollisionRecorder::expectedCollisions);
 }
 
-void StrikeCauses::add(const HardCollision& strike) {
-    strikes_.push_back(strike);
+void ImpactCauses::add(const HardCollision& collision) {
+    collisions_.push_back(collision);
     isLocated_ = false;
 }
 
-void StrikeCauses::follow(const CollisionCatcher& catcher) {
+void ImpactCauses::addAftermath(const CollisionRecorder& recorder) {
     isLocated_ = false; // the graph has changed as well
-    for (HardCollision& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
+    for (HardCollision& collision : collisions_)
+        collision.aftermathNewtonSeconds = recorder.aftermathNewtonSeconds(collision.pair);
 }
 
-void StrikeCauses::locate(ContactGraph& graph) {
+void ImpactCauses::locate(ContactGraph& graph) {
     isLocated_ = true;
-    std::sort(strikes_.begin(), strikes_.end(), [](const HardCollision& one, const HardCollision& two) {
-        return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds
-                                                      : one.timeNs < two.timeNs;
+    std::sort(collisions_.begin(), collisions_.end(), [](const HardCollision& a, const HardCollision& b) {
+        return a.newtonSeconds != b.newtonSeconds ? a.newtonSeconds > b.newtonSeconds : a.timeNs < b.timeNs;
     });
     sums_.clear();
     sumOf_.clear();
-    struck_.clear();
-    for (std::size_t i = 0; i < strikes_.size(); ++i) {
-        HardCollision& strike = strikes_[i];
-        strike.componentA = graph.component(strike.a);
-        strike.componentB = graph.component(strike.b);
-        sum(strike.componentA, i);
-        if (strike.componentB != strike.componentA) sum(strike.componentB, i);
+    ownCollisions_.clear();
+    for (std::size_t i = 0; i < collisions_.size(); ++i) {
+        HardCollision& collision = collisions_[i];
+        collision.componentA = graph.component(collision.a);
+        collision.componentB = graph.component(collision.b);
+        addToSum(collision.componentA, i);
+        if (collision.componentB != collision.componentA) addToSum(collision.componentB, i);
     }
-    for (std::size_t i = strikes_.size(); i-- > 0;) {
-        HardCollision& strike = strikes_[i];
-        for (auto [slot, next] : {std::pair{strike.a, &strike.nextA}, {strike.b, &strike.nextB}}) {
-            *next = struck_.find(slot);
-            struck_.set(slot, static_cast<std::int32_t>(i));
+    for (std::size_t i = collisions_.size(); i-- > 0;) {
+        HardCollision& collision = collisions_[i];
+        for (auto [slot, next] :
+             {std::pair{collision.a, &collision.nextA}, {collision.b, &collision.nextB}}) {
+            *next = ownCollisions_.find(slot);
+            ownCollisions_.set(slot, static_cast<std::int32_t>(i));
         }
     }
 }
 
-void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
+void ImpactCauses::addToSum(std::int32_t component, std::size_t collision) {
     if (component == ContactGraph::noComponent) return;
     std::int32_t at = sumOf_.find(component);
     if (at == SlotMap::none) {
         at = static_cast<std::int32_t>(sums_.size());
         sumOf_.set(component, at);
-        sums_.push_back({&strikes_[strike], 0.0, 0.0});
+        sums_.push_back({&collisions_[collision], 0.0, 0.0});
     }
-    sums_[static_cast<std::size_t>(at)].newtonSeconds += strikes_[strike].newtonSeconds;
-    sums_[static_cast<std::size_t>(at)].aftermath += strikes_[strike].aftermath;
+    sums_[static_cast<std::size_t>(at)].newtonSeconds += collisions_[collision].newtonSeconds;
+    sums_[static_cast<std::size_t>(at)].aftermathNewtonSeconds +=
+        collisions_[collision].aftermathNewtonSeconds;
 }
 
-const StrikeCauses::Found& StrikeCauses::findAround(std::int32_t camera, ContactGraph& graph) {
-    Found& found = around_ = {};
-    graph.reach(camera, reached_);
-    std::size_t strongest = strikes_.size();
+const ImpactCauses::CauseSum& ImpactCauses::findAtSource(std::int32_t source, ContactGraph& graph) {
+    CauseSum& found = sourceSum_ = {};
+    graph.reach(source, reached_);
+    std::size_t strongest = collisions_.size();
     for (const std::int32_t component : reached_) {
         const std::int32_t at = sumOf_.find(component);
         if (at == SlotMap::none) continue;
-        const Found& sum = sums_[static_cast<std::size_t>(at)];
-        strongest = std::min(strongest, static_cast<std::size_t>(sum.strongest - strikes_.data()));
+        const CauseSum& sum = sums_[static_cast<std::size_t>(at)];
+        strongest = std::min(strongest, static_cast<std::size_t>(sum.strongest - collisions_.data()));
         found.newtonSeconds += sum.newtonSeconds;
-        found.aftermath += sum.aftermath;
+        found.aftermathNewtonSeconds += sum.aftermathNewtonSeconds;
     }
-    if (std::int32_t own = struck_.find(camera); own != SlotMap::none) {
-        const auto isOwn = [camera](const HardCollision& strike) {
-            return strike.a == camera || strike.b == camera;
+    if (std::int32_t index = ownCollisions_.find(source); index != SlotMap::none) {
+        const auto isOwn = [source](const HardCollision& collision) {
+            return collision.a == source || collision.b == source;
         };
-        while (own != SlotMap::none) {
-            const HardCollision& strike = strikes_[static_cast<std::size_t>(own)];
-            own = strike.a == camera ? strike.nextA : strike.nextB;
-            if (!isReached(strike)) continue;
-            found.newtonSeconds -= strike.newtonSeconds;
-            found.aftermath -= strike.aftermath;
+        while (index != SlotMap::none) {
+            const HardCollision& collision = collisions_[static_cast<std::size_t>(index)];
+            index = collision.a == source ? collision.nextA : collision.nextB;
+            if (!isReached(collision)) continue;
+            found.newtonSeconds -= collision.newtonSeconds;
+            found.aftermathNewtonSeconds -= collision.aftermathNewtonSeconds;
         }
-        while (strongest < strikes_.size() && (isOwn(strikes_[strongest]) || !isReached(strikes_[strongest])))
+        while (strongest < collisions_.size() &&
+               (isOwn(collisions_[strongest]) || !isReached(collisions_[strongest])))
             ++strongest;
     }
-    if (strongest == strikes_.size()) return found = {};
-    found.strongest = &strikes_[strongest];
+    if (strongest == collisions_.size()) return found = {};
+    found.strongest = &collisions_[strongest];
     return found;
 }
 
-void StrikeCauses::forget(std::int32_t slot) noexcept {
+void ImpactCauses::forget(std::int32_t slot) noexcept {
     isLocated_ = false; // indices have changed
-    std::erase_if(strikes_,
-                  [slot](const HardCollision& strike) { return strike.a == slot || strike.b == slot; });
+    std::erase_if(collisions_, [slot](const HardCollision& collision) {
+        return collision.a == slot || collision.b == slot;
+    });
 }
 
-bool StrikeCauses::isReached(const HardCollision& strike) const noexcept {
+bool ImpactCauses::isReached(const HardCollision& collision) const noexcept {
     const auto isIn = [&](std::int32_t component) {
         return std::ranges::find(reached_, component) != reached_.end();
     };
-    return isIn(strike.componentA) || isIn(strike.componentB);
+    return isIn(collision.componentA) || isIn(collision.componentB);
 }
 
 } // namespace physvib

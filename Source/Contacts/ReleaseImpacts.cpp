@@ -7,63 +7,67 @@
 
 namespace physvib {
 
-ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table,
+ReleaseImpacts::ReleaseImpacts(const CollisionRecorder& recorder, const FixtureTable& table,
                                ContactGraph& graph, const BodyReader& bodies)
-    : catcher_(catcher)
+    : recorder_(recorder)
     , table_(table)
     , graph_(graph)
     , bodies_(bodies) {
-    strikes_.reserve(CollisionCatcher::expectedCollisions);
-    reached_.reserve(CollisionCatcher::expectedCollisions);
-    impulses_.reserve(CollisionCatcher::expectedCollisions);
+    pending_.reserve(CollisionRecorder::expectedCollisions);
+    reached_.reserve(CollisionRecorder::expectedCollisions);
+    impulses_.reserve(CollisionRecorder::expectedCollisions);
 }
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     release(false, span, impacts);
     open(span);
-    follow();
-    followCauses();
+    addMomentumChanges();
+    addCausedImpulses();
     release(true, span, impacts);
     expire(span, impacts);
-    std::swap(before_, causes_);
+    std::swap(lastCauses_, causes_);
     causes_.clear();
-    for (Strike& strike : strikes_) strike.order = -1;
+    for (PendingImpact& pending : pending_) pending.order = -1;
 }
 
-void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
-    before_.forget(slot);
-    const auto isOf = [slot](const Strike& s) { return s.other == slot || s.a == slot || s.b == slot; };
-    std::erase_if(strikes_, [&](const Strike& s) { return s.camera == slot || (withdraws && isOf(s)); });
-    for (Strike& strike : strikes_) {
-        strike.isOver = strike.isOver || isOf(strike);
-        if (strike.other == slot) strike.other = FixtureTable::none;
-        if (isOf(strike)) strike.a = strike.b = FixtureTable::none;
+void ReleaseImpacts::forget(std::int32_t slot, bool dropsCaused) noexcept {
+    lastCauses_.forget(slot);
+    const auto isOf = [slot](const PendingImpact& s) {
+        return s.other == slot || s.a == slot || s.b == slot;
+    };
+    std::erase_if(pending_,
+                  [&](const PendingImpact& s) { return s.source == slot || (dropsCaused && isOf(s)); });
+    for (PendingImpact& pending : pending_) {
+        pending.hasEnded = pending.hasEnded || isOf(pending);
+        if (pending.other == slot) pending.other = FixtureTable::none;
+        if (isOf(pending)) pending.a = pending.b = FixtureTable::none;
     }
 }
 
 void ReleaseImpacts::open(const StepSpan& span) {
-    if (catcher_.collisions().empty()) return;
-    underWay_.clear();
-    for (const Strike& strike : strikes_) underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
+    if (recorder_.collisions().empty()) return;
+    pendingKindOf_.clear();
+    for (const PendingImpact& pending : pending_)
+        pendingKindOf_.set(pending.source, pending.isDirect ? direct : transmitted);
     findCauses(span);
-    for (std::size_t i = 0; i < catcher_.collisions().size(); ++i)
+    for (std::size_t i = 0; i < recorder_.collisions().size(); ++i)
         // 0 for a collision that the user has disabled
-        if (impulses_[i] > 0.0) openDirect(catcher_.collisions()[i], span);
+        if (impulses_[i] > 0.0) openDirect(recorder_.collisions()[i], span);
     // only haptic sources that touch something can receive transmitted impulses
-    graph_.forTouching([&](std::int32_t slot) {
-        if (table_.isCamera(slot) && underWay_.find(slot) == SlotMap::none) openHandedOn(slot, span);
+    graph_.forEachTouching([&](std::int32_t slot) {
+        if (table_.isSource(slot) && pendingKindOf_.find(slot) == SlotMap::none) openTransmitted(slot, span);
     });
 }
 
 // Finds the strongest collision of each component, the first of equal ones.
 void ReleaseImpacts::findCauses(const StepSpan& span) {
-    const std::vector<Collision>& collisions = catcher_.collisions();
+    const std::vector<Collision>& collisions = recorder_.collisions();
     impulses_.resize(collisions.size());
     strongestOf_.clear();
     for (std::size_t i = 0; i < collisions.size(); ++i) {
         const Collision& collision = collisions[i];
         impulses_[i] = collision.impulse();
-        if (!span.isStrike(impulses_[i], collision.lighterMassKg, collision.gravityScale)) continue;
+        if (!span.isImpact(impulses_[i], collision.lighterMassKg, collision.gravityScale)) continue;
         causes_.add(
             {collision.a, collision.b, collision.pair, span.timeNs(collision.fraction), impulses_[i]});
         for (const std::int32_t slot : {collision.a, collision.b}) {
@@ -77,85 +81,86 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
 
 bool ReleaseImpacts::isStronger(std::int32_t collision, std::int32_t than) const noexcept {
     if (collision == SlotMap::none || than == SlotMap::none) return collision != SlotMap::none;
-    const double one = impulses_[static_cast<std::size_t>(collision)],
-                 other = impulses_[static_cast<std::size_t>(than)];
-    return one != other ? one > other : collision < than;
+    const double first = impulses_[static_cast<std::size_t>(collision)],
+                 second = impulses_[static_cast<std::size_t>(than)];
+    return first != second ? first > second : collision < than;
 }
 
 void ReleaseImpacts::openDirect(const Collision& collision, const StepSpan& span) {
     for (const bool isA : {true, false}) {
-        const std::int32_t camera = isA ? collision.a : collision.b;
-        if (!table_.isCamera(camera)) continue;
+        const std::int32_t source = isA ? collision.a : collision.b;
+        if (!table_.isSource(source)) continue;
         // From now on transmitted impulses cannot be separated from the direct collision.
-        if (underWay_.find(camera) == handedOn)
-            std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
-        push({camera, isA ? collision.b : collision.a, collision.a, collision.b, collision.order, true, false,
+        if (pendingKindOf_.find(source) == transmitted)
+            std::erase_if(pending_,
+                          [source](const PendingImpact& s) { return s.source == source && !s.isDirect; });
+        push({source, isA ? collision.b : collision.a, collision.a, collision.b, collision.order, true, false,
               span.timeNs(collision.fraction), collision.point, isA ? collision.armA : collision.armB,
               isA ? collision.motionA : collision.motionB, collision.lighterMassKg, collision.gravityScale});
     }
 }
 
-void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
-    graph_.reach(camera, reached_);
+void ReleaseImpacts::openTransmitted(std::int32_t source, const StepSpan& span) {
+    graph_.reach(source, reached_);
     std::int32_t strongest = SlotMap::none;
     for (const std::int32_t component : reached_)
         if (const std::int32_t collision = strongestOf_.find(component); isStronger(collision, strongest))
             strongest = collision;
     if (strongest == SlotMap::none) return;
-    const Collision* const cause = &catcher_.collisions()[static_cast<std::size_t>(strongest)];
-    const ChainLoads::Passed passed = catcher_.loads().passed(camera);
-    const bool isKnown = passed.other != FixtureTable::none;
-    const Vector3 point = isKnown ? catcher_.loads().pointOf(passed) : cause->point;
-    const std::uint64_t body = table_[camera].body.body;
-    push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
+    const Collision* const cause = &recorder_.collisions()[static_cast<std::size_t>(strongest)];
+    const TransmittedImpulses::Transmitted received = recorder_.loads().transmittedTo(source);
+    const bool isKnown = received.other != FixtureTable::none;
+    const Vector3 point = isKnown ? recorder_.loads().pointOf(received) : cause->point;
+    const std::uint64_t body = table_[source].body.body;
+    push({source, isKnown ? received.other : cause->a, cause->a, cause->b, cause->order, false, false,
           span.timeNs(cause->fraction), point, inPlane(point) - bodies_.centre(body),
-          bodies_.motionBefore(body), std::min(table_.mobility(camera).movableMassKg, cause->lighterMassKg),
+          bodies_.motionBefore(body), std::min(table_.mobility(source).movableMassKg, cause->lighterMassKg),
           cause->gravityScale});
 }
 
-void ReleaseImpacts::push(const Strike& strike) {
-    if (strikes_.size() == CollisionCatcher::maxDistantCollisions) {
+void ReleaseImpacts::push(const PendingImpact& pending) {
+    if (pending_.size() == CollisionRecorder::maxDistantCollisions) {
         ++drops_;
         return;
     }
-    strikes_.push_back(strike);
-    underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
+    pending_.push_back(pending);
+    pendingKindOf_.set(pending.source, pending.isDirect ? direct : transmitted);
 }
 
-void ReleaseImpacts::follow() {
-    std::int32_t camera = FixtureTable::none;
-    Vector2 gained;
-    for (Strike& strike : strikes_) {
-        if (table_[strike.camera].isDynamic()) continue;
-        if (strike.camera != camera) gained = gain(strike.camera);
-        camera = strike.camera;
-        strike.gained += gained;
+void ReleaseImpacts::addMomentumChanges() {
+    std::int32_t source = FixtureTable::none;
+    Vector2 gainedMomentum;
+    for (PendingImpact& pending : pending_) {
+        if (table_[pending.source].isDynamic()) continue;
+        if (pending.source != source) gainedMomentum = momentumChange(pending.source);
+        source = pending.source;
+        pending.gainedMomentum += gainedMomentum;
     }
 }
 
 // Engines spread an impact over two steps.
-void ReleaseImpacts::followCauses() {
-    before_.follow(catcher_);
-    if (causes_.isEmpty() && before_.isEmpty()) return;
-    for (Strike& strike : strikes_)
-        if (!strike.isDirect)
-            strike.causedNewtonSeconds += causes_.find(strike.camera, graph_).newtonSeconds +
-                                          before_.find(strike.camera, graph_).aftermath;
+void ReleaseImpacts::addCausedImpulses() {
+    lastCauses_.addAftermath(recorder_);
+    if (causes_.isEmpty() && lastCauses_.isEmpty()) return;
+    for (PendingImpact& pending : pending_)
+        if (!pending.isDirect)
+            pending.causedNewtonSeconds += causes_.find(pending.source, graph_).newtonSeconds +
+                                           lastCauses_.find(pending.source, graph_).aftermathNewtonSeconds;
 }
 
-Vector2 ReleaseImpacts::gain(std::int32_t camera) {
+Vector2 ReleaseImpacts::momentumChange(std::int32_t source) {
     sums_ = sums_ == std::numeric_limits<std::int32_t>::max() ? 0 : sums_ + 1;
     Vector2 sum;
-    graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
-    for (const Collision& collision : catcher_.collisions()) { // its contact may have ended already
-        if (collision.a == camera) sum += gainOf(collision.b);
-        if (collision.b == camera) sum += gainOf(collision.a);
+    graph_.forEachNeighbour(source, [&](std::int32_t neighbour) { sum += momentumChangeOf(neighbour); });
+    for (const Collision& collision : recorder_.collisions()) { // its contact may have ended already
+        if (collision.a == source) sum += momentumChangeOf(collision.b);
+        if (collision.b == source) sum += momentumChangeOf(collision.a);
     }
     return sum;
 }
 
-Vector2 ReleaseImpacts::gainOf(std::int32_t slot) {
-    const KnownFixture& known = table_[slot];
+Vector2 ReleaseImpacts::momentumChangeOf(std::int32_t slot) {
+    const FixtureEntry& known = table_[slot];
     if (!known.isDynamic() || counted_.find(known.body.body) == sums_) return {};
     counted_.set(known.body.body, sums_);
     const Vector2 before = bodies_.motionBefore(known.body.body).metresPerSecond;
@@ -163,86 +168,87 @@ Vector2 ReleaseImpacts::gainOf(std::int32_t slot) {
 }
 
 void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
-    if (catcher_.ends().empty() || strikes_.empty()) return;
-    isStruckA_.clear();
-    isStruckB_.clear();
-    for (const Strike& strike : strikes_) {
-        if (strike.a == FixtureTable::none) continue;
-        isStruckA_.set(strike.a, 1);
-        isStruckB_.set(strike.b, 1);
+    if (recorder_.ends().empty() || pending_.empty()) return;
+    struckA_.clear();
+    struckB_.clear();
+    for (const PendingImpact& pending : pending_) {
+        if (pending.a == FixtureTable::none) continue;
+        struckA_.set(pending.a, 1);
+        struckB_.set(pending.b, 1);
     }
-    for (const ContactEnd& end : catcher_.ends())
-        if (isStruckA_.find(end.a) != SlotMap::none && isStruckB_.find(end.b) != SlotMap::none)
-            release(end, span, impacts, [&](const Strike& strike) {
-                return strike.order < end.order && (strike.order >= 0) == ofThisStep;
+    for (const ContactEnd& end : recorder_.ends())
+        if (struckA_.find(end.a) != SlotMap::none && struckB_.find(end.b) != SlotMap::none)
+            release(end, span, impacts, [&](const PendingImpact& pending) {
+                return pending.order < end.order && (pending.order >= 0) == ofThisStep;
             });
 }
 
-void ReleaseImpacts::cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts) {
-    release(end, span, impacts, [](const Strike&) { return true; });
+void ReleaseImpacts::endOutsideStep(const ContactEnd& end, const StepSpan& span,
+                                    std::vector<Impact>& impacts) {
+    release(end, span, impacts, [](const PendingImpact&) { return true; });
 }
 
-template <class Choice>
+template <class Filter>
 void ReleaseImpacts::release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts,
-                             Choice choice) {
-    const auto isReleased = [&](const Strike& strike) {
-        return strike.a == end.a && strike.b == end.b && choice(strike);
+                             Filter filter) {
+    const auto isReleased = [&](const PendingImpact& pending) {
+        return pending.a == end.a && pending.b == end.b && filter(pending);
     };
-    for (const Strike& strike : strikes_) {
-        if (!isReleased(strike)) continue;
-        const BodyMotion motion = strike.isDirect ? (strike.camera == end.a ? end.motionA : end.motionB)
-                                                  : bodies_.motionBefore(table_[strike.camera].body.body);
-        finish(strike, motion, span.timeNs(end.fraction), span, impacts);
+    for (const PendingImpact& pending : pending_) {
+        if (!isReleased(pending)) continue;
+        const BodyMotion motion = pending.isDirect ? (pending.source == end.a ? end.motionA : end.motionB)
+                                                   : bodies_.motionBefore(table_[pending.source].body.body);
+        finish(pending, motion, span.timeNs(end.fraction), span, impacts);
     }
-    std::erase_if(strikes_, isReleased);
+    std::erase_if(pending_, isReleased);
 }
 
 void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) {
-    const auto isOld = [&](const Strike& strike) {
-        return strike.isOver || strike.beginNs + latestNs <= span.endNs;
+    const auto isExpired = [&](const PendingImpact& pending) {
+        return pending.hasEnded || pending.beginNs + latestNs <= span.endNs;
     };
-    for (const Strike& strike : strikes_) {
-        if (!isOld(strike)) continue;
-        const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
-        finish(strike, bodies_.motion(table_[strike.camera].body.body), std::max(timeNs, span.earliestNs),
+    for (const PendingImpact& pending : pending_) {
+        if (!isExpired(pending)) continue;
+        const std::int64_t timeNs = pending.hasEnded ? span.startNs : pending.beginNs + latestNs;
+        finish(pending, bodies_.motion(table_[pending.source].body.body), std::max(timeNs, span.earliestNs),
                span, impacts);
     }
-    std::erase_if(strikes_, isOld);
+    std::erase_if(pending_, isExpired);
 }
 
-void ReleaseImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
-    for (const Strike& strike : strikes_)
-        if (strike.camera == camera)
-            finish(strike, bodies_.motion(table_[camera].body.body), span.endNs, span, impacts);
+void ReleaseImpacts::finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const {
+    for (const PendingImpact& pending : pending_)
+        if (pending.source == source)
+            finish(pending, bodies_.motion(table_[source].body.body), span.endNs, span, impacts);
 }
 
-void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs,
+void ReleaseImpacts::finish(const PendingImpact& pending, const BodyMotion& end, std::int64_t timeNs,
                             const StepSpan& span, std::vector<Impact>& impacts) const {
-    const KnownFixture& camera = table_[strike.camera];
-    if (!camera.values.isCamera) return;
-    const Vector2 felt = impulse(strike, end);
-    auto size = static_cast<double>(felt.length());
-    if (!strike.isDirect && camera.isDynamic()) {
-        const auto massKg = static_cast<float>(camera.massKg());
-        const auto seconds = static_cast<float>(timeNs - strike.beginNs) * 1.0e-9F;
-        const Vector2 withoutFall = felt - seconds * massKg * span.gravityMetresPerSecond2;
-        size = std::min(size, static_cast<double>(withoutFall.length()));
+    const FixtureEntry& source = table_[pending.source];
+    if (!source.values.isCamera) return;
+    const Vector2 impulseChange = impulse(pending, end);
+    auto newtonSeconds = static_cast<double>(impulseChange.length());
+    if (!pending.isDirect && source.isDynamic()) {
+        const auto massKg = static_cast<float>(source.massKg());
+        const auto seconds = static_cast<float>(timeNs - pending.beginNs) * 1.0e-9F;
+        const Vector2 withoutFall = impulseChange - seconds * massKg * span.gravityMetresPerSecond2;
+        newtonSeconds = std::min(newtonSeconds, static_cast<double>(withoutFall.length()));
     }
-    if (!strike.isDirect) size = std::min(size, strike.causedNewtonSeconds);
-    if (span.isStrike(size, strike.lighterMassKg, strike.gravityScale))
-        impacts.push_back({strike.camera, strike.other, timeNs, size, strike.point});
+    if (!pending.isDirect) newtonSeconds = std::min(newtonSeconds, pending.causedNewtonSeconds);
+    if (span.isImpact(newtonSeconds, pending.lighterMassKg, pending.gravityScale))
+        impacts.push_back({pending.source, pending.other, timeNs, newtonSeconds, pending.point});
 }
 
-Vector2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) const {
-    const KnownFixture& camera = table_[strike.camera];
-    if (!camera.isDynamic()) return strike.gained;
+Vector2 ReleaseImpacts::impulse(const PendingImpact& pending, const BodyMotion& end) const {
+    const FixtureEntry& source = table_[pending.source];
+    if (!source.isDynamic()) return pending.gainedMomentum;
     const Vector2 linear =
-        static_cast<float>(camera.massKg()) * (end.metresPerSecond - strike.start.metresPerSecond);
-    const float length = strike.arm.length();
+        static_cast<float>(source.massKg()) * (end.metresPerSecond - pending.start.metresPerSecond);
+    const float length = pending.arm.length();
     if (length <= 0.0F) return linear;
-    const auto inertia = static_cast<float>(bodies_.inertia(camera.body.body));
-    const float spin = end.radiansPerSecond - strike.start.radiansPerSecond;
-    return linear + (inertia * spin / (length * length)) * strike.arm.turnedLeft();
+    const auto inertia = static_cast<float>(bodies_.inertia(source.body.body));
+    const float spin = end.radiansPerSecond - pending.start.radiansPerSecond;
+    return linear + (inertia * spin / (length * length)) * pending.arm.turnedLeft();
 }
 
 } // namespace physvib

@@ -33,8 +33,8 @@ void ReportedBodies::set(std::int32_t id, const FedBody& body) {
         bodies_.push_back({id, {}, {}, {}, {}});
     }
     Body& known = bodies_[static_cast<std::size_t>(slot)];
-    forgetLargest(known);
-    known.told = body;
+    invalidateLargestMass(known);
+    known.reported = body;
     largestMassKg_ = std::max(largestMassKg_, body.massKg);
 }
 
@@ -46,22 +46,22 @@ void ReportedBodies::move(std::int32_t id, Vector3 centre, const SpaceMotion& mo
     body.inverse = inverse;
 }
 
-void ReportedBodies::moveAfter(std::int32_t id, const SpaceMotion& motion) {
+void ReportedBodies::setMotionAfter(std::int32_t id, const SpaceMotion& motion) {
     Body& body = bodies_[static_cast<std::size_t>(slots_.find(idOf(id)))];
     body.after = motion;
     body.afterAge = age_;
-    isAnyAfter_ = true;
+    hasAnyMotionAfter_ = true;
 }
 
-bool ReportedBodies::hasAfter(std::int32_t id) const {
+bool ReportedBodies::hasMotionAfter(std::int32_t id) const {
     const Body& body = at(idOf(id));
-    return !(body.told.massKg > 0.0) || body.afterAge == age_;
+    return !(body.reported.massKg > 0.0) || body.afterAge == age_;
 }
 
 void ReportedBodies::remove(std::int32_t id) {
     const std::int32_t slot = slots_.find(idOf(id));
     Body& hole = bodies_[static_cast<std::size_t>(slot)];
-    forgetLargest(hole);
+    invalidateLargestMass(hole);
     slots_.erase(idOf(id));
     if (&hole != &bodies_.back()) {
         hole = bodies_.back();
@@ -70,20 +70,20 @@ void ReportedBodies::remove(std::int32_t id) {
     bodies_.pop_back();
 }
 
-void ReportedBodies::forgetLargest(const Body& body) noexcept {
-    if (body.told.massKg > 0.0 && body.told.massKg >= largestMassKg_) isLargestKnown_ = false;
+void ReportedBodies::invalidateLargestMass(const Body& body) noexcept {
+    if (body.reported.massKg > 0.0 && body.reported.massKg >= largestMassKg_) isLargestKnown_ = false;
 }
 
-bool ReportedBodies::stands(std::int32_t id) const {
+bool ReportedBodies::isFixedAtRest(std::int32_t id) const {
     const Body& body = at(idOf(id));
-    return !(body.told.massKg > 0.0) && lengthOf(body.motion.metresPerSecond) == 0.0 &&
+    return !(body.reported.massKg > 0.0) && lengthOf(body.motion.metresPerSecond) == 0.0 &&
            lengthOf(body.motion.radiansPerSecond) == 0.0;
 }
 
 double ReportedBodies::largestMassKg() {
     if (!isLargestKnown_) {
         largestMassKg_ = 0.0;
-        for (const Body& body : bodies_) largestMassKg_ = std::max(largestMassKg_, body.told.massKg);
+        for (const Body& body : bodies_) largestMassKg_ = std::max(largestMassKg_, body.reported.massKg);
         isLargestKnown_ = true;
     }
     return largestMassKg_;
@@ -92,7 +92,7 @@ double ReportedBodies::largestMassKg() {
 double ReportedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
                                 bool isAfter) const {
     const auto velocity = [&](const Body& body) {
-        const bool isSolved = isAfter && body.told.massKg > 0.0;
+        const bool isSolved = isAfter && body.reported.massKg > 0.0;
         return velocityAt(isSolved ? body.after : body.motion, point - body.centre);
     };
     return dot(velocity(at(idOf(a))) - velocity(at(idOf(b))), normal);
@@ -108,28 +108,28 @@ double ReportedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vect
 
 // Divides by the moment of inertia where that is known, instead of multiplying by its inverse: the last bit
 // may differ.
-double ReportedBodies::turning(const Body& body, Vector3 lever, Vector3 other) noexcept {
+double ReportedBodies::angularCoupling(const Body& body, Vector3 lever, Vector3 other) noexcept {
     if (body.inverse) return body.inverse->between(lever, other);
-    if (!(body.told.inertiaKgSquareMetres > 0.0)) return 0.0;
-    return InverseInertia::ofBall(1.0).between(lever, other) / body.told.inertiaKgSquareMetres;
+    if (!(body.reported.inertiaKgSquareMetres > 0.0)) return 0.0;
+    return InverseInertia::ofBall(1.0).between(lever, other) / body.reported.inertiaKgSquareMetres;
 }
 
 InverseInertia ReportedBodies::inverseInertia(std::int32_t id) const {
     const Body& body = at(idOf(id));
-    if (!(body.told.massKg > 0.0)) return {};
+    if (!(body.reported.massKg > 0.0)) return {};
     if (body.inverse) return *body.inverse;
-    const double told = body.told.inertiaKgSquareMetres;
-    return InverseInertia::ofBall(told > 0.0 ? 1.0 / told : 0.0);
+    const double reported = body.reported.inertiaKgSquareMetres;
+    return InverseInertia::ofBall(reported > 0.0 ? 1.0 / reported : 0.0);
 }
 
 double ReportedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
                                 Vector3 otherPoint, Vector3 otherNormal) const {
     double sum = 0.0;
     for (const Body* body : {&at(idOf(a)), &at(idOf(b))}) {
-        if (!(body->told.massKg > 0.0)) continue;
-        sum += dot(normal, otherNormal) / body->told.massKg;
-        sum += turning(*body, cross(point - body->centre, normal),
-                       cross(otherPoint - body->centre, otherNormal));
+        if (!(body->reported.massKg > 0.0)) continue;
+        sum += dot(normal, otherNormal) / body->reported.massKg;
+        sum += angularCoupling(*body, cross(point - body->centre, normal),
+                               cross(otherPoint - body->centre, otherNormal));
     }
     return sum;
 }
@@ -138,64 +138,65 @@ double ReportedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 p
                                        Vector3 drag) const {
     double perKg = 0.0;
     for (const Body* body : {&at(idOf(a)), &at(idOf(b))}) {
-        if (!(body->told.massKg > 0.0)) continue;
-        perKg += 1.0 / body->told.massKg;
+        if (!(body->reported.massKg > 0.0)) continue;
+        perKg += 1.0 / body->reported.massKg;
         const Vector3 lever = cross(point - body->centre, normal);
-        perKg += turning(*body, cross(point - body->centre, normal + drag), lever);
+        perKg += angularCoupling(*body, cross(point - body->centre, normal + drag), lever);
     }
     return perKg > 0.0 ? 1.0 / perKg : std::numeric_limits<double>::infinity();
 }
 
-Vector3 ReportedBodies::held(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
-                             Vector3 drag) const {
+Vector3 ReportedBodies::limitedDrag(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                                    Vector3 drag) const {
     const double across = lengthOf(drag);
     if (!(across > 1.0e-6)) return {};
-    const Vector3 way = static_cast<float>(1.0 / across) * drag;
-    const double most = -coupling(a, b, point, way, point, normal) / coupling(a, b, point, way, point, way);
-    return most > 0.0 && most < across ? static_cast<float>(most) * way : drag;
+    const Vector3 direction = static_cast<float>(1.0 / across) * drag;
+    const double stopping =
+        -coupling(a, b, point, direction, point, normal) / coupling(a, b, point, direction, point, direction);
+    return stopping > 0.0 && stopping < across ? static_cast<float>(stopping) * direction : drag;
 }
 
 BodyFacts ReportedBodies::facts(std::uint64_t body) const {
-    const FedBody& told = at(body).told;
-    return {body, told.massKg, static_cast<float>(told.gravityScale), told.massKg > 0.0, true};
+    const FedBody& reported = at(body).reported;
+    return {body, reported.massKg, static_cast<float>(reported.gravityScale), reported.massKg > 0.0, true};
 }
 
-void ReportedSlides::tell(const Rub& told) {
-    const std::uint64_t key = pairKey(told.a, told.b);
+void ReportedSlides::report(const ReportedSlide& reported) {
+    const std::uint64_t key = pairKey(reported.a, reported.b);
     std::int32_t at = trackOf_.find(key);
     if (at == IntegerMap::none) {
         at = static_cast<std::int32_t>(tracks_.size());
         trackOf_.set(key, at);
-        Track& made = tracks_.emplace_back();
-        made.key = key;
-        made.isNew = true;
-        made.isTold = false;
-        made.point.a = told.a;
-        made.point.b = told.b;
+        Track& added = tracks_.emplace_back();
+        added.key = key;
+        added.isNew = true;
+        added.isReported = false;
+        added.point.a = reported.a;
+        added.point.b = reported.b;
     }
     Track& track = tracks_[static_cast<std::size_t>(at)];
     LastingPoint& point = track.point;
-    if (!std::exchange(track.isTold, true)) point.normalNewtonSeconds = 0.0;
-    point.normalNewtonSeconds += std::max(0.0, told.newtonSeconds);
-    point.point = told.point;
-    const bool isTurned = point.a != told.a; // the fixtures were reported in the other order
-    point.onA.metresPerSecond = isTurned ? told.alongB : told.alongA;
-    point.onB.metresPerSecond = isTurned ? told.alongA : told.alongB;
+    if (!std::exchange(track.isReported, true)) point.normalNewtonSeconds = 0.0;
+    point.normalNewtonSeconds += std::max(0.0, reported.newtonSeconds);
+    point.point = reported.point;
+    const bool isTurned = point.a != reported.a; // the fixtures were reported in the other order
+    point.onA.metresPerSecond = isTurned ? reported.alongB : reported.alongA;
+    point.onB.metresPerSecond = isTurned ? reported.alongA : reported.alongB;
 }
 
 void ReportedSlides::endStep(double seconds, LastingContacts& lasting) {
     for (std::size_t i = 0; i < tracks_.size();) {
         Track& track = tracks_[i];
-        if (!std::exchange(track.isTold, false)) {
+        if (!std::exchange(track.isReported, false)) {
             drop(i);
             continue;
         }
         LastingPoint& point = track.point;
         for (SurfacePath* path : {&point.onA, &point.onB}) path->metres += path->metresPerSecond * seconds;
         point.slipMetresPerSecond = point.onA.metresPerSecond - point.onB.metresPerSecond;
-        point.metresPerSecond = {};
+        point.velocity = {};
         if (!std::exchange(track.isNew, false) && seconds > 0.0)
-            point.metresPerSecond = static_cast<float>(1.0 / seconds) * (point.point - track.before);
+            point.velocity = static_cast<float>(1.0 / seconds) * (point.point - track.before);
         track.before = point.point;
         lasting.touch(point);
         ++i;

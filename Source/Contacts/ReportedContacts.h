@@ -21,7 +21,7 @@ namespace physvib {
 
 /// Points of pairs, of this step and of the last: decides by their numbers or places which are new. World
 /// thread (M). Allocates only to grow.
-class FedPoints {
+class ReportedPoints {
 public:
     static constexpr std::int32_t none = -1; ///< of a chain: empty
 
@@ -53,7 +53,9 @@ public:
     }
 
 private:
-    static double across(Vector3 way, Vector3 normal) noexcept { return lengthOf(cross(way, normal)); }
+    static double across(Vector3 direction, Vector3 normal) noexcept {
+        return lengthOf(cross(direction, normal));
+    }
 
     struct Point {
         Vector3 place;
@@ -63,7 +65,7 @@ private:
 };
 
 /// Bodies of a world whose engine PhysVib cannot read, as the caller reports them, by numbers (>= 0) of the
-/// engine's side. M only.
+/// engine's side. World thread (M).
 class ReportedBodies final : public BodyReader {
 public:
     /// The number by which contacts and later stages identify that body.
@@ -75,15 +77,15 @@ public:
               const std::optional<InverseInertia>& inverse = {});
     void remove(std::int32_t id);
     /// The motion after the engine's solver, in this step.
-    void moveAfter(std::int32_t id, const SpaceMotion& motion);
+    void setMotionAfter(std::int32_t id, const SpaceMotion& motion);
     /// True if that motion was reported in this step, or is not needed.
-    bool hasAfter(std::int32_t id) const;
-    bool isAnyAfter() const noexcept { return isAnyAfter_; }
-    void endStep() noexcept { isAnyAfter_ = false, ++age_; }
-    const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
+    bool hasMotionAfter(std::int32_t id) const;
+    bool hasAnyMotionAfter() const noexcept { return hasAnyMotionAfter_; }
+    void endStep() noexcept { hasAnyMotionAfter_ = false, ++age_; }
+    const FedBody& reported(std::int32_t id) const { return at(idOf(id)).reported; }
     bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
     /// True if the body is immovable and at rest, as ground is.
-    bool stands(std::int32_t id) const;
+    bool isFixedAtRest(std::int32_t id) const;
 
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
@@ -114,7 +116,7 @@ public:
     double effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
                            Vector3 drag = {}) const;
     /// The part of a drag (friction on B per N s along the normal) that suffices to stop the point across it.
-    Vector3 held(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 drag) const;
+    Vector3 limitedDrag(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 drag) const;
 
     BodyFacts facts(std::uint64_t body) const override;
     // Only the part in the plane: release timing alone asks for motions, and feeds do not support it.
@@ -125,32 +127,32 @@ public:
     BodyMotion motionBefore(std::uint64_t body) const override { return motion(body); }
     Vector2 centre(std::uint64_t body) const override { return inPlane(at(body).centre); }
     Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const override { return at(body).centre + ofBody; }
-    double inertia(std::uint64_t body) const override { return at(body).told.inertiaKgSquareMetres; }
+    double inertia(std::uint64_t body) const override { return at(body).reported.inertiaKgSquareMetres; }
 
 private:
     struct Body {
         std::int32_t id;
-        FedBody told;
+        FedBody reported;
         Vector3 centre;
         SpaceMotion motion, after;
         std::optional<InverseInertia> inverse{};
         std::uint64_t afterAge = 0; // the step in which `after` was reported
     };
-    const Body& at(std::uint64_t name) const { return bodies_[static_cast<std::size_t>(slots_.find(name))]; }
-    static double turning(const Body& body, Vector3 lever, Vector3 other) noexcept;
-    void forgetLargest(const Body& body) noexcept;
+    const Body& at(std::uint64_t body) const { return bodies_[static_cast<std::size_t>(slots_.find(body))]; }
+    static double angularCoupling(const Body& body, Vector3 lever, Vector3 other) noexcept;
+    void invalidateLargestMass(const Body& body) noexcept;
 
     std::vector<Body> bodies_;
     IntegerMap slots_; // by idOf()
     double largestMassKg_ = 0.0;
     bool isLargestKnown_ = true;
     std::uint64_t age_ = 1;
-    bool isAnyAfter_ = false;
+    bool hasAnyMotionAfter_ = false;
 };
 
 /// One contact point. New points are to separate at `restitution` times their approach speed; old ones only
 /// stay closed.
-struct MeetingPoint {
+struct SolverPoint {
     Vector3 point, normal; ///< normal: from A to B, of length 1
     double approach = 0.0; ///< m/s, before the engine's solver
     double restitution = 0.0;
@@ -163,7 +165,7 @@ struct MeetingPoint {
 /// than necessary (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
 /// the masses leave the distribution open, all points get equal impulses. The bodies must be registered.
 /// World thread (M); no allocation.
-void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
+void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<SolverPoint> points);
 
 /// For engines that do not report impulses: finds those along the normals, none of them pulling, that
 /// together explain the bodies' change of momentum (least kinetic energy of the remainder, by projected
@@ -174,13 +176,13 @@ void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::sp
 class MomentumImpulses {
 public:
     void clear();
-    /// Adds a point of two bodies whose velocities are known (ReportedBodies::hasAfter). Returns its number,
-    /// from 0 on.
+    /// Adds a point of two bodies whose velocities are known (ReportedBodies::hasMotionAfter). Returns its
+    /// number, from 0 on.
     std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                     Vector3 normal);
-    void solve();
-    void strike(std::size_t point); ///< Its bodies have an impact there.
-    /// Call after solve() and strike(). Friction is at most 1.5 times the impulse along the normal.
+    void solve();                       ///< Finds the impulses along the normals.
+    void markStruck(std::size_t point); ///< Its bodies have an impact there.
+    /// Call after solve() and markStruck(). Friction is at most 1.5 times the impulse along the normal.
     void solveFriction(const ReportedBodies& bodies);
     double newtonSeconds(std::size_t point) const { return rows_[point].newtonSeconds; }
     Vector3 friction(std::size_t point) const; ///< N s on B
@@ -191,23 +193,25 @@ private:
         double perKg;
         // changes by the impulses found so far, m/s and rad/s
         std::array<double, 3> velocity{}, spin{};
-        InverseInertia turning;
-        int from = 0;          // 1: struck; 2 and 3: its neighbours, and theirs
-        std::size_t turns = 0; // so many of its rows, and of their neighbours', come one after another
+        InverseInertia inverseInertia;
+        int hops = 0;              // 1: struck; 2 and 3: its neighbours, and theirs
+        std::size_t nextBatch = 0; // the first batch that has none of its rows
     };
-    struct Row {                     // an impulse one way
-        std::int32_t a, b;           // bodies, or none: immovable
-        Vector3 way, leverA, leverB; // on B; m
-        double change = 0.0; // m/s by which the contact has changed the speed of A along it, seen from B
-        double effectiveKg = 0.0, newtonSeconds = 0.0, least = 0.0, most = HUGE_VAL;
-        std::size_t turn = 0; // rows of one turn have no body in common
+    struct Row {                           // the impulse in one direction
+        std::int32_t a, b;                 // bodies, or none: immovable
+        Vector3 direction, leverA, leverB; // on B; m
+        double targetChange = 0.0; // m/s by which the contact has changed the speed of A along it, seen from
+                                   // B
+        double effectiveKg = 0.0, newtonSeconds = 0.0, minNewtonSeconds = 0.0, maxNewtonSeconds = HUGE_VAL;
+        std::size_t batch = 0; // rows of one batch have no body in common
     };
-    struct PlaneBody { // of a body, and of a row, what counts in the plane
-        double x, y, spin, perKg, turning;
+    struct PlaneBody { // the values of a body that count in the plane
+        double x, y, spin, perKg, inverseInertia;
     };
     struct PlaneRow {
         PlaneBody *a, *b;
-        double x, y, leverA, leverB, change, effectiveKg, newtonSeconds, least, most;
+        double x, y, leverA, leverB, targetChange, effectiveKg, newtonSeconds, minNewtonSeconds,
+            maxNewtonSeconds;
     };
     struct Point {
         std::int32_t idA, idB, a, b; // as of a row
@@ -215,32 +219,32 @@ private:
         std::size_t across = 0; // the first of two rows of friction; 0: none
         bool isStruck = false;
     };
-    std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
-    Row rowOf(const ReportedBodies& bodies, const Point& of, Vector3 way) const;
-    Row& addRow(const ReportedBodies& bodies, const Point& of, Vector3 way);
+    std::int32_t findOrAdd(const ReportedBodies& bodies, std::int32_t id);
+    Row rowOf(const ReportedBodies& bodies, const Point& point, Vector3 direction) const;
+    Row& addRow(const ReportedBodies& bodies, const Point& point, Vector3 direction);
     void addFriction(const ReportedBodies& bodies, std::size_t point);
     bool isInPlane(const Row& row) const;
-    double found(const Row& row) const; // the part of row.change that is explained so far, m/s
+    double explainedChange(const Row& row) const; // the part of row.targetChange that is explained so far,
+                                                  // m/s
     void push(const Row& row, double newtonSeconds);
-    void arrange();
+    void sortByBatch();
     void sweep();
     void sweepInPlane();
 
-    bool isInPlane_ = true; // all points: normals along x and y, spin about z alone; what is 0 there is left
-                            // out
+    bool isInPlane_ = true; // all normals lie in the plane, all spins are about z: sweepInPlane() suffices
     std::vector<Body> bodies_;
     IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
     std::vector<Row> rows_; // along the points' normals, then across
-    std::vector<std::int32_t> swept_, unarranged_;
-    std::vector<std::size_t> ends_; // of the rows of each turn
+    std::vector<std::int32_t> rowOrder_, unsorted_;
+    std::vector<std::size_t> batchEnds_; // of each batch in rowOrder_
     std::vector<PlaneBody> planeBodies_;
     std::vector<PlaneRow> planeRows_;
 };
 
 /// A pair in contact whose contact point moves. A ball that rolls at v over a floor: v along both. A box that
 /// slides at v: v along the floor, 0 along the box.
-struct Rub {
+struct ReportedSlide {
     std::int32_t a = 0, b = 0; ///< slots of the FixtureTable
     double newtonSeconds = 0.0;
     Vector3 point;                     ///< world
@@ -253,7 +257,7 @@ struct Rub {
 /// thread (M).
 class ReportedSlides {
 public:
-    void tell(const Rub& rub);
+    void report(const ReportedSlide& slide);
     /// Passes the step's points to `lasting`; contacts that were not reported have ended.
     void endStep(double seconds, LastingContacts& lasting);
     void forget(std::int32_t slot); ///< the slot is freed or reassigned
@@ -263,7 +267,7 @@ private:
         std::uint64_t key;
         LastingPoint point;
         Vector3 before;
-        bool isNew, isTold;
+        bool isNew, isReported;
     };
     void drop(std::size_t track);
 
@@ -272,7 +276,7 @@ private:
 };
 
 /// Pairs in contact: decides for each report whether it is a collision or a load. Arguments are valid,
-/// because ContactFeed has checked them, and that the call is allowed now. M only.
+/// because ContactFeed has checked them, and that the call is allowed now. World thread (M).
 class ReportedContacts {
 public:
     explicit ReportedContacts(const ImpactSettings& settings);
@@ -281,7 +285,7 @@ public:
 
     ReportedBodies& bodies() noexcept { return bodies_; }
     ContactEvents& events() noexcept { return events_; }
-    bool isStepping() noexcept { return events_.catcher().isStepping(); }
+    bool isStepping() noexcept { return events_.recorder().isStepping(); }
 
     void remove(std::int32_t id);
     void beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
@@ -294,70 +298,73 @@ public:
 private:
     struct Pair {
         std::int32_t a, b; // slots, the lower one first
-        bool isAsked;      // it was reported by touch(), and ends when touch() leaves it out
-        bool isNew, isNamed;
-        double approach = 0.0, lastApproach = 0.0; // m/s where it was faster than gravity explains: in this
-                                                   // step, in the last ones
+        bool isListed;     // it was reported by touch(), and ends when touch() leaves it out
+        bool isNew, isListedNow;
+        double approach = 0.0, lastApproach = 0.0; // m/s, if faster than gravity explains: of this
+                                                   // step, of the last ones
         double load = 0.0, lastLoad = 0.0;         // N s along the normal, of this step, of the last one
-        FedPoints::Chain points{};              // of this step and the one before, if the engine names points
-        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are solved at the end of
-                                                // the step
+        ReportedPoints::Chain points{}; // of this step and the one before, if the engine names points
+        std::int32_t newestPending = ReportedPoints::none; // its newest contact that is solved at the end
+                                                           // of the step
     };
-    struct Waiting {
+    struct PendingContact {
         FedContact contact;
         bool isNew, isKick; // isKick: an old point was struck
         std::int32_t next;
-        std::int32_t momentum; // its number there, or none
+        std::int32_t momentum; // its number in momentum_, or none
     };
     bool isByMomentum(const FedContact& contact) const {
-        return bodies_.isAnyAfter() && bodies_.hasAfter(contact.a) && bodies_.hasAfter(contact.b);
+        return bodies_.hasAnyMotionAfter() && bodies_.hasMotionAfter(contact.a) &&
+               bodies_.hasMotionAfter(contact.b);
     }
-    void strikeByMomentum();
-    FedContact withMomentum(const Waiting& each) const;
-    using Push = std::pair<double, double>; // N s of a step; upper bound of its impact, N s
-    static constexpr Push anyPush{0.0, HUGE_VAL};
-    Push pushed(const Waiting& each) const;
+    void addMomentumCollision();
+    FedContact withMomentumImpulse(const PendingContact& item) const;
+    using Push = std::pair<double, double>; // N s of a step, and an upper bound of its impact's
+    static constexpr Push unboundedPush{0.0, HUGE_VAL};
+    Push pushOf(const PendingContact& item) const;
     Vector3 dragOf(const FedContact& contact) const;
-    double supported(double bySpeed, Push push, double gainedMetresPerSecond, double fraction) const;
-    static bool waits(const FedContact& contact) noexcept {
+    double supportedNewtonSeconds(double bySpeed, Push push, double gainedMetresPerSecond,
+                                  double fraction) const;
+    static bool isSolvedAtStepEnd(const FedContact& contact) noexcept {
         return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
     }
     bool isNewPoint(Pair& pair, const FedContact& contact);
     bool isKick(Pair& pair, const FedContact& contact, bool isNew);
-    bool isHeldUp(std::int32_t struck, std::int32_t ground);
-    static FedContact beyondLoad(Pair& pair, FedContact contact);
-    void tell(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint);
-    void judgeKicks(Pair& pair);
-    void settle(Pair& pair);
-    void settleTogether();
+    bool isOnGround(std::int32_t struck, std::int32_t ground);
+    static FedContact withoutLoad(Pair& pair, FedContact contact);
+    void addContact(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint);
+    void resolveKicks(Pair& pair);
+    void solvePair(Pair& pair);
+    void solvePending();
     double speedOf(const FedContact& contact) const;
-    float gravityScaleOf(std::int32_t a, std::int32_t b) const; // of these slots, as the next
+    float gravityScaleOf(std::int32_t a, std::int32_t b) const; // of two slots
     bool isImpact(std::int32_t a, std::int32_t b, double metresPerSecond);
     std::int32_t slotOf(std::int32_t id) const noexcept {
         return events_.fixtures().find(ReportedBodies::idOf(id));
     }
-    TouchingPairs::Name nameOf(const FedContact& contact);
-    Pair& know(const FedContact& contact, bool isAsked);
+    TouchingPairs::Handle handleOf(const FedContact& contact);
+    Pair& findOrAdd(const FedContact& contact, bool isListed);
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);
-    void strike(const FedContact& contact, Push push = anyPush);
-    void passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed, double impulse);
-    void strikeTogether();
+    void addCollision(const FedContact& contact, Push push = unboundedPush);
+    void countBelowThreshold(const TouchingPairs::Handle& pair, const FedContact& contact, double speed,
+                             double impulse);
+    void addSharedCollision();
     double fastestOfNew() const;
     static void addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
                             float share) noexcept;
-    void load(const FedContact& contact);
-    void rub(const FedContact& contact, const TouchingPairs::Name& pair);
+    void addLoad(const FedContact& contact);
+    void reportSlide(const FedContact& contact, const TouchingPairs::Handle& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
 
     ReportedBodies bodies_;
     ContactEvents events_;
-    ReportedSlides rubs_;
-    FedPoints points_;
-    std::vector<Waiting> waiting_;
+    ReportedSlides slides_;
+    ReportedPoints points_;
+    std::vector<PendingContact> pendingContacts_;
     MomentumImpulses momentum_;
-    std::vector<const Waiting*> together_; // of one pair, in the order in which they were reported
-    std::vector<MeetingPoint> meeting_;    // the same for the solver
+    std::vector<const PendingContact*> pairContacts_; // of one pair, in the order in which they were reported
+    std::vector<SolverPoint> solverPoints_;           // the same for the solver
     std::vector<Pair> pairs_;
     IntegerMap pairOf_;
     double lastStepSeconds_ = 0.0, gravity_ = 0.0;

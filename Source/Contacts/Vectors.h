@@ -74,7 +74,7 @@ struct Frame {
     Vector2 turnedBack(Vector2 v) const noexcept {
         return {cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y};
     }
-    Vector2 placed(Vector2 v) const noexcept { return turned(v) + origin; } ///< from the frame to the world
+    Vector2 toWorld(Vector2 v) const noexcept { return turned(v) + origin; } ///< from the frame to the world
 };
 
 /// A corner or disc of one body on a face of another.
@@ -86,8 +86,8 @@ struct FaceTouch {
 
     /// The point between the surfaces, world.
     Vector2 point() const noexcept {
-        const Vector2 out = face.turned(normal), at = other.placed(corner);
-        const auto height = static_cast<float>(dot(at - face.placed(onFace), out));
+        const Vector2 out = face.turned(normal), at = other.toWorld(corner);
+        const auto height = static_cast<float>(dot(at - face.toWorld(onFace), out));
         return 0.5F * ((at + (faceRadius - height) * out) + (at - otherRadius * out));
     }
 };
@@ -117,31 +117,30 @@ struct InverseInertia {
     }
 
     /// Change of speed at one lever by 1 N s at the other, 1/kg.
-    double between(Vector3 one, Vector3 other) const noexcept {
+    double between(Vector3 u, Vector3 v) const noexcept {
         const auto product = [](float a, float b) { return static_cast<double>(a) * static_cast<double>(b); };
-        return product(one.x, other.x) * xx + product(one.y, other.y) * yy + product(one.z, other.z) * zz +
-               (product(one.x, other.y) + product(one.y, other.x)) * xy +
-               (product(one.x, other.z) + product(one.z, other.x)) * xz +
-               (product(one.y, other.z) + product(one.z, other.y)) * yz;
+        return product(u.x, v.x) * xx + product(u.y, v.y) * yy + product(u.z, v.z) * zz +
+               (product(u.x, v.y) + product(u.y, v.x)) * xy + (product(u.x, v.z) + product(u.z, v.x)) * xz +
+               (product(u.y, v.z) + product(u.z, v.y)) * yz;
     }
 
     /// True if the matrix is positive semi-definite, as that of every body is; false for NaN. With another
     /// matrix an impulse could push a body towards what struck it. A singular one, of a body that turns about
     /// one or two axes only, is valid.
     bool isValid() const noexcept {
-        constexpr double most = 1.0e18;
+        constexpr double max = 1.0e18;
         for (const double about : {xx, yy, zz})
-            if (!(about >= 0.0 && about <= most)) return false;
+            if (!(about >= 0.0 && about <= max)) return false;
         // no product of inertia is larger than the root of its two moments' product; engines round
-        const auto isWithin = [](double product, double one, double other) {
-            return std::abs(product) <= 1.0001 * std::sqrt(one * other);
+        const auto isWithin = [](double product, double momentA, double momentB) {
+            return std::abs(product) <= 1.0001 * std::sqrt(momentA * momentB);
         };
         return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz) && isAboveZero();
     }
 
 private:
     /// The last pivot of Cholesky's factors, where each axis has a moment: with those of the pairs above, it
-    /// tells a positive semi-definite matrix. In parts of the moments, since a rod's differ a lot.
+    /// tells a positive semi-definite matrix. Scaled by the moments, since those of a rod differ a lot.
     bool isAboveZero() const noexcept {
         if (!(xx > 0.0 && yy > 0.0 && zz > 0.0)) return true; // the pairs are all there is
         const double a = xy / std::sqrt(xx * yy), b = xz / std::sqrt(xx * zz), c = yz / std::sqrt(yy * zz);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds rows, grids and belts among the places of actuators, in the plane or in any other, and the triangles
-// of what closes around a place; and the cell that contains an impact.
+// Finds rows, grids and belts among the places of actuators, in any plane, the triangles of layouts that
+// close around their centre, and the cell that contains an impact.
 #include "Core/ActuatorCells.h"
 #include "Core/PortableMath.h"
 #include <algorithm>
@@ -32,7 +32,7 @@ double lengthOf(const Place& vector) noexcept { return std::sqrt(scalarProduct(v
 
 /// The part of `vector` that is at right angles to the unit vector.
 Place perpendicular(const Place& vector, const Place& unit) noexcept {
-    return sumOf(vector, unit, -scalarProduct(vector, unit));
+    return addScaled(vector, unit, -scalarProduct(vector, unit));
 }
 
 /// At right angles to the unit vector, along x if it can be, else along y or z as far as it can be: planes of
@@ -42,7 +42,7 @@ Place uprightAcross(const Place& unit) noexcept {
     const Place* best = axes;
     for (const Place& axis : axes)
         if (std::abs(scalarProduct(axis, unit)) < std::abs(scalarProduct(*best, unit)) - 1e-9) best = &axis;
-    return directionOf(perpendicular(*best, unit));
+    return normalised(perpendicular(*best, unit));
 }
 
 /// Shares of a place, `out` from the centre, among three corners: the weights with which their vectors from
@@ -143,15 +143,15 @@ void NeighbourCells::sharesAt(const Layout& layout, const Place& place, Shares& 
 }
 
 void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
-    const auto between = [](int count, double at, auto coordinate) -> Between {
+    const auto between = [](int count, double at, auto coordinate) -> Segment {
         if (count == 1) return {};
         int first = 0;
         while (first + 2 < count && coordinate(first + 1) <= at) ++first;
         const double from = coordinate(first), to = coordinate(first + 1);
         return {first, std::clamp((at - from) / (to - from), 0.0, 1.0)};
     };
-    const Between column = between(columns_, along(p), [&](int c) { return along(place(layout, c)); });
-    const Between row = between(rows_, across(p), [&](int r) { return across(place(layout, r * columns_)); });
+    const Segment column = between(columns_, along(p), [&](int c) { return along(place(layout, c)); });
+    const Segment row = between(rows_, across(p), [&](int r) { return across(place(layout, r * columns_)); });
     std::fill_n(shares.begin(), layout.count, 0.0);
     for (int r = 0; r < std::min(2, rows_); ++r)
         for (int c = 0; c < 2; ++c) {
@@ -206,23 +206,23 @@ bool NeighbourCells::findPlane(const Layout& layout) noexcept {
     const auto begin = layout.places.begin(), end = begin + layout.count;
     const auto farthest = [&](auto distance) {
         return *std::max_element(begin, end, [&](const Place& a, const Place& b) {
-            return distance(vectorFrom(*begin, a)) < distance(vectorFrom(*begin, b));
+            return distance(vectorBetween(*begin, a)) < distance(vectorBetween(*begin, b));
         });
     };
-    const Place reach = vectorFrom(*begin, farthest(lengthOf));
+    const Place reach = vectorBetween(*begin, farthest(lengthOf));
     const double length = lengthOf(reach);
     if (!(length > 0.0)) return false;
     isTilted_ = true;
-    const Place line = directionOf(reach);
+    const Place line = normalised(reach);
     const auto aside = [&](const Place& d) { return lengthOf(perpendicular(d, line)); };
-    const Place side = perpendicular(vectorFrom(*begin, farthest(aside)), line);
+    const Place side = perpendicular(vectorBetween(*begin, farthest(aside)), line);
     spanMetres_ = length + lengthOf(side);
     const bool isRow = lengthOf(side) <= tolerance(layout);
-    const Place normal = isRow ? uprightAcross(line) : directionOf(vectorProduct(line, side));
+    const Place normal = isRow ? uprightAcross(line) : normalised(vectorProduct(line, side));
     right_ = isRow ? line : uprightAcross(normal);
     up_ = vectorProduct(normal, right_);
     return isRow || std::all_of(begin, end, [&](const Place& p) {
-               return std::abs(scalarProduct(vectorFrom(*begin, p), normal)) <= tolerance(layout);
+               return std::abs(scalarProduct(vectorBetween(*begin, p), normal)) <= tolerance(layout);
            });
 }
 
@@ -231,7 +231,7 @@ NeighbourCells::Axis NeighbourCells::towardsNearest(const Layout& layout) const 
     const Place first = onPlane(layout.places[0]);
     Place nearest;
     for (int j = 1; j < layout.count; ++j) {
-        const Place d = vectorFrom(first, onPlane(layout.places[static_cast<std::size_t>(j)]));
+        const Place d = vectorBetween(first, onPlane(layout.places[static_cast<std::size_t>(j)]));
         if (j == 1 || lengthOf(d) < lengthOf(nearest)) nearest = d;
     }
     const double length = lengthOf(nearest);
@@ -242,7 +242,7 @@ NeighbourCells::Axis NeighbourCells::towardsNearest(const Layout& layout) const 
 // one is below zero. A face of more than three corners is divided at its middle. No actuator stands there, so
 // its corners carry the middle's share equally, and so do all actuators that of the centre.
 void TriangleCells::sharesAt(const Layout& layout, const Place& place, Shares& shares) const noexcept {
-    const Place out = vectorFrom(centre_, place);
+    const Place out = vectorBetween(centre_, place);
     const Triangle best = triangleTowards(layout, out);
     const double reach = best.weights[0] + best.weights[1] + best.weights[2]; // 1 on the surface
     const double scale = 1.0 / std::max(1.0, reach);
@@ -259,22 +259,22 @@ void TriangleCells::sharesAt(const Layout& layout, const Place& place, Shares& s
 
 TriangleCells::Triangle TriangleCells::triangleTowards(const Layout& layout,
                                                        const Place& out) const noexcept {
-    const auto corner = [&](std::size_t c) { return vectorFrom(centre_, layout.places[corners_[c]]); };
+    const auto corner = [&](std::size_t c) { return vectorBetween(centre_, layout.places[corners_[c]]); };
     Triangle best;
     double inside = 0.0;
     for (std::size_t face = 0; face < static_cast<std::size_t>(faces_); ++face) {
         const std::size_t first = firstCorner(face), count = ends_[face] - first;
         Place middle;
         for (std::size_t i = 0; i < count; ++i)
-            middle = sumOf(middle, corner(first + i), 1.0 / static_cast<double>(count));
+            middle = addScaled(middle, corner(first + i), 1.0 / static_cast<double>(count));
         for (std::size_t i = 0; i < (count == 3 ? 1 : count); ++i) {
             const std::size_t second = count == 3 ? first + 1 : first + i,
                               third = count == 3 ? first + 2 : first + (i + 1) % count;
             const Weights weights =
                 weightsOf(out, {count == 3 ? corner(first) : middle, corner(second), corner(third)});
-            const double least = std::min({weights[0], weights[1], weights[2]});
-            if (face + i > 0 && least <= inside) continue;
-            inside = least;
+            const double smallest = std::min({weights[0], weights[1], weights[2]});
+            if (face + i > 0 && smallest <= inside) continue;
+            inside = smallest;
             best = {weights, face, corners_[first], corners_[second], corners_[third]};
         }
     }
@@ -289,22 +289,22 @@ namespace {
 using Direction = ActuatorPlace; // length 1
 using Directions = std::array<Direction, TriangleCells::maxActuators>;
 
-constexpr double coplanar = 1e-6;   // directions that miss a plane by less lie in it
-constexpr double leastApart = 1e-3; // between two directions
-constexpr double leastReach = 0.1;  // from the centre to a face of directions: below, the layout is open
+constexpr double coplanar = 1e-6; // directions that miss a plane by less lie in it
+constexpr double minApart = 1e-3; // between two directions
+constexpr double minReach = 0.1;  // from the centre to a face of directions: below, the layout is open
 
 /// False if an actuator is at the centre, or two are in one direction from it.
 bool findDirections(const ActuatorLayout& layout, const ActuatorPlace& centre,
                     Directions& directions) noexcept {
     const auto count = static_cast<std::size_t>(layout.count);
-    const double least = leastApart * (layout.extentWidthMetres + layout.extentHeightMetres);
+    const double minMetres = minApart * (layout.extentWidthMetres + layout.extentHeightMetres);
     for (std::size_t j = 0; j < count; ++j) {
-        const ActuatorPlace out = vectorFrom(centre, layout.places[j]);
-        if (!(scalarProduct(out, out) > least * least)) return false;
-        directions[j] = directionOf(out);
+        const ActuatorPlace out = vectorBetween(centre, layout.places[j]);
+        if (!(scalarProduct(out, out) > minMetres * minMetres)) return false;
+        directions[j] = normalised(out);
         for (std::size_t k = 0; k < j; ++k) {
-            const ActuatorPlace apart = vectorFrom(directions[j], directions[k]);
-            if (scalarProduct(apart, apart) < leastApart * leastApart) return false;
+            const ActuatorPlace apart = vectorBetween(directions[j], directions[k]);
+            if (scalarProduct(apart, apart) < minApart * minApart) return false;
         }
     }
     return true;
@@ -317,9 +317,9 @@ struct FacePlane {
     bool hasBeyond = false, hasBelow = false; // directions on either side of it
 
     FacePlane(const Directions& all, std::size_t count, std::size_t i, std::size_t j, std::size_t k) noexcept
-        : normal{directionOf(vectorProduct(vectorFrom(all[i], all[j]), vectorFrom(all[i], all[k])))}
+        : normal{normalised(vectorProduct(vectorBetween(all[i], all[j]), vectorBetween(all[i], all[k])))}
         , reach{scalarProduct(normal, all[i])} {
-        if (reach < 0.0) normal = sumOf({}, normal, -1.0), reach = -reach;
+        if (reach < 0.0) normal = addScaled({}, normal, -1.0), reach = -reach;
         for (std::size_t m = 0; m < count && !(hasBeyond && hasBelow); ++m) {
             const double along = scalarProduct(normal, all[m]);
             hasBeyond = hasBeyond || along > reach + coplanar;
@@ -328,9 +328,9 @@ struct FacePlane {
     }
     bool isFace() const noexcept { return !hasBeyond; }
     /// Nothing is below: the centre is not inside. Or it is hardly inside.
-    bool isOpen() const noexcept { return !hasBelow || (isFace() && reach < leastReach); }
-    bool contains(const Direction& one) const noexcept {
-        return std::abs(scalarProduct(normal, one) - reach) <= coplanar;
+    bool isOpen() const noexcept { return !hasBelow || (isFace() && reach < minReach); }
+    bool contains(const Direction& out) const noexcept {
+        return std::abs(scalarProduct(normal, out) - reach) <= coplanar;
     }
 };
 
@@ -353,7 +353,7 @@ struct Face {
 
     /// Puts the corners in order around the face.
     void sort(const FacePlane& plane, const Directions& all) noexcept {
-        const Direction right = directionOf(sumOf(all[corners[0]], plane.normal, -plane.reach)),
+        const Direction right = normalised(addScaled(all[corners[0]], plane.normal, -plane.reach)),
                         up = vectorProduct(plane.normal, right);
         const auto angle = [&](std::uint8_t m) {
             return portable::atan2(scalarProduct(all[m], up), scalarProduct(all[m], right));
@@ -368,7 +368,7 @@ TriangleCells::TriangleCells(const Layout& layout) noexcept {
     const auto count = static_cast<std::size_t>(layout.count);
     if (layout.count < 4 || isFlat(layout)) return;
     for (std::size_t j = 0; j < count; ++j)
-        centre_ = sumOf(centre_, layout.places[j], 1.0 / static_cast<double>(count));
+        centre_ = addScaled(centre_, layout.places[j], 1.0 / static_cast<double>(count));
     Directions all;
     if (!findDirections(layout, centre_, all)) return;
     for (std::size_t i = 0; i + 2 < count; ++i)
@@ -382,12 +382,12 @@ TriangleCells::TriangleCells(const Layout& layout) noexcept {
                 Face face;
                 if (!plane.isFace() || !face.collect(plane, all, count, i, j, k)) continue;
                 face.sort(plane, all);
-                if (!keep(face.corners.data(), face.count)) return;
+                if (!addFace(face.corners.data(), face.count)) return;
             }
 }
 
 // False, and no triangles are found, if there are more than a convex body has: rounding has doubled a face.
-bool TriangleCells::keep(const std::uint8_t* corners, std::size_t count) noexcept {
+bool TriangleCells::addFace(const std::uint8_t* corners, std::size_t count) noexcept {
     const auto face = static_cast<std::size_t>(faces_);
     const std::size_t first = firstCorner(face), end = first + count;
     if (face == maxFaces || end > maxCorners) {

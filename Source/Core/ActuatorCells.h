@@ -11,12 +11,12 @@
 namespace physvib {
 
 /// The vector from a to b. Any thread, as all arithmetic of places.
-inline ActuatorPlace vectorFrom(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
+inline ActuatorPlace vectorBetween(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
     return {b.xMetres - a.xMetres, b.yMetres - a.yMetres, b.zMetres - a.zMetres};
 }
 
-/// a + times b.
-inline ActuatorPlace sumOf(const ActuatorPlace& a, const ActuatorPlace& b, double times) noexcept {
+/// The vector a + times * b.
+inline ActuatorPlace addScaled(const ActuatorPlace& a, const ActuatorPlace& b, double times) noexcept {
     return {a.xMetres + times * b.xMetres, a.yMetres + times * b.yMetres, a.zMetres + times * b.zMetres};
 }
 
@@ -29,9 +29,9 @@ inline ActuatorPlace vectorProduct(const ActuatorPlace& a, const ActuatorPlace& 
             a.xMetres * b.yMetres - a.yMetres * b.xMetres};
 }
 
-/// The same direction with the length 1; not of a vector without length.
-inline ActuatorPlace directionOf(const ActuatorPlace& vector) noexcept {
-    return sumOf({}, vector, 1.0 / std::sqrt(scalarProduct(vector, vector)));
+/// The vector of length 1 in the same direction; the vector must not be 0.
+inline ActuatorPlace normalised(const ActuatorPlace& vector) noexcept {
+    return addScaled({}, vector, 1.0 / std::sqrt(scalarProduct(vector, vector)));
 }
 
 /// Sorts numbers of actuators by insertion, the smallest key first: a layout has at most 64 actuators, and
@@ -40,9 +40,9 @@ template <class Key>
 void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexcept {
     for (std::uint8_t* next = begin; next < end; ++next) {
         const std::uint8_t moved = *next;
-        const auto of = key(moved);
+        const auto movedKey = key(moved);
         std::uint8_t* at = next;
-        for (; at > begin && of < key(*(at - 1)); --at) *at = *(at - 1);
+        for (; at > begin && movedKey < key(*(at - 1)); --at) *at = *(at - 1);
         *at = moved;
     }
 }
@@ -53,9 +53,9 @@ void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexc
 /// Docs/rows.md has the formulas.
 class NeighbourCells {
 public:
-    using Layout = EnchanterLayout;
-    using Place = EnchanterPlace;
-    using Shares = std::array<double, limits::maxEnchanters>; ///< One per actuator.
+    using Layout = ActuatorLayout;
+    using Place = ActuatorPlace;
+    using Shares = std::array<double, limits::maxActuators>; ///< One per actuator.
     struct Axis {
         double x = 1.0, y = 0.0;
     }; ///< Unit vector.
@@ -71,7 +71,7 @@ public:
     explicit NeighbourCells(const Layout& layout) noexcept;
 
     /// False if the layout has none of the shapes. Any thread.
-    bool areFound() const noexcept { return shape_ != Shape::none; }
+    bool isUsable() const noexcept { return shape_ != Shape::none; }
 
     /// Shares for a place in metres of the layout the cells were made of. A place outside is moved to the
     /// shape's edge. Writes the first `layout.count` entries. Any thread.
@@ -79,7 +79,7 @@ public:
 
 private:
     enum class Shape : std::uint8_t { none, grid, ring }; // a row is a grid of one row
-    struct Between {
+    struct Segment {
         int first = 0;      // this one and the next
         double share = 0.0; // of the next
     };
@@ -105,7 +105,7 @@ private:
     Place centre_;               // of a ring: the mean of the actuators' places
     int columns_ = 0, rows_ = 0; // of a grid
     // actuators in rows from below and in each from left to right, or counter-clockwise around the centre
-    std::array<std::uint8_t, limits::maxEnchanters> order_{};
+    std::array<std::uint8_t, limits::maxActuators> order_{};
 };
 
 /// Triangles between the actuators of a layout that closes around its centre, as a sleeve or a vest does: as
@@ -126,7 +126,7 @@ public:
     explicit TriangleCells(const Layout& layout) noexcept;
 
     /// False if the layout is flat, open, or has an actuator right behind another. Any thread.
-    bool areFound() const noexcept { return faces_ > 0; }
+    bool isUsable() const noexcept { return faces_ > 0; }
 
     /// Shares for a place in metres of the layout the triangles were made of. A place outside is moved to the
     /// surface, towards the centre. Writes the first `layout.count` entries. Any thread.
@@ -141,7 +141,7 @@ private:
         std::uint8_t first = 0, second = 0, third = 0; // actuators
     };
 
-    bool keep(const std::uint8_t* corners, std::size_t count) noexcept;
+    bool addFace(const std::uint8_t* corners, std::size_t count) noexcept;
     Triangle triangleTowards(const Layout& layout, const Place& out) const noexcept;
     std::size_t firstCorner(std::size_t face) const noexcept { return face == 0 ? 0 : ends_[face - 1]; }
 

@@ -21,11 +21,11 @@ std::uint8_t codeOf(float sample) noexcept {
 std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }
 
 bool exceeds(const PhasorBank::Block& block) noexcept {
-    std::uint32_t most = 0;
+    std::uint32_t peakBits = 0;
     for (const auto& row : block)
 #pragma GCC unroll 4
-        for (const float sample : row) most = std::max(most, magnitude(sample));
-    return most > magnitude(1.0f);
+        for (const float sample : row) peakBits = std::max(peakBits, magnitude(sample));
+    return peakBits > magnitude(1.0f);
 }
 
 } // namespace
@@ -78,19 +78,19 @@ void BoardRenderer::stopAll() noexcept {
 void BoardRenderer::render(Codes& out) noexcept {
     PhasorBank::Block block;
     bank_.render(frame(), block);
-    if (nextDue_ < frame_ + blockFrames) strikeDue(block);
+    if (nextDue_ < frame_ + blockFrames) startDueEvents(block);
     if (segments_.count() > 0) segments_.render(frame(), block);
     for (int j = 0; j < channels; ++j) {
         float* const channel = block[at(j)].data();
         gains_[at(j)].apply(&channel, 1, blockFrames);
     }
     if (linkedGain_ < 1.0f || exceeds(block)) limit(block);
-    if (guard_.acts()) guard_.turnDown(block);
+    if (guard_.acts()) guard_.attenuate(block);
     encode(block, out);
     frame_ += blockFrames;
 }
 
-void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
+void BoardRenderer::startDueEvents(PhasorBank::Block& io) noexcept {
     while (nextDue_ < frame_ + blockFrames) {
         const bool isLate = nextDue_ < frame_; // a late event starts at its first frame now, uncut
         const BoardEvent& event = pending_.next();
@@ -105,9 +105,9 @@ void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
 void BoardRenderer::limit(PhasorBank::Block& io) noexcept {
     float gain = linkedGain_;
     for (int k = 0; k < blockFrames; ++k) {
-        std::uint32_t most = 0;
-        for (const auto& row : io) most = std::max(most, magnitude(row[at(k)]));
-        const auto peak = std::bit_cast<float>(most);
+        std::uint32_t peakBits = 0;
+        for (const auto& row : io) peakBits = std::max(peakBits, magnitude(row[at(k)]));
+        const auto peak = std::bit_cast<float>(peakBits);
         gain = std::min(1.0f, gain + release);
         if (peak * gain > 1.0f) gain = 1.0f / peak;
         for (auto& row : io) row[at(k)] *= gain;
@@ -123,7 +123,7 @@ void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept 
         for (int k = 0; k < blockFrames; ++k) sum += out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
         areas[at(j)] = BoardGuard::area(sum);
     }
-    guard_.take(areas);
+    guard_.update(areas);
 }
 
 BoardStatus BoardRenderer::status() const noexcept {

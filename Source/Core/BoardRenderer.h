@@ -40,10 +40,10 @@ public:
     /// True if the gain of the next block has to be reduced.
     bool acts() const noexcept { return acts_; }
     /// Not inlined: it runs seldom, so a board keeps it out of its fast memory.
-    [[gnu::noinline]] void turnDown(PhasorBank::Block& io) const noexcept {
+    [[gnu::noinline]] void attenuate(PhasorBank::Block& io) const noexcept {
         for (std::size_t j = 0; j < io.size(); ++j) {
-            const float step = (law_.to(j) - law_.from(j)) / PhasorBank::blockFrames;
-            float gain = law_.from(j);
+            const float step = (law_.endGain(j) - law_.startGain(j)) / PhasorBank::blockFrames;
+            float gain = law_.startGain(j);
             for (float& sample : io[j]) sample *= gain += step;
         }
     }
@@ -52,11 +52,11 @@ public:
     static constexpr float area(int sum) noexcept {
         return static_cast<float>(sum) * (1.0f / (fullScale * limits::board::sampleRateHz));
     }
-    /// Takes the areas of a block that was sent and decides about the next one.
-    void take(const Areas& areas) noexcept { acts_ = law_.take(areas); }
+    /// Adds the areas of a block that was sent, and decides whether to reduce the next one.
+    void update(const Areas& areas) noexcept { acts_ = law_.update(areas); }
 
     /// The next block is played unchanged; for a block that is not sent.
-    void letThrough() noexcept { acts_ = false; }
+    void bypassNextBlock() noexcept { acts_ = false; }
 
     float gain() const noexcept { return law_.gain(); }                 ///< lowest gain of all channels
     std::uint32_t episodes() const noexcept { return law_.episodes(); } ///< how often it began to act
@@ -113,7 +113,7 @@ struct BoardStatus {
     int pending = 0;
 };
 
-/// All memory is inside the object. Render thread (R) only.
+/// Renders the board's output block by block. All memory is inside the object. Render thread (R) only.
 class BoardRenderer {
 public:
     static constexpr int channels = PhasorBank::channels;
@@ -123,8 +123,7 @@ public:
                              static_cast<std::size_t>(blockFrames)>;
     using Gains = std::array<float, static_cast<std::size_t>(channels)>;
 
-    /// Silence at frame 0, all gains 1.
-    void prepare() noexcept;
+    void prepare() noexcept; ///< Silence at frame 0, all gains 1.
 
     /// False, and counted as dropped, if the event is not playable or the pending store is full. Events of
     /// one frame keep their order.
@@ -133,7 +132,7 @@ public:
 
     /// Gains per channel, reached within limits::channelRampSeconds. Negative ones invert, 0 mutes.
     void setGains(const Gains& gains) noexcept;
-    /// The same at once, while nothing is heard; what they were to be.
+    /// Sets the gains without a ramp, while the output is silent; returns the former target gains.
     Gains exchangeGains(const Gains& gains) noexcept;
 
     /// Ends all modes and segments and discards pending events, from the next block on. The caller fades what
@@ -141,10 +140,9 @@ public:
     void stopAll() noexcept;
 
     /// The guard does not act on the next block: for a block that is not sent to the actuators (self-test).
-    void letThrough() noexcept { guard_.letThrough(); }
+    void bypassNextBlock() noexcept { guard_.bypassNextBlock(); }
 
-    /// Renders the next block.
-    void render(Codes& out) noexcept;
+    void render(Codes& out) noexcept; ///< Renders the next block.
 
     /// First frame of the next block.
     std::uint32_t frame() const noexcept { return static_cast<std::uint32_t>(frame_); }
@@ -153,7 +151,7 @@ public:
     const BoardGuard& guard() const noexcept { return guard_; }
 
 private:
-    void strikeDue(PhasorBank::Block& io) noexcept;
+    void startDueEvents(PhasorBank::Block& io) noexcept;
     void limit(PhasorBank::Block& io) noexcept;
     void encode(const PhasorBank::Block& block, Codes& out) noexcept;
 

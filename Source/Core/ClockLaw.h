@@ -30,7 +30,7 @@ public:
                 static_cast<double>(missing) * 1e-9};
     }
 
-    /// As given.
+    /// The constructor's argument.
     int sampleRateHz() const noexcept { return static_cast<int>(rate_); }
 
 private:
@@ -83,7 +83,7 @@ struct ClockLaw {
 constexpr double messageTimerGapSeconds = 0.026;
 constexpr double driverThreadGapSeconds = 0.001;
 
-/// Of such a thread: below 0, as the step of L that may not have begun has begun.
+/// The gap of such a thread; negative, because L counts a step that has not begun, but here it has begun.
 constexpr double threadGapSeconds(int stepsPerSecond, double lateSeconds = driverThreadGapSeconds) noexcept {
     return lateSeconds - 1.0 / stepsPerSecond;
 }

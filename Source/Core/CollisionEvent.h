@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One collision event, as the renderer plays it (the thesis' node L_col, Eq. 5.1, 6.2). The physics side
-// passes nothing else to the renderer.
+// A collision event as the renderer plays it (the thesis' node L_col, Eq. 5.1, 6.2), its source and its
+// course. The physics side passes nothing else to the renderer.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/NameNumbers.h"
@@ -27,13 +27,13 @@ struct CollisionSource {
 };
 
 /// Optional properties of an event: it may move, and continue a tone that began earlier.
-struct StrikeCourse {
-    /** End x. */ double toX = 0.0, toY = 0.0; ///< end point, metres of the field; reached after travelNs
-                                               ///< in a straight line at constant speed
-    std::int64_t travelNs = 0;                 ///< 0: it stays at its starting point
-    std::int64_t sinceNs = 0; ///< age of the tone at the onset: phase and decay continue from there
-    double toZ = 0.0;         ///< end point across the plane, m; 0 in a world in a plane
-    bool operator==(const StrikeCourse&) const = default; ///< Compares all members.
+struct ToneCourse {
+    /** End point along x, m. */ double toX = 0.0, toY = 0.0; ///< end point, m of the field; reached after
+                                                              ///< travelNs, straight and at constant speed
+    std::int64_t travelNs = 0;                                ///< 0: it stays at its starting point
+    std::int64_t toneAgeNs = 0; ///< age of the tone at the onset: phase and decay continue from there
+    double toZ = 0.0;           ///< end point across the plane, m; 0 in a world in a plane
+    bool operator==(const ToneCourse&) const = default; ///< Compares all members.
 };
 
 /// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).
@@ -47,7 +47,7 @@ struct CollisionEvent {
     double y = 0.0;              ///< metres, upwards
     std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
     CollisionSource source;      ///< the bodies that caused it
-    StrikeCourse course{};       ///< for events that no world produced
+    ToneCourse course{};         ///< for events that no world produced
     Spread spread = Spread::layout; ///< how it is distributed over the actuators
     SoundNumber sound = 0;          ///< the recording that plays it; 0, or if there is none: its frequency
     double z = 0.0;                 ///< place across the plane of x and y, m; 0 in a world in a plane
@@ -63,22 +63,22 @@ inline bool isTooSlow(const CollisionEvent& e) noexcept {
 /// True if the event can be played: finite, inside `limits`, not isTooSlow, ended by a decay or a duration,
 /// and no clip that moves. Any thread.
 inline bool isPlayable(const CollisionEvent& e) noexcept {
-    const bool inTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
-                        e.durationNs <= limits::maxTimeNs;
-    const bool audible = e.frequencyHz > 0.0 && e.frequencyHz <= limits::maxFrequencyHz &&
-                         e.decayPerSecond >= 0.0 && e.decayPerSecond <= limits::maxDecayPerSecond &&
-                         std::abs(e.amplitude) <= limits::maxAmplitude;
-    const bool ends = e.decayPerSecond > 0.0 || e.durationNs > 0;
-    const StrikeCourse& c = e.course;
-    const bool goes = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.sinceNs >= 0 &&
-                      c.sinceNs <= limits::maxTimeNs && std::isfinite(c.toX) && std::isfinite(c.toY) &&
-                      std::isfinite(c.toZ);
+    const bool isInTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
+                          e.durationNs <= limits::maxTimeNs;
+    const bool isInRange = e.frequencyHz > 0.0 && e.frequencyHz <= limits::maxFrequencyHz &&
+                           e.decayPerSecond >= 0.0 && e.decayPerSecond <= limits::maxDecayPerSecond &&
+                           std::abs(e.amplitude) <= limits::maxAmplitude;
+    const bool hasEnd = e.decayPerSecond > 0.0 || e.durationNs > 0;
+    const ToneCourse& c = e.course;
+    const bool isCourseValid = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.toneAgeNs >= 0 &&
+                               c.toneAgeNs <= limits::maxTimeNs && std::isfinite(c.toX) &&
+                               std::isfinite(c.toY) && std::isfinite(c.toZ);
     const bool isSound = e.sound >= 0 && !(isClip(e.sound) && c.travelNs > 0);
-    return inTime && audible && ends && goes && isSound && !isTooSlow(e) && std::isfinite(e.x) &&
-           std::isfinite(e.y) && std::isfinite(e.z);
+    return isInTime && isInRange && hasEnd && isCourseValid && isSound && !isTooSlow(e) &&
+           std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z);
 }
 
-/// The event where it is after that share of its way, 0 to 1. Any thread.
+/// The event, moved to its place after `share` (0 to 1) of its way. Any thread.
 inline CollisionEvent movedAlong(CollisionEvent e, double share) noexcept {
     e.x += share * (e.course.toX - e.x);
     e.y += share * (e.course.toY - e.y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Controls on their way to a renderer or a sink. A panner is fifty times larger than any other control, so it
-// waits in a place of its own: the sender fills the place, the reader hands it back.
+// Queue of controls to a renderer or a sink (ControlQueue), and its pool of panners (PannerPool): a panner is
+// fifty times larger than a control, so a control points to a copy, which the reader hands back.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/RenderControl.h"
@@ -12,43 +12,43 @@
 
 namespace physvib {
 
-/// At most `Most` panners that wait for their reader. One sender, one reader.
-template <std::size_t Most>
+/// At most `Max` panners that wait for their reader. One sender, one reader.
+template <std::size_t Max>
 class PannerPool {
 public:
     PannerPool() = default;
     PannerPool(const PannerPool&) = delete;
     PannerPool& operator=(const PannerPool&) = delete;
     ~PannerPool() {
-        std::for_each_n(places_.begin(), made_, [](Place* place) { delete place; });
+        std::for_each_n(places_.begin(), count_, [](Place* place) { delete place; });
     }
 
-    /// Makes `count` places, at most `Most`. The sender's, if it does not render. False: no memory.
+    /// Makes `count` places, at most `Max`. Sender only, not while it renders. False: no memory.
     bool reserve(std::size_t count) noexcept {
-        for (; made_ < std::min(count, Most); ++made_)
-            if ((places_[made_] = new (std::nothrow) Place) == nullptr) return false;
+        for (; count_ < std::min(count, Max); ++count_)
+            if ((places_[count_] = new (std::nothrow) Place) == nullptr) return false;
         return true;
     }
 
-    /// A copy that stays until it is handed back; null: all places are in use. The sender's, wait-free.
-    const PhantomPanner* put(const PhantomPanner& panner) noexcept {
+    /// A copy that stays until it is handed back; null: all places are in use. Sender only, wait-free.
+    const PhantomPanner* store(const PhantomPanner& panner) noexcept {
         Place* const place = free();
         if (place == nullptr) return nullptr;
         static_cast<PhantomPanner&>(*place) = panner;
         place->isFree.store(false, std::memory_order_relaxed);
         return place;
     }
-    bool hasRoom() const noexcept { return free() != nullptr; } ///< the sender's, wait-free
-    std::size_t made() const noexcept { return made_; }         ///< the sender's
+    bool hasRoom() const noexcept { return free() != nullptr; } ///< sender only, wait-free
+    std::size_t count() const noexcept { return count_; }       ///< sender only
 
-    /// Hands back what put() of any pool has returned. The reader's, wait-free.
-    static void handBack(const PhantomPanner* kept) noexcept {
-        if (kept != nullptr) static_cast<const Place*>(kept)->isFree.store(true, std::memory_order_release);
+    /// Hands back what store() of any pool has returned. Reader only, wait-free.
+    static void release(const PhantomPanner* copy) noexcept {
+        if (copy != nullptr) static_cast<const Place*>(copy)->isFree.store(true, std::memory_order_release);
     }
 
-    /// All places are free. While neither side uses it.
+    /// Frees all places. Only while neither side uses it.
     void clear() noexcept {
-        std::for_each_n(places_.begin(), made_, [](Place* place) { handBack(place); });
+        std::for_each_n(places_.begin(), count_, [](Place* place) { release(place); });
     }
 
 private:
@@ -56,15 +56,15 @@ private:
         mutable std::atomic<bool> isFree{true};
     };
     Place* free() const noexcept {
-        const auto end = places_.begin() + static_cast<std::ptrdiff_t>(made_);
+        const auto end = places_.begin() + static_cast<std::ptrdiff_t>(count_);
         const auto found = std::find_if(places_.begin(), end, [](const Place* place) {
             return place->isFree.load(std::memory_order_acquire);
         });
         return found == end ? nullptr : *found;
     }
 
-    std::array<Place*, Most> places_{};
-    std::size_t made_ = 0;
+    std::array<Place*, Max> places_{};
+    std::size_t count_ = 0;
 };
 
 /// Up to `Capacity` controls from one sender to one reader. Places of panners are made when they are needed,
@@ -76,9 +76,9 @@ public:
     ControlQueue() noexcept { panners_.reserve(Panners); }
 
     /// False, and counted: the queue is full, or all places of panners are in use. The control's panner is
-    /// copied. The sender's.
+    /// copied. Sender only.
     bool push(RenderControl control) noexcept {
-        if (control.panner != nullptr && (control.panner = keep(*control.panner)) == nullptr) {
+        if (control.panner != nullptr && (control.panner = copyOf(*control.panner)) == nullptr) {
             refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
             return false;
         }
@@ -87,12 +87,12 @@ public:
         return false;
     }
 
-    /// False: the queue is empty. The reader's, wait-free. Call done() when the control's panner was used.
+    /// False: the queue is empty. Reader only, wait-free. Call done() when the control's panner was used.
     bool pop(RenderControl& control) noexcept { return controls_.pop(control); }
-    /// Hands the control's panner back to its sender. The reader's, wait-free.
-    static void done(const RenderControl& control) noexcept { Pool::handBack(control.panner); }
+    /// Hands the control's panner back to its sender. Reader only, wait-free.
+    static void done(const RenderControl& control) noexcept { Pool::release(control.panner); }
 
-    /// Forgets all controls, also those that were popped and are not done. While neither side uses it.
+    /// Forgets all controls, also those that were popped and are not done. Only while neither side uses it.
     void clear() noexcept {
         for (RenderControl undone; controls_.pop(undone);) {
         }
@@ -106,10 +106,10 @@ public:
 
 private:
     using Pool = PannerPool<(Panners > 0 ? Panners : Capacity)>;
-    const PhantomPanner* keep(const PhantomPanner& panner) noexcept {
-        const PhantomPanner* kept = panners_.put(panner);
-        if (kept != nullptr || Panners > 0) return kept;
-        return panners_.reserve(panners_.made() + 1) ? panners_.put(panner) : nullptr;
+    const PhantomPanner* copyOf(const PhantomPanner& panner) noexcept {
+        const PhantomPanner* copy = panners_.store(panner);
+        if (copy != nullptr || Panners > 0) return copy;
+        return panners_.reserve(panners_.count() + 1) ? panners_.store(panner) : nullptr;
     }
 
     EventQueue<RenderControl, Capacity> controls_;

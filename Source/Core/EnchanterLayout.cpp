@@ -34,7 +34,7 @@ constexpr std::array nearFirst{corners[2], corners[3], corners[0], corners[1]};
 // The thesis gives no coordinates. Assumed: actuators on the back of a phone of about 138 x 69 mm, and on
 // fingers of two hands that hold a phone in landscape grip.
 // The inside of a virtual pinball cabinet of common size is assumed too; its first two are near the player.
-// So is a pad under both hands for the wires of a Pico, whose actuators stick where one likes.
+// So is the pad under both hands for a Pico, whose actuators can be attached anywhere.
 constexpr ActuatorPlace phone{0.12, 0.06}, ring{0.16, 0.08}, cabinet{0.56, 1.1}, pad{0.24, 0.08};
 constexpr std::array presets{
     Preset{"phone1", phone, centre},  Preset{"phone2", phone, sides}, Preset{"phone3", phone, triangle},
@@ -65,7 +65,7 @@ bool isPositive(double metres) noexcept { return std::isfinite(metres) && metres
 constinit const std::span<const std::string_view> layoutPresetNames{presetNames};
 
 bool isValid(const ActuatorLayout& layout) noexcept {
-    if (layout.count < 1 || layout.count > limits::maxEnchanters) return false;
+    if (layout.count < 1 || layout.count > limits::maxActuators) return false;
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j)
         if (!std::isfinite(layout.places[j].xMetres) || !std::isfinite(layout.places[j].yMetres) ||
             !std::isfinite(layout.places[j].zMetres) || layout.places[j].part < 0)

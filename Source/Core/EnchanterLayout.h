@@ -22,8 +22,8 @@ struct ActuatorPlace {
 struct ActuatorLayout {
     double extentWidthMetres = 0.0;  ///< above 0
     double extentHeightMetres = 0.0; ///< above 0
-    int count = 0;                   ///< 1 to limits::maxEnchanters; channel j is places[j]
-    std::array<ActuatorPlace, limits::maxEnchanters> places{}; ///< the first `count` are used
+    int count = 0;                   ///< 1 to limits::maxActuators; channel j is places[j]
+    std::array<ActuatorPlace, limits::maxActuators> places{}; ///< the first `count` are used
 };
 
 /** The earlier name, kept for old code. */ using EnchanterPlace = ActuatorPlace;

@@ -25,20 +25,20 @@ public:
     /// False: no memory. Only while neither side uses the queue.
     bool resize(std::size_t capacity) noexcept {
         if (capacity == capacity_) return true;
-        const bool has = items_.resize(capacity);
-        capacity_ = has ? capacity : 0;
+        const bool hasMemory = items_.resize(capacity);
+        capacity_ = hasMemory ? capacity : 0;
         write_ = read_ = readSeen_ = writeSeen_ = 0;
-        return has;
+        return hasMemory;
     }
 
     /// False if the queue is full: the item is dropped and counted. Producer only, wait-free.
     bool push(const T& item) noexcept PHYSVIB_NONBLOCKING {
-        return pushBy([&](T& place) noexcept { place = item; });
+        return pushInPlace([&](T& place) noexcept { place = item; });
     }
 
     /// As push, but `write(T&)` writes the whole item in place. Producer only, wait-free.
     template <class Write>
-    bool pushBy(Write write) noexcept PHYSVIB_NONBLOCKING {
+    bool pushInPlace(Write write) noexcept PHYSVIB_NONBLOCKING {
         const std::size_t written = write_.load(std::memory_order_relaxed);
         if (written - readSeen_ == capacity_) {
             readSeen_ = read_.load(std::memory_order_acquire);
@@ -78,9 +78,9 @@ private:
     Storage<T, Capacity, isOnHeap> items_;
 };
 
-/// The same for a producer that may allocate: its memory grows by chunks when the consumer falls behind, up
-/// to `MostChunks`.
-template <class T, std::size_t ChunkItems, std::size_t MostChunks>
+/// A queue whose producer may allocate: its memory grows by chunks when the consumer falls behind, up
+/// to `MaxChunks`.
+template <class T, std::size_t ChunkItems, std::size_t MaxChunks>
 class GrowingQueue {
     static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
 
@@ -97,17 +97,17 @@ public:
 
     /// False if the queue is full, or memory is lacking: the item is dropped and counted. Producer only.
     bool push(const T& item) noexcept {
-        if (used_ == ChunkItems) {
-            Chunk* const chunk = spare();
+        if (tailCount_ == ChunkItems) {
+            Chunk* const chunk = spareChunk();
             if (chunk == nullptr) {
                 overflows_.store(overflows_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
                 return false;
             }
             chunk->next = nullptr;
             tail_ = tail_->next = chunk;
-            used_ = 0;
+            tailCount_ = 0;
         }
-        tail_->items[used_++] = item;
+        tail_->items[tailCount_++] = item;
         written_.store(written_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
         return true;
     }
@@ -119,12 +119,12 @@ public:
             if (read_ == writtenSeen_) return false;
         }
         Chunk* head = head_.load(std::memory_order_relaxed);
-        if (at_ == ChunkItems) {
+        if (headIndex_ == ChunkItems) {
             head = head->next; // written before the item that is to be read
             head_.store(head, std::memory_order_release);
-            at_ = 0;
+            headIndex_ = 0;
         }
-        item = head->items[at_++];
+        item = head->items[headIndex_++];
         ++read_;
         return true;
     }
@@ -137,22 +137,22 @@ private:
         std::array<T, ChunkItems> items;
         Chunk* next = nullptr;
     };
-    // The consumer has left all chunks before its own, so they can be used again.
-    Chunk* spare() noexcept {
+    // Chunks before the consumer's own are empty and are used again. Null: full, or no memory.
+    Chunk* spareChunk() noexcept {
         if (oldest_ != head_.load(std::memory_order_acquire)) return std::exchange(oldest_, oldest_->next);
-        if (chunks_ == MostChunks) return nullptr;
-        Chunk* const made = new (std::nothrow) Chunk;
-        chunks_ += made != nullptr ? 1 : 0;
-        return made;
+        if (chunks_ == MaxChunks) return nullptr;
+        Chunk* const chunk = new (std::nothrow) Chunk;
+        chunks_ += chunk != nullptr ? 1 : 0;
+        return chunk;
     }
 
     alignas(64) std::atomic<std::size_t> written_{0};
     std::atomic<std::size_t> overflows_{0};
     alignas(64) std::atomic<Chunk*> head_; // of the consumer, as the next line; the producer reads this one
-    std::size_t read_ = 0, writtenSeen_ = 0, at_ = 0;
+    std::size_t read_ = 0, writtenSeen_ = 0, headIndex_ = 0;
     alignas(64) Chunk* oldest_; // of the producer, as the next two lines
     Chunk* tail_;
-    std::size_t used_ = 0, chunks_ = 2;
+    std::size_t tailCount_ = 0, chunks_ = 2;
 };
 
 /// Wait-free triple buffer for telemetry; no value is torn. One writer, one reader. The reader gets the
@@ -167,19 +167,20 @@ public:
     void write(const T& value) noexcept PHYSVIB_NONBLOCKING {
         slots_[writing_].value = value;
         writing_ =
-            shared_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & index;
+            shared_.exchange(static_cast<std::uint8_t>(writing_ | freshBit), std::memory_order_acq_rel) &
+            mask;
     }
 
     /// The newest value; T{} before the first write. Reader only, wait-free.
     const T& read() noexcept PHYSVIB_NONBLOCKING {
-        if (shared_.load(std::memory_order_relaxed) & fresh)
-            reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & index;
+        if (shared_.load(std::memory_order_relaxed) & freshBit)
+            reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & mask;
         return slots_[reading_].value;
     }
 
 private:
-    static constexpr std::uint8_t index = 3;
-    static constexpr std::uint8_t fresh = 4; // set by the writer, cleared when the reader takes the slot
+    static constexpr std::uint8_t mask = 3;
+    static constexpr std::uint8_t freshBit = 4; // set by the writer, cleared by the reader
     struct alignas(64) Slot {
         T value{};
     };

@@ -25,21 +25,21 @@ namespace physvib {
 /// factor of 2. Any thread.
 struct PerceivedLevel {
     static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< constant threshold in between
-    static constexpr double greatestWeight = 2.0;                 ///< from 500 Hz on; its inverse up to 20 Hz
+    static constexpr double maxWeight = 2.0;                      ///< from 500 Hz on; its inverse up to 20 Hz
 
     bool isWeighted = false; ///< false: amplitudes stay unchanged
 
     /// Weight of a frequency > 0: sqrt((f / 40)^2) below 40 Hz, 1, sqrt((f / 250)^2) above 250 Hz; 0.5 to 2.
     static constexpr double weight(double frequencyHz) noexcept {
         const double nearest = std::clamp(frequencyHz, flatLowHz, flatHighHz);
-        return std::clamp(frequencyHz / nearest, 1.0 / greatestWeight, greatestWeight);
+        return std::clamp(frequencyHz / nearest, 1.0 / maxWeight, maxWeight);
     }
 
     /// The weighted amplitude. It raises none above full scale, and none that is above already.
     double operator()(double amplitude, double frequencyHz) const noexcept {
         if (!isWeighted) return amplitude;
-        const double most = std::max(std::abs(amplitude), 1.0);
-        return std::clamp(amplitude * weight(frequencyHz), -most, most);
+        const double bound = std::max(std::abs(amplitude), 1.0);
+        return std::clamp(amplitude * weight(frequencyHz), -bound, bound);
     }
     bool operator==(const PerceivedLevel&) const = default;
 };
@@ -82,7 +82,7 @@ struct RenderingMethod {
 };
 
 /// Parses a name like "AF-FV-DRF"; false, and `method` unchanged, if there is no such method. Any thread.
-constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& method) noexcept {
+constexpr bool parseRenderingMethod(std::string_view name, RenderingMethod& method) noexcept {
     constexpr std::string_view varied = "AV-FV-DRV";
     constexpr std::size_t choices[] = {1, 4, 8}; // where V or F stands
     bool fixes[3] = {};
@@ -123,9 +123,9 @@ public:
         if (!method.holdsLevel || !method.fixesAmplitude || event.source.fixture < 0 ||
             !(event.frequencyHz > 0.0))
             return event;
-        const double left = std::max(0.0, method.fixedAmplitude - soundingAt(event.timeNs));
-        event.amplitude = left / peakOfDecay(event.frequencyHz, event.decayPerSecond);
-        if (left > 0.0) add(event);
+        const double remaining = std::max(0.0, method.fixedAmplitude - soundingAt(event.timeNs));
+        event.amplitude = remaining / peakOfDecay(event.frequencyHz, event.decayPerSecond);
+        if (remaining > 0.0) add(event);
         return event;
     }
     void forget() noexcept { sounding_ = {}; }
@@ -133,12 +133,12 @@ public:
 private:
     struct Envelope {
         double level = 0.0, decayPerSecond = 0.0;
-        std::int64_t sinceNs = 0, untilNs = 0;
+        std::int64_t startNs = 0, untilNs = 0;
 
         double at(std::int64_t timeNs) const noexcept {
             return timeNs >= untilNs ? 0.0
                                      : level * portable::exp(-1e-9 * decayPerSecond *
-                                                             static_cast<double>(timeNs - sinceNs));
+                                                             static_cast<double>(timeNs - startNs));
         }
     };
 
@@ -162,8 +162,8 @@ private:
                                       return a.at(event.timeNs) < b.at(event.timeNs);
                                   });
         // The level of the replaced envelope is kept, though its decay then differs.
-        const double rest = at->at(event.timeNs);
-        *at = {rest + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
+        const double remaining = at->at(event.timeNs);
+        *at = {remaining + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
     }
 
     std::array<Envelope, 16> sounding_{};
@@ -173,12 +173,13 @@ private:
 /// equal, but become smaller. Live and offline rendering use the same mapping. Any thread.
 struct FrequencyRemap {
     /// mapped to the band's ends; frequencies outside are clamped
-    static constexpr double feltLowHz = 20.0, feltHighHz = 1000.0;
+    static constexpr double tactileLowHz = 20.0, tactileHighHz = 1000.0;
     FrequencyBand band; ///< not known: frequencies stay unchanged
 
     double operator()(double frequencyHz) const noexcept {
         if (!band.isKnown()) return frequencyHz;
-        const double place = portable::log(frequencyHz / feltLowHz) / portable::log(feltHighHz / feltLowHz);
+        const double place =
+            portable::log(frequencyHz / tactileLowHz) / portable::log(tactileHighHz / tactileLowHz);
         return band.lowHz * portable::pow(band.highHz / band.lowHz, std::clamp(place, 0.0, 1.0));
     }
     bool operator==(const FrequencyRemap&) const = default;
@@ -186,7 +187,7 @@ struct FrequencyRemap {
 
 /// Turns a collision into the event that is rendered, listed and reported. Clips stay unchanged. Any thread.
 struct EventShaping {
-    static constexpr double mostTruncation = 0.99;
+    static constexpr double maxTruncation = 0.99;
     RenderingMethod method;
     FrequencyRemap remap;
     double gain = 1.0;          ///< of all events, also those of a fixed level
@@ -197,13 +198,13 @@ struct EventShaping {
         return shaped(collision, [](CollisionEvent&) {});
     }
 
-    /// The same; `hold` may change the event before the gain, when it has its played frequency.
-    template <class Hold>
-    CollisionEvent shaped(const CollisionEvent& collision, Hold hold) const noexcept {
+    /// The shaped event; `adjust` may change it before the gain, when it has its played frequency.
+    template <class Adjust>
+    CollisionEvent shaped(const CollisionEvent& collision, Adjust adjust) const noexcept {
         if (isClip(collision.sound)) return collision;
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
-        hold(event);
+        adjust(event);
         event.amplitude = perceived(event.amplitude * gain, event.frequencyHz);
         if (truncation > 0.0 && event.decayPerSecond > 0.0) cut(event);
         return event;
@@ -214,14 +215,14 @@ private:
     void cut(CollisionEvent& event) const noexcept {
         const double seconds = -portable::log(truncation) / event.decayPerSecond;
         if (!(seconds < 1e9)) return; // hardly decays: no cut
-        const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) -
-                                                        event.course.sinceNs);
-        event.durationNs = event.durationNs > 0 ? std::min(event.durationNs, life) : life;
+        const auto lifeNs = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) -
+                                                          event.course.toneAgeNs);
+        event.durationNs = event.durationNs > 0 ? std::min(event.durationNs, lifeNs) : lifeNs;
     }
 };
 
-// A tone that ends in mid-period, or decays within a few, has a mean. Hit after hit it adds up to direct
-// current, and the guard would turn down hits that follow (decision 54).
+// A tone that ends in mid-period, or decays within a few periods, has a mean. The means of many hits add up
+// to direct current, and the guard would turn down later hits (decision 54).
 
 /// Integral of an event over its length, in seconds at full scale; `seconds`: until it ends. Any thread.
 inline double areaOf(const CollisionEvent& e, double seconds) noexcept {
@@ -230,8 +231,8 @@ inline double areaOf(const CollisionEvent& e, double seconds) noexcept {
     return e.amplitude * (turn - portable::exp(-decay * seconds) * end) / (turn * turn + decay * decay);
 }
 
-/// Whether the event is what meanOff() has added to a hit. Any thread.
-inline bool isMeanOff(const CollisionEvent& e) noexcept {
+/// Whether the event is what meanCompensation() has added to a hit. Any thread.
+inline bool isMeanCompensation(const CollisionEvent& e) noexcept {
     return e.amplitude < 0.0 && e.decayPerSecond == 0.0 &&
            std::abs(2e-9 * e.frequencyHz * static_cast<double>(e.durationNs) - 1.0) < 1e-6;
 }
@@ -239,22 +240,22 @@ inline bool isMeanOff(const CollisionEvent& e) noexcept {
 /// The event that compensates the mean of a hit: half a sine over the hit's length (of a decay: until a tenth
 /// is left, at most 0.1 s), too slow to be felt. Its amplitude is 0 if the hit's mean is less than a tenth of
 /// what the guard lets pass. Any thread.
-inline CollisionEvent meanOff(CollisionEvent hit) noexcept {
-    constexpr double longest = 0.5 / limits::slowestToneHz;
-    const double decay = hit.decayPerSecond, length = hit.durationNs > 0
-                                                          ? 1e-9 * static_cast<double>(hit.durationNs)
-                                                          : std::numbers::ln10 / decay;
-    const double area = areaOf(hit, length), seconds = std::min(length, longest);
-    const bool passes = isClip(hit.sound) || area <= 0.1 * limits::guardShare * limits::guardSeconds;
+inline CollisionEvent meanCompensation(CollisionEvent hit) noexcept {
+    constexpr double maxSeconds = 0.5 / limits::slowestToneHz;
+    const double decay = hit.decayPerSecond, lengthSeconds = hit.durationNs > 0
+                                                                 ? 1e-9 * static_cast<double>(hit.durationNs)
+                                                                 : std::numbers::ln10 / decay;
+    const double area = areaOf(hit, lengthSeconds), seconds = std::min(lengthSeconds, maxSeconds);
+    const bool isNegligible = isClip(hit.sound) || area <= 0.1 * limits::guardShare * limits::guardSeconds;
     hit.durationNs = std::llround(1e9 * seconds);
     hit.frequencyHz = 0.5e9 / static_cast<double>(hit.durationNs);
     hit.decayPerSecond = 0.0;
     hit.sound = 0;
-    hit.amplitude = passes ? 0.0 : -0.5 * std::numbers::pi * area / seconds;
+    hit.amplitude = isNegligible ? 0.0 : -0.5 * std::numbers::pi * area / seconds;
     return hit;
 }
 
-/// The same for all impacts of one world, in time order. Stateful, because a held fixed level depends on
+/// Shapes all impacts of one world, in time order. Stateful, because a held fixed level depends on
 /// earlier impacts. One thread at a time.
 class EventShaper {
 public:
@@ -264,17 +265,17 @@ public:
         return shaping_.shaped(collision,
                                [this](CollisionEvent& event) { event = level_(event, shaping_.method); });
     }
-    /// All from `first` on, in place. Where each hit has the fixed amplitude, its meanOff() follows it.
-    /// A vector; allocates.
+    /// All from `first` on, in place. Where each hit has the fixed amplitude, its meanCompensation() follows
+    /// it. A vector; allocates.
     template <class Events>
     void shape(Events& events, std::size_t first = 0) {
-        const bool takesMeansOff = shaping_.method.fixesAmplitude && !shaping_.method.holdsLevel;
+        const bool compensatesMeans = shaping_.method.fixesAmplitude && !shaping_.method.holdsLevel;
         for (std::size_t k = first; k < events.size(); ++k) events[k] = (*this)(events[k]);
-        if (!takesMeansOff) return;
+        if (!compensatesMeans) return;
         Events all;
         for (std::size_t k = 0; k < events.size(); ++k) {
             all.push_back(events[k]);
-            if (const CollisionEvent off = meanOff(events[k]); k >= first && isMeanOff(off))
+            if (const CollisionEvent off = meanCompensation(events[k]); k >= first && isMeanCompensation(off))
                 all.push_back(off);
         }
         events.swap(all);

@@ -9,10 +9,10 @@
 
 namespace physvib {
 
-bool HapticRenderer::canTake(const RendererSettings& settings) noexcept {
+bool HapticRenderer::areValid(const RendererSettings& settings) noexcept {
     const int outputs = settings.outputs();
     if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 ||
-        settings.modes > limits::maxModes || outputs < 1 || outputs > limits::maxEnchanters)
+        settings.modes > limits::maxModes || outputs < 1 || outputs > limits::maxActuators)
         return false;
     if (settings.panner.channels() < 0 || settings.panner.channels() > outputs) return false;
     return std::all_of(settings.ceilings.begin(), settings.ceilings.begin() + outputs,
@@ -20,23 +20,23 @@ bool HapticRenderer::canTake(const RendererSettings& settings) noexcept {
 }
 
 bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
-    isPrepared_ = canTake(settings);
+    isPrepared_ = areValid(settings);
     position_ = 0;
     played_ = late_ = rejected_ = withoutPart_ = 0;
-    channels_ = std::clamp(settings.outputs(), 0, limits::maxEnchanters);
+    channels_ = std::clamp(settings.outputs(), 0, limits::maxActuators);
     if (!isPrepared_) return false;
     settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
     panners_ = settings.panner;
     gains_.fill(0.0);
     guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered, settings.instructions);
-    silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
-    return isPrepared_ = takeMemory();
+    silentUntilNs_ = worldlessSilentUntilNs_ = INT64_MIN;
+    return isPrepared_ = allocate();
 }
 
-bool HapticRenderer::takeMemory() noexcept {
-    const auto share = [this](int most, int least) {
-        return settings_.shareOf(most, limits::maxModes, std::min(most, least));
+bool HapticRenderer::allocate() noexcept {
+    const auto share = [this](int full, int min) {
+        return settings_.scaledToModes(full, limits::maxModes, std::min(full, min));
     };
     return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions,
                          share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
@@ -47,11 +47,11 @@ bool HapticRenderer::takeMemory() noexcept {
 }
 
 bool HapticRenderer::prepareAtRate() noexcept {
-    const bool has =
+    const bool hasMemory =
         limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
     for (int j = 0; j < channels_; ++j)
         limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
-    return has && player_.prepare(settings_.sampleRateHz, channels_) &&
+    return hasMemory && player_.prepare(settings_.sampleRateHz, channels_) &&
            moving_.prepare(settings_.sampleRateHz, channels_);
 }
 
@@ -87,8 +87,8 @@ void HapticRenderer::apply(const RenderControl& control) noexcept {
     const bool isSilence = control.kind == Kind::silence;
     if (isSilence) {
         silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
-        strikesSilentUntilNs_ =
-            std::max(strikesSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
+        worldlessSilentUntilNs_ =
+            std::max(worldlessSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
     }
     if (isSilence || control.kind == Kind::stopAll) {
         bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
@@ -98,7 +98,7 @@ void HapticRenderer::apply(const RenderControl& control) noexcept {
         player_.fadeAll(position_);
 }
 
-int HapticRenderer::discardWaiting(const WaitingEvents& which) noexcept {
+int HapticRenderer::discardPending(const WaitingEvents& which) noexcept {
     constexpr std::int64_t first = INT64_MIN;
     const int before = pending_.size();
     pending_.retime([=](std::int64_t time, const CollisionEvent& event) {
@@ -109,10 +109,10 @@ int HapticRenderer::discardWaiting(const WaitingEvents& which) noexcept {
 }
 
 bool HapticRenderer::isSilenced(const CollisionEvent& event) const noexcept {
-    return event.timeNs < (event.source.fixture < 0 ? strikesSilentUntilNs_ : silentUntilNs_);
+    return event.timeNs < (event.source.fixture < 0 ? worldlessSilentUntilNs_ : silentUntilNs_);
 }
 
-// False if the event could not be played.
+// Starts an event at its onset, or at once if that has passed. False: it could not be played.
 bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) noexcept {
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // a late event starts at its first frame now, uncut
@@ -120,28 +120,28 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
     const std::int64_t end =
         isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0)
                 : Strike::never;
-    const bool taken = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end)
-                                                 : strikeStill(event, onset, end);
-    if (taken)
-        playedQueue_.pushBy([&](PlayedEvent& told) noexcept {
-            told.event = event;
-            told.frame = onset.frame;
-            told.isLate = delay > 0;
+    const bool isStarted = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end)
+                                                     : strikeStill(event, onset, end);
+    if (isStarted)
+        playedQueue_.pushInPlace([&](PlayedEvent& record) noexcept {
+            record.event = event;
+            record.frame = onset.frame;
+            record.isLate = delay > 0;
         });
-    played_ += taken ? 1 : 0;
-    late_ += taken && delay > 0 ? 1 : 0;
-    rejected_ += taken ? 0 : 1;
-    withoutPart_ += taken && panners_.whole().lacksPartOf(event) ? 1 : 0;
-    return taken;
+    played_ += isStarted ? 1 : 0;
+    late_ += isStarted && delay > 0 ? 1 : 0;
+    rejected_ += isStarted ? 0 : 1;
+    withoutPart_ += isStarted && panners_.base().lacksPartOf(event) ? 1 : 0;
+    return isStarted;
 }
 
 bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset,
                                  std::int64_t closeFrame) noexcept {
     panners_.gainsAt(event, gains_);
-    std::fill(gains_.begin() + panners_.whole().channels(), gains_.begin() + channels_, 0.0);
+    std::fill(gains_.begin() + panners_.base().channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
-    if (event.course.sinceNs > 0) {
-        const double seconds = static_cast<double>(event.course.sinceNs) * 1e-9;
+    if (event.course.toneAgeNs > 0) {
+        const double seconds = static_cast<double>(event.course.toneAgeNs) * 1e-9;
         s.phase = phaseAfter(event.frequencyHz * seconds);
         s.amplitude *= shareLeft(event.decayPerSecond, seconds);
     }
@@ -156,14 +156,14 @@ void HapticRenderer::driveAt(const CollisionEvent& event, double* inPhase, doubl
     if (isCoupled())
         settings_.drives.apply(event.frequencyHz, gains_.data(), inPhase, ahead);
     else
-        std::copy_n(gains_.begin(), panners_.whole().channels(), inPhase);
+        std::copy_n(gains_.begin(), panners_.base().channels(), inPhase);
 }
 
 // A complex drive is two strikes of one mode, a quarter turn apart. They merge, so they use one mode. Either
 // both are struck or none.
 bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
-    std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
+    std::array<double, static_cast<std::size_t>(limits::maxActuators)> inPhase{}, ahead{};
     settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), ahead.data());
     bank_.strike(strike, inPhase.data());
     strike.phase += std::uint64_t{1} << 62;
@@ -172,23 +172,23 @@ bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
 
 // Fast path for modes alone that reach the limiter unchanged. The limiter reads them where they were summed,
 // and the delay lines keep a copy in case a delay is set later. False: the general path is needed.
-bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
-    Channels kept;
-    std::array<const float*, static_cast<std::size_t>(limits::maxEnchanters)> sums;
+bool HapticRenderer::renderModesOnly(const Channels& out, int frames) noexcept {
+    Channels delayInputs;
+    std::array<const float*, static_cast<std::size_t>(limits::maxActuators)> sums;
     const bool isAlone =
-        bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
-    if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
+        bank_.liveModes() > 0 && limiter_.hasKernel() && player_.voices() == 0 && moving_.count() == 0;
+    if (!isAlone || !actuators_.canBypass(delayInputs.data(), frames)) return false;
     if (!bank_.sumsAt(sums.data(), position_)) {
         if (!bank_.render(out.data(), position_, frames)) return false;
         std::copy_n(out.begin(), channels_, sums.begin());
     }
-    actuators_.pass(frames);
-    limiter_.pass(sums.data(), out.data(), frames, kept.data());
+    actuators_.bypass(frames);
+    limiter_.processInto(sums.data(), out.data(), frames, delayInputs.data());
     guard(out, frames, false);
     return true;
 }
 
-void HapticRenderer::playAll(const Channels& out, int frames, const float* const* added) noexcept {
+void HapticRenderer::renderAll(const Channels& out, int frames, const float* const* added) noexcept {
     const bool modesSound = bank_.render(out.data(), position_, frames),
                recordingsSound = player_.render(out.data(), position_, frames);
     const bool movingSounds =
@@ -219,10 +219,10 @@ void HapticRenderer::normalise(float* const* out, int frames) const noexcept {
 }
 
 // First frame at which processing has to stop: the end of the tile, the next gate or the next control; at
-// most `most` frames away.
-std::int64_t HapticRenderer::nextChange(int most) const noexcept {
+// most `maxFrames` away.
+std::int64_t HapticRenderer::nextChange(int maxFrames) const noexcept {
     constexpr int tile = limits::tileFrames;
-    std::int64_t end = std::min(position_ + most, position_ - position_ % tile + tile);
+    std::int64_t end = std::min(position_ + maxFrames, position_ - position_ % tile + tile);
     end = std::min(end, bank_.nextGateFrame());
     if (!controls_.empty()) end = std::min(end, clock_.at(controls_.nextTime()).frame);
     return end;
@@ -236,7 +236,7 @@ RenderStatus HapticRenderer::status() const noexcept {
             .withoutPart = withoutPart_,
             .stolen = bank_.stolenModes(),
             .nonFinite = limiter_.nonFiniteSamples(),
-            .untold = playedQueue_.overflows(),
+            .unsent = playedQueue_.overflows(),
             .liveModes = bank_.liveModes(),
             .pending = pending_.size(),
             .limiterGain = limiter_.gain(),

@@ -35,10 +35,10 @@ constexpr bool isSampleRate(int hz) noexcept {
 struct RendererSettings {
     int sampleRateHz = 48000; ///< see isSampleRate
     int channels = 0; ///< outputs; 0: as many as the panner has actuators. Outputs without an actuator are
-                      ///< silent. At most limits::maxEnchanters
+                      ///< silent. At most limits::maxActuators
     PhantomPanner panner;       ///< at most `channels` actuators; a control can change it
     bool limiterEnabled = true; ///< off: samples may exceed 1, no OutputGuard acts; the same latency
-    std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+    std::array<float, limits::maxActuators> ceilings = fullScale(); ///< drive ceiling per channel, > 0
     int modes = 0; ///< modes that sound at once; a further one steals the quietest, which is counted. Memory
                    ///< depends on it. 0, and at most: limits::maxModes
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
@@ -48,20 +48,21 @@ struct RendererSettings {
     bool normalisesBlocks = false; ///< each block of each channel by itself is kept within its ceiling, as
                                    ///< thesis 5.1.3 has it. For limiterEnabled = false
 
-    /** `most` times modes / mostModes, but at least `least`; `most` if modes is 0. Any thread. */ int
-    shareOf(int most, int mostModes, int least) const noexcept {
-        return modes == 0 ? most
-                          : std::min(most, std::max(least, static_cast<int>(static_cast<std::int64_t>(most) *
-                                                                            modes / mostModes)));
+    /** `full` times modes / fullModes, but at least `min`; `full` if modes is 0. Any thread. */ int
+    scaledToModes(int full, int fullModes, int min) const noexcept {
+        return modes == 0 ? full
+                          : std::min(full, std::max(min, static_cast<int>(static_cast<std::int64_t>(full) *
+                                                                          modes / fullModes)));
     }
     /// Channels that are rendered.
     int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 
-    static constexpr std::array<float, limits::maxEnchanters> fullScale() {
-        std::array<float, limits::maxEnchanters> all{};
+    /// A ceiling of 1 for each channel.
+    static constexpr std::array<float, limits::maxActuators> fullScale() {
+        std::array<float, limits::maxActuators> all{};
         all.fill(1.0f);
         return all;
-    } ///< A ceiling of 1 for each channel.
+    }
 };
 
 /// Counts since prepare, and the state after the last call of render.
@@ -73,7 +74,7 @@ struct RenderStatus {
     std::uint64_t withoutPart = 0;   ///< of those played: PhantomPanner::lacksPartOf, felt on all by place
     std::uint64_t stolen = 0;        ///< modes faded out early because all slots were used
     std::uint64_t nonFinite = 0;     ///< samples that were not finite and became 0
-    std::uint64_t untold = 0;        ///< played events that the full played queue refused
+    std::uint64_t unsent = 0;        ///< played events that the full played queue refused
     int liveModes = 0;               ///< modes that sound
     int pending = 0;                 ///< events whose time has not come
     float limiterGain = 1.0f;        ///< current gain; 1: no reduction
@@ -81,13 +82,13 @@ struct RenderStatus {
     std::uint64_t guarded = 0;       ///< how often the guard began to reduce
 };
 
-/// Events that wait to be played: up to a time, and of no world, or of any.
+/// Selects waiting events to be discarded: those up to a time, either of no world or of any.
 struct WaitingEvents {
-    std::int64_t untilNs = 0; ///< the latest time that belongs, of the events' clock
-    bool withWorlds = false;  ///< also events of a physics world's fixtures
+    std::int64_t untilNs = 0;    ///< the latest time that belongs, of the events' clock
+    bool includesWorlds = false; ///< also events of a physics world's fixtures
     /// Whether an event that is due at timeNs belongs.
     bool contain(const CollisionEvent& event, std::int64_t timeNs) const noexcept {
-        return timeNs <= untilNs && (withWorlds || event.source.fixture < 0);
+        return timeNs <= untilNs && (includesWorlds || event.source.fixture < 0);
     }
 };
 
@@ -98,7 +99,7 @@ public:
     using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize), true>;
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most
-    /// limits::maxEnchanters outputs, or if memory is lacking. Then, as before the first call, render writes
+    /// limits::maxActuators outputs, or if memory is lacking. Then, as before the first call, render writes
     /// zeros and accepts no events, and moveTo fails. Message thread (M), not while rendering.
     bool prepare(const RendererSettings& settings) noexcept;
 
@@ -132,44 +133,43 @@ public:
     /// Frames by which the output lags behind the event times (the limiter's look-ahead). Any thread after
     /// prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    /// The same for a sample rate. Any thread.
+    /// latencyFrames() of a renderer at that sample rate. Any thread.
     static int latencyFramesAt(int sampleRateHz) noexcept {
         return LinkedLimiter::latencyFramesAt(sampleRateHz);
     }
 
-    /// R only.
-    RenderStatus status() const noexcept;
+    RenderStatus status() const noexcept; ///< R only.
 
 private:
-    using Channels = std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)>;
+    using Channels = std::array<float*, static_cast<std::size_t>(limits::maxActuators)>;
     template <class Source>
     void refill(Source& source) noexcept;
-    static bool canTake(const RendererSettings& settings) noexcept;
+    static bool areValid(const RendererSettings& settings) noexcept;
     bool canPlay(const CollisionEvent& event) const noexcept {
         return isPlayable(event) && event.frequencyHz < 0.5 * clock_.sampleRateHz();
     }
     template <class Source>
-    int strikeAndReach(Source& source, int most) noexcept;
-    bool passModes(const Channels& out, int frames) noexcept;
-    void playAll(const Channels& out, int frames, const float* const* added) noexcept;
+    int startDueEvents(Source& source, int maxFrames) noexcept;
+    bool renderModesOnly(const Channels& out, int frames) noexcept;
+    void renderAll(const Channels& out, int frames, const float* const* added) noexcept;
     void guard(const Channels& out, int frames, bool isSilent) noexcept;
     void normalise(float* const* out, int frames) const noexcept;
     template <class Source>
-    void actOnDue(Source& source) noexcept;
+    void applyDueControls(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
     bool prepareAtRate() noexcept;
-    bool takeMemory() noexcept;
+    bool allocate() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
-    int discardWaiting(const WaitingEvents& which) noexcept;
+    int discardPending(const WaitingEvents& which) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
     void driveAt(const CollisionEvent& event, double* inPhase, double* ahead) noexcept;
     bool isCoupled() const noexcept {
         return settings_.drives.isOn() &&
-               settings_.drives.channels == static_cast<std::size_t>(panners_.whole().channels());
+               settings_.drives.channels == static_cast<std::size_t>(panners_.base().channels());
     }
-    std::int64_t nextChange(int most) const noexcept;
+    std::int64_t nextChange(int maxFrames) const noexcept;
 
     FrameClock clock_;
     PartPanners panners_;
@@ -188,15 +188,15 @@ private:
     bool isPrepared_ = false;
     bool othersAreModes_ = false; // events without a recording play their mode
     // events before this time are not played; the second: of events that no world produced
-    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN;
+    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, worldlessSilentUntilNs_ = INT64_MIN;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, withoutPart_ = 0;
 };
 
 template <class Source>
 void HapticRenderer::refill(Source& source) noexcept {
-    while (!pending_.full() && source.pop(pending_.blank())) {
-        if (const CollisionEvent& event = pending_.blank(); canPlay(event))
-            pending_.pushBlank(event.timeNs);
+    while (!pending_.full() && source.pop(pending_.freeItem())) {
+        if (const CollisionEvent& event = pending_.freeItem(); canPlay(event))
+            pending_.pushFreeItem(event.timeNs);
         else
             ++rejected_;
     }
@@ -208,7 +208,7 @@ void HapticRenderer::refill(Source& source) noexcept {
 
 // Order within a frame: gates that end close first, then controls act, then strikes begin.
 template <class Source>
-void HapticRenderer::actOnDue(Source& source) noexcept {
+void HapticRenderer::applyDueControls(Source& source) noexcept {
     while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
     for (; !controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_; controls_.pop()) {
         apply(controls_.next());
@@ -221,20 +221,20 @@ void HapticRenderer::actOnDue(Source& source) noexcept {
 // divides the block as well. After each event the loop refills the store, because popping freed a place; an
 // event with a duration adds a gate, so `end` is computed again.
 template <class Source>
-int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
+int HapticRenderer::startDueEvents(Source& source, int maxFrames) noexcept {
     for (;;) {
         refill(source);
-        actOnDue(source);
-        const std::int64_t end = nextChange(most);
+        applyDueControls(source);
+        const std::int64_t end = nextChange(maxFrames);
         const bool wasFull = pending_.full();
         for (bool isSame = true; isSame;) {
             if (pending_.empty()) return static_cast<int>(end - position_);
             const FramePosition onset = clock_.at(pending_.nextTime());
-            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()),
-                       isHeard = !isSilenced(pending_.next());
-            if (isHeard && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
+            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.acceptsStrikesAhead()),
+                       isAudible = !isSilenced(pending_.next());
+            if (isAudible && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
             isSame = !wasFull && pending_.next().durationNs == 0;
-            if (isHeard && strike(pending_.next(), onset))
+            if (isAudible && strike(pending_.next(), onset))
                 if constexpr (requires(const CollisionEvent& e, std::int64_t frame) {
                                   source.struck(e, frame);
                               })
@@ -249,7 +249,7 @@ int HapticRenderer::discard(Source& source, const WaitingEvents& which) noexcept
     int count = 0;
     for (int last = -1; last != 0;) { // more than the pending store takes may wait in the source
         refill(source);
-        count += last = discardWaiting(which);
+        count += last = discardPending(which);
     }
     return count;
 }
@@ -264,10 +264,10 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
     Channels at; // only the first channels_ entries are set
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
-        const int part = strikeAndReach(source, frames - done);
+        const int part = startDueEvents(source, frames - done);
         const float* const* added = nullptr;
         if constexpr (requires { source.added(position_, part); }) added = source.added(position_, part);
-        if (added || !passModes(at, part)) playAll(at, part, added);
+        if (added || !renderModesOnly(at, part)) renderAll(at, part, added);
         position_ += part;
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
@@ -282,15 +282,15 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
 template <class Source, class Consume>
 void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels,
                      std::int64_t frames, int blockFrames, Consume&& consume) {
-    std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> kept{};
+    std::array<float*, static_cast<std::size_t>(limits::maxActuators)> samples{};
     const std::int64_t latency = renderer.latencyFrames(), end = frames + latency;
     for (std::int64_t done = 0; done < end;) {
         const int block = static_cast<int>(std::min<std::int64_t>(blockFrames, end - done));
         renderer.render(source, out, block);
         const int dropped = static_cast<int>(std::clamp<std::int64_t>(latency - done, 0, block));
-        for (int j = 0; j < channels; ++j) kept[static_cast<std::size_t>(j)] = out[j] + dropped;
+        for (int j = 0; j < channels; ++j) samples[static_cast<std::size_t>(j)] = out[j] + dropped;
         done += block;
-        if (block > dropped && !consume(static_cast<const float* const*>(kept.data()), block - dropped))
+        if (block > dropped && !consume(static_cast<const float* const*>(samples.data()), block - dropped))
             break;
     }
 }

@@ -6,7 +6,7 @@
 namespace physvib {
 
 namespace limits {
-constexpr int maxEnchanters = 64;       // more actuators than fit on two hands; more channels than any audio
+constexpr int maxActuators = 64;        // more actuators than fit on two hands; more channels than any audio
                                         // interface known to us
 constexpr int minSampleRateHz = 5000;   // the thesis' vibration rate r_v
 constexpr int maxSampleRateHz = 192000; // the fastest common audio interface

@@ -30,9 +30,9 @@ constexpr PartNumber partNamed(std::string_view name) noexcept {
 // recorded contact of its material. An event without a number, or whose number has no recording, is played by
 // its frequency and decay.
 
-using SoundNumber = std::int32_t; ///< 0: none; 1 to mostClips: clips; above: materials
+using SoundNumber = std::int32_t; ///< 0: none; 1 to maxClips: clips; above: materials
 
-constexpr int mostClips = 32; ///< channels of clips that a session keeps; few: each strike searches them all
+constexpr int maxClips = 32; ///< channels of clips that a session keeps; few: each strike searches them all
 
 /// The frequency of an event that plays a clip. Samples have none, but an event needs one that can be played.
 constexpr double clipFrequencyHz = limits::slowestToneHz;
@@ -41,14 +41,14 @@ constexpr double clipFrequencyHz = limits::slowestToneHz;
 constexpr SoundNumber soundOfClip(int clip) noexcept { return clip + 1; }
 
 /// True if the number is that of a clip. Any thread.
-constexpr bool isClip(SoundNumber sound) noexcept { return sound > 0 && sound <= mostClips; }
+constexpr bool isClip(SoundNumber sound) noexcept { return sound > 0 && sound <= maxClips; }
 
 /// The number of a material, which follows from its name alone. It is therefore the same in every scene, list
 /// and session, and no table has to travel with the events. Two names share a number with a probability of
 /// 5e-10; a scene that has such a pair is refused. Any thread.
 constexpr SoundNumber soundOfMaterial(std::string_view name) noexcept {
-    constexpr std::uint64_t numbers = std::numeric_limits<SoundNumber>::max() - mostClips;
-    return static_cast<SoundNumber>(fnv1a(name) % numbers) + mostClips + 1;
+    constexpr std::uint64_t numbers = std::numeric_limits<SoundNumber>::max() - maxClips;
+    return static_cast<SoundNumber>(fnv1a(name) % numbers) + maxClips + 1;
 }
 
 } // namespace physvib

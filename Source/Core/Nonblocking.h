@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the render thread keeps to: no allocation, lock, wait or call of the system, and no denormal numbers.
+// Rules of the render thread: a marker for functions that never block, and a guard against denormal numbers.
 #pragma once
 #include <cstdint>
 #if defined(__SSE__)

@@ -17,7 +17,7 @@ enum class PanningLaw {
     logOuter,   ///< log2(2 - u): the other reconstruction, above linear
     energy,     ///< sqrt(1 - u): squares sum to one wherever linear gains do
     neighbours, ///< energy, shared by the actuators around the place: two of a row or belt, four of a grid
-    automatic,  ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
+    automatic,  ///< the default: PhantomPanner replaces it by a law that suits the layout's shape
     distance,   ///< energy, shared by all actuators of any layout by their distance in space
     /// energy, shared by the corners of the triangle in space that the place lies in; flat: `neighbours`
     triangles,
@@ -25,9 +25,9 @@ enum class PanningLaw {
 
 /// One panning law.
 struct PanningLawDescription {
-    PanningLaw law;                      ///< its number, which is its index in the table
-    std::string_view name;               ///< used in files, options and states: never changes
-    double (*factor)(double u) noexcept; ///< from 1 at u = 0 down to 0 at u = 1
+    PanningLaw law;                    ///< its number, which is its index in the table
+    std::string_view name;             ///< used in files, options and states: never changes
+    double (*gain)(double u) noexcept; ///< at distance ratio u: 1 at u = 0, 0 at u = 1
 };
 
 /// All panning laws, indexed by PanningLaw.
@@ -50,10 +50,10 @@ constexpr const PanningLawDescription& describe(PanningLaw law) noexcept {
 /// The law's name in files and options. Any thread.
 constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law).name; }
 
-/// Where between two actuators (0 to 1) an impact is felt that is panned to `share` of the way: the centroid
-/// of intensity. Any thread.
+/// Perceived place, 0 to 1, of an impact that is panned to `share` of the way between two actuators: the
+/// centroid of intensity. Any thread.
 inline double centroidOf(PanningLaw law, double share) noexcept {
-    const double near = describe(law).factor(share), far = describe(law).factor(1.0 - share);
+    const double near = describe(law).gain(share), far = describe(law).gain(1.0 - share);
     return far * far / (near * near + far * far);
 }
 
@@ -74,21 +74,21 @@ static_assert(
 
 /// The law of that name; false if there is none. Any thread.
 constexpr bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {
-    for (const auto& one : panningLaws) {
-        if (one.name != name) continue;
-        law = one.law;
+    for (const auto& entry : panningLaws) {
+        if (entry.name != name) continue;
+        law = entry.law;
         return true;
     }
     return false;
 }
 
-/// How an event is distributed over the actuators, if not by the layout's panning law. The values between
-/// layout and equal are the panning laws with exponent 1: see spreadBy().
+/// How an event is distributed over the actuators, if not by the layout's panning law. Between `layout` and
+/// `equal` lie unnamed values, one per panning law with exponent 1: spreadBy() returns them.
 enum class Spread : std::uint8_t {
     layout,                         ///< by the panner's law and exponent, as all impacts
     equal = 1 + panningLaws.size(), ///< energy law, scaled so that the squares always sum to one: perceived
                                     ///< strength does not depend on the place
-    alone                           ///< the nearest actuator only
+    nearest                         ///< the nearest actuator only
 };
 
 /// The spread by that law, exponent 1. Any thread.
@@ -103,9 +103,9 @@ inline constexpr Spread grainSpread = spreadBy(PanningLaw::energy);
 /// Names, indexed by Spread.
 inline constexpr auto spreadNames = [] {
     std::array<std::string_view, panningLaws.size() + 3> names{"layout"};
-    for (const auto& one : panningLaws) names[static_cast<std::size_t>(spreadBy(one.law))] = one.name;
+    for (const auto& entry : panningLaws) names[static_cast<std::size_t>(spreadBy(entry.law))] = entry.name;
     names[static_cast<std::size_t>(Spread::equal)] = "equal";
-    names[static_cast<std::size_t>(Spread::alone)] = "alone";
+    names[static_cast<std::size_t>(Spread::nearest)] = "alone";
     return names;
 }();
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 namespace physvib {
-PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent,
+PhantomPanner::PhantomPanner(const ActuatorLayout& layout, PanningLaw law, double exponent,
                              double fieldWidthMetres, double fieldHeightMetres, bool seeksTriangles) noexcept
     : layout_{layout}
     , isFlat_{isFlat(layout)}
@@ -24,8 +24,8 @@ PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, doub
     if (rule_.law == PanningLaw::automatic) resolveAutomatic();
 }
 
-PhantomPanner::Vector PhantomPanner::place(int enchanter) const noexcept {
-    const auto& p = layout_.places[static_cast<std::size_t>(enchanter)];
+PhantomPanner::Vector PhantomPanner::place(int actuator) const noexcept {
+    const auto& p = layout_.places[static_cast<std::size_t>(actuator)];
     return {p.xMetres, p.yMetres, isFlat_ ? 0.0 : p.zMetres};
 }
 
@@ -78,9 +78,9 @@ bool PhantomPanner::isRectangle() const noexcept {
     return corners == 15;
 }
 
-double PhantomPanner::factor(Rule rule, double distanceRatio) noexcept {
+double PhantomPanner::gainFor(Rule rule, double distanceRatio) noexcept {
     const double u = std::clamp(distanceRatio, 0.0, 1.0);
-    const double value = describe(rule.law).factor(u);
+    const double value = describe(rule.law).gain(u);
     return rule.exponent == 1.0 ? value : portable::pow(value, rule.exponent);
 }
 
@@ -99,7 +99,7 @@ void PhantomPanner::lineGains(Rule rule, Vector p, Gains& gains) const noexcept 
     for (int j = 0; j < layout_.count; ++j) {
         const Vector d{p.x - place(j).x, p.y - place(j).y};
         const double along = std::abs(d.x * lineDirection_.x + d.y * lineDirection_.y);
-        gains[static_cast<std::size_t>(j)] = lineExtent_ > 0.0 ? factor(rule, along / lineExtent_) : 1.0;
+        gains[static_cast<std::size_t>(j)] = lineExtent_ > 0.0 ? gainFor(rule, along / lineExtent_) : 1.0;
     }
 }
 
@@ -107,7 +107,7 @@ void PhantomPanner::rectangleGains(Rule rule, Vector p, Gains& gains) const noex
     for (int j = 0; j < 4; ++j) {
         const double u = std::abs(p.x - place(j).x) / layout_.extentWidthMetres;
         const double v = std::abs(p.y - place(j).y) / layout_.extentHeightMetres;
-        gains[static_cast<std::size_t>(j)] = factor(rule, u) * factor(rule, v);
+        gains[static_cast<std::size_t>(j)] = gainFor(rule, u) * gainFor(rule, v);
     }
 }
 
@@ -135,21 +135,21 @@ void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexc
             weight[next] = share;
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) gains[k] = factor(rule, 1.0 - weight[k]);
+    for (std::size_t k = 0; k < 3; ++k) gains[k] = gainFor(rule, 1.0 - weight[k]);
 }
 
 void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noexcept {
     // Shepard's weights 1/d^2. An impact at an actuator's place drives that actuator alone. Loops without
     // branches are vectorised.
-    constexpr double least = 1e-18;                   // a nanometre squared: avoids division by zero
-    std::array<double, limits::maxEnchanters> weight; // only `count` are used: not worth clearing
+    constexpr double minSquare = 1e-18;              // a nanometre squared: avoids division by zero
+    std::array<double, limits::maxActuators> weight; // only `count` are used: not worth clearing
     const auto count = static_cast<std::size_t>(layout_.count);
     const double depth = isFlat_ ? 0.0 : 1.0;
     for (std::size_t j = 0; j < count; ++j) {
         const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres,
                      dz = p.z - depth * layout_.places[j].zMetres;
         const double square = dx * dx + dy * dy + dz * dz;
-        weight[j] = square < least ? least : square;
+        weight[j] = square < minSquare ? minSquare : square;
     }
     for (std::size_t j = 0; j < count; ++j) weight[j] = 1.0 / weight[j];
     double sum = 0.0;
@@ -158,13 +158,13 @@ void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noex
         // rounded as factor() rounds it, within 0 and 1
         for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum);
     else
-        for (std::size_t j = 0; j < count; ++j) gains[j] = factor(rule, 1.0 - weight[j] / sum);
+        for (std::size_t j = 0; j < count; ++j) gains[j] = gainFor(rule, 1.0 - weight[j] / sum);
 }
 
 void PhantomPanner::resolveAutomatic() noexcept {
     rule_.law = PanningLaw::linear;
     if (rule_.exponent != 1.0) return;
-    if (triangles_.areFound())
+    if (triangles_.isUsable())
         rule_.law = PanningLaw::triangles;
     else if (hasCells())
         rule_.law = PanningLaw::neighbours;
@@ -179,11 +179,11 @@ PhantomPanner::Vector PhantomPanner::onLayout(Vector field) const noexcept {
 }
 
 void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
-    gainsBy(rule_, onLayout({x, y}), gains);
+    gainsForRule(rule_, onLayout({x, y}), gains);
 }
 
 void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept {
-    gainsBy(spread, onLayout({x, y}), gains);
+    gainsForSpread(spread, onLayout({x, y}), gains);
 }
 
 int PhantomPanner::actuatorsOn(PartNumber part) const noexcept {
@@ -192,72 +192,73 @@ int PhantomPanner::actuatorsOn(PartNumber part) const noexcept {
                                           [part](const ActuatorPlace& p) { return p.part == part; }));
 }
 
-bool PhantomPanner::divides(PartNumber part) const noexcept {
+bool PhantomPanner::needsPanner(PartNumber part) const noexcept {
     const int bound = part == 0 ? 0 : actuatorsOn(part);
     return bound > 0 && bound < layout_.count;
 }
 
 void PhantomPanner::gainsAt(const CollisionEvent& event, Gains& gains) const noexcept {
-    if (divides(event.source.part)) return gainsAt(event, pannerOf(event.source.part), gains);
-    gainsHere(event, spreadOf(event), gains);
+    if (needsPanner(event.source.part)) return gainsAt(event, pannerOf(event.source.part), gains);
+    gainsByPlace(event, spreadOf(event), gains);
 }
 
 void PhantomPanner::gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
-    if (!divides(event.source.part)) return gainsHere(event, spread, gains);
-    Gains own;
-    pannerOf(event.source.part).gainsHere(event, spread, own);
-    spreadPart(event.source.part, own, gains);
+    if (!needsPanner(event.source.part)) return gainsByPlace(event, spread, gains);
+    Gains partGains;
+    pannerOf(event.source.part).gainsByPlace(event, spread, partGains);
+    copyPartGains(event.source.part, partGains, gains);
 }
 
 void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& ofPart,
                             Gains& gains) const noexcept {
-    Gains own;
-    ofPart.gainsHere(event, ofPart.spreadOf(event), own);
-    spreadPart(event.source.part, own, gains);
+    Gains partGains;
+    ofPart.gainsByPlace(event, ofPart.spreadOf(event), partGains);
+    copyPartGains(event.source.part, partGains, gains);
 }
 
-void PhantomPanner::spreadPart(PartNumber part, const Gains& own, Gains& gains) const noexcept {
+void PhantomPanner::copyPartGains(PartNumber part, const Gains& partGains, Gains& gains) const noexcept {
     std::size_t next = 0;
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout_.count); ++j)
-        gains[j] = layout_.places[j].part == part ? own[next++] : 0.0;
+        gains[j] = layout_.places[j].part == part ? partGains[next++] : 0.0;
 }
 
 // Places stay where they are. The triangles of 16 take 10 us to find, those of 63 would take 2 ms.
 PhantomPanner PhantomPanner::pannerOf(PartNumber part) const noexcept {
-    constexpr int mostWithTriangles = 16;
-    ActuatorLayout own = layout_;
+    constexpr int maxWithTriangles = 16;
+    ActuatorLayout subLayout = layout_;
     const auto end =
-        std::copy_if(layout_.places.begin(), layout_.places.begin() + layout_.count, own.places.begin(),
+        std::copy_if(layout_.places.begin(), layout_.places.begin() + layout_.count, subLayout.places.begin(),
                      [part](const ActuatorPlace& p) { return p.part == part; });
-    own.count = static_cast<int>(end - own.places.begin());
-    const auto span = [&](double ActuatorPlace::*axis, double whole) {
-        const auto [least, most] = std::minmax_element(
-            own.places.begin(), end,
+    subLayout.count = static_cast<int>(end - subLayout.places.begin());
+    const auto span = [&](double ActuatorPlace::*axis, double fallbackMetres) {
+        const auto [lowest, highest] = std::minmax_element(
+            subLayout.places.begin(), end,
             [axis](const ActuatorPlace& a, const ActuatorPlace& b) { return a.*axis < b.*axis; });
-        const double length = (*most).*axis - (*least).*axis;
-        return length > 0.0 ? length : whole;
+        const double length = (*highest).*axis - (*lowest).*axis;
+        return length > 0.0 ? length : fallbackMetres;
     };
-    own.extentWidthMetres = span(&ActuatorPlace::xMetres, layout_.extentWidthMetres);
-    own.extentHeightMetres = span(&ActuatorPlace::yMetres, layout_.extentHeightMetres);
-    PhantomPanner made{own,
-                       requestedLaw_,
-                       rule_.exponent,
-                       own.extentWidthMetres / scaleX_,
-                       own.extentHeightMetres / scaleY_,
-                       own.count <= mostWithTriangles};
-    if (requestedLaw_ != PanningLaw::automatic) made.grains_ = grains_;
-    return made;
+    subLayout.extentWidthMetres = span(&ActuatorPlace::xMetres, layout_.extentWidthMetres);
+    subLayout.extentHeightMetres = span(&ActuatorPlace::yMetres, layout_.extentHeightMetres);
+    PhantomPanner partPanner{subLayout,
+                             requestedLaw_,
+                             rule_.exponent,
+                             subLayout.extentWidthMetres / scaleX_,
+                             subLayout.extentHeightMetres / scaleY_,
+                             subLayout.count <= maxWithTriangles};
+    if (requestedLaw_ != PanningLaw::automatic) partPanner.grains_ = grains_;
+    return partPanner;
 }
 
-void PhantomPanner::gainsBy(Spread spread, Vector p, Gains& gains) const noexcept {
-    if (spread == Spread::layout) return gainsBy(rule_, p, gains);
+// Gains by another spread than the layout's. Those of Spread::equal are scaled: their squares sum to one.
+void PhantomPanner::gainsForSpread(Spread spread, Vector p, Gains& gains) const noexcept {
+    if (spread == Spread::layout) return gainsForRule(rule_, p, gains);
     if (spread == spreadBy(PanningLaw::automatic)) spread = travelSpread();
-    if (spread == Spread::alone) return nearestGains(p, gains);
+    if (spread == Spread::nearest) return nearestGains(p, gains);
     Rule rule{rule_.law, 1.0};
     if (spread == Spread::equal) rule.law = PanningLaw::energy;
-    for (const auto& one : panningLaws)
-        if (spread == spreadBy(one.law)) rule.law = one.law;
-    gainsBy(rule, p, gains);
+    for (const auto& entry : panningLaws)
+        if (spread == spreadBy(entry.law)) rule.law = entry.law;
+    gainsForRule(rule, p, gains);
     if (spread != Spread::equal) return;
     const auto end = gains.begin() + layout_.count;
     const double energy =
@@ -267,13 +268,13 @@ void PhantomPanner::gainsBy(Spread spread, Vector p, Gains& gains) const noexcep
 }
 
 // In one plane the triangles are the cells of a row, grid or belt.
-void PhantomPanner::gainsBy(Rule rule, Vector p, Gains& gains) const noexcept {
-    const bool hasTriangles = rule.law == PanningLaw::triangles && triangles_.areFound(),
+void PhantomPanner::gainsForRule(Rule rule, Vector p, Gains& gains) const noexcept {
+    const bool hasTriangles = rule.law == PanningLaw::triangles && triangles_.isUsable(),
                hasOwnCells = (rule.law == PanningLaw::triangles || rule.law == PanningLaw::neighbours) &&
-                             cells_.areFound();
+                             cells_.isUsable();
     if (hasTriangles) triangles_.sharesAt(layout_, {p.x, p.y, p.z}, gains);
     if (hasOwnCells) cells_.sharesAt(layout_, {p.x, p.y, p.z}, gains);
-    if (hasTriangles || hasOwnCells) return sharedGains(rule, gains);
+    if (hasTriangles || hasOwnCells) return applyRuleToShares(rule, gains);
     const bool isByDistance = rule.law == PanningLaw::distance && arrangement_ != Arrangement::single;
     switch (isByDistance ? Arrangement::scattered : arrangement_) {
     case Arrangement::single: gains[0] = 1.0; break;
@@ -284,9 +285,9 @@ void PhantomPanner::gainsBy(Rule rule, Vector p, Gains& gains) const noexcept {
     }
 }
 
-void PhantomPanner::sharedGains(Rule rule, Gains& shares) const noexcept {
+void PhantomPanner::applyRuleToShares(Rule rule, Gains& shares) const noexcept {
     for (auto gain = shares.begin(); gain != shares.begin() + layout_.count; ++gain)
-        *gain = factor(rule, 1.0 - *gain);
+        *gain = gainFor(rule, 1.0 - *gain);
 }
 
 } // namespace physvib

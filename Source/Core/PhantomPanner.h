@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Phantom sensations: from the place of an impact to one gain per actuator (thesis Eq. 4.2, 4.3, 6.2).
+// Phantom sensations: from the place of an impact to one gain per actuator (thesis Eq. 4.2, 4.3, 6.2), for a
+// whole layout (PhantomPanner) and for parts of the body (PartPanners).
 #pragma once
 #include "Core/ActuatorCells.h"
 #include "Core/CollisionEvent.h"
@@ -14,7 +15,7 @@ namespace physvib {
 /// Panner of one layout. Docs/panning.md has the formulas of every arrangement.
 class PhantomPanner {
 public:
-    using Gains = std::array<double, limits::maxEnchanters>; ///< One per actuator.
+    using Gains = std::array<double, limits::maxActuators>; ///< One per actuator.
 
     PhantomPanner() = default;
 
@@ -25,7 +26,7 @@ public:
     ///   grid or a belt in some plane, else `distance`;
     /// - on a flat layout `neighbours` for a row of three or more, a grid or a belt, else `linear` with
     ///   grainSpread for grains.
-    PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
+    PhantomPanner(const ActuatorLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept
         : PhantomPanner{layout, law, exponent, fieldWidthMetres, fieldHeightMetres, true} {}
 
@@ -33,7 +34,7 @@ public:
     /// unchanged. Any thread.
     void gainsAt(double x, double y, Gains& gains) const noexcept;
 
-    /// The same with another spread. Any thread.
+    /// Gains at (x, y) by another spread than the layout's. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
     /// Gains of an event at its place, by its own spread. Grains without one use grains(). If the event is
@@ -42,13 +43,13 @@ public:
     /// them. Any thread.
     void gainsAt(const CollisionEvent& event, Gains& gains) const noexcept;
 
-    /// The same with another spread. Any thread.
+    /// Gains of an event by another spread than its own. Any thread.
     void gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept;
 
     /// True if this part needs a panner of its own: some actuators are on it, but not all. Any thread.
-    bool divides(PartNumber part) const noexcept;
+    bool needsPanner(PartNumber part) const noexcept;
 
-    /// Panner of a part for which divides() is true. Its actuators form a layout whose extent is the area
+    /// Panner of a part for which needsPanner() is true. Its actuators form a layout whose extent is the area
     /// that they span. Takes up to 10 us. Any thread.
     PhantomPanner pannerOf(PartNumber part) const noexcept;
 
@@ -68,14 +69,14 @@ public:
     /// Default spread of a moving tone: keeps its energy constant, and the centroid of its intensity at its
     /// place. Any thread.
     Spread travelSpread() const noexcept {
-        if (triangles_.areFound()) return spreadBy(PanningLaw::triangles);
+        if (triangles_.isUsable()) return spreadBy(PanningLaw::triangles);
         return hasCells() ? spreadBy(PanningLaw::neighbours) : Spread::equal;
     }
 
     int channels() const noexcept { return layout_.count; } ///< Number of actuators.
 
     /// The constructor's arguments. Any thread.
-    const EnchanterLayout& layout() const noexcept { return layout_; }
+    const ActuatorLayout& layout() const noexcept { return layout_; }
     PanningLaw law() const noexcept { return rule_.law; } ///< Panning law; not PanningLaw::automatic.
     /// The law that the constructor was given. May be PanningLaw::automatic, which each part of the body
     /// resolves for its own actuators. Any thread.
@@ -96,18 +97,18 @@ private:
     struct Rule {
         PanningLaw law = PanningLaw::linear;
         double exponent = 1.0;
-        // the usual case
+        // the most common rule, which needs no call per actuator
         bool isPlain() const noexcept { return law == PanningLaw::linear && exponent == 1.0; }
     };
     Arrangement classify() noexcept;
     bool findLine() noexcept;
     bool isRectangle() const noexcept;
-    Vector place(int enchanter) const noexcept;
+    Vector place(int actuator) const noexcept;
     double placeTolerance() const noexcept; // for places that a layout file rounds
     /// True where PanningLaw::automatic is `neighbours`. On a flat layout, two actuators and the corners of
     /// a rectangle use the thesis' law instead.
     bool hasCells() const noexcept {
-        return cells_.areFound() &&
+        return cells_.isUsable() &&
                (!isFlat_ || (layout_.count > 2 && arrangement_ != Arrangement::rectangle));
     }
     void resolveAutomatic() noexcept;
@@ -117,21 +118,21 @@ private:
         const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
         return isGrain ? grains_ : event.spread;
     }
-    void gainsHere(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
-        gainsBy(spread, onLayout({event.x, event.y, event.z}), gains);
+    void gainsByPlace(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
+        gainsForSpread(spread, onLayout({event.x, event.y, event.z}), gains);
     }
-    void spreadPart(PartNumber part, const Gains& own, Gains& gains) const noexcept;
-    void gainsBy(Spread spread, Vector p, Gains& gains) const noexcept;
-    void gainsBy(Rule rule, Vector p, Gains& gains) const noexcept;
-    static double factor(Rule rule, double distanceRatio) noexcept;
+    void copyPartGains(PartNumber part, const Gains& partGains, Gains& gains) const noexcept;
+    void gainsForSpread(Spread spread, Vector p, Gains& gains) const noexcept;
+    void gainsForRule(Rule rule, Vector p, Gains& gains) const noexcept;
+    static double gainFor(Rule rule, double distanceRatio) noexcept;
     void lineGains(Rule rule, Vector p, Gains& gains) const noexcept;
     void rectangleGains(Rule rule, Vector p, Gains& gains) const noexcept;
     void triangleGains(Rule rule, Vector p, Gains& gains) const noexcept;
     void scatteredGains(Rule rule, Vector p, Gains& gains) const noexcept;
     void nearestGains(Vector p, Gains& gains) const noexcept;
-    void sharedGains(Rule rule, Gains& shares) const noexcept;
+    void applyRuleToShares(Rule rule, Gains& shares) const noexcept;
 
-    EnchanterLayout layout_;
+    ActuatorLayout layout_;
     bool isFlat_ = true; // all actuators have the same z, and z does not count
     Rule rule_;
     PanningLaw requestedLaw_ = PanningLaw::linear; // may be automatic
@@ -146,53 +147,53 @@ private:
 };
 
 /// A panner and the panners of its parts. A part's panner is made when the part is first struck, which may
-/// take 10 us, and kept until the whole panner changes. When all places (`maxKept`, or as many as were
+/// take 10 us, and kept until the whole panner changes. When all places (`maxPanners`, or as many as were
 /// prepared) are taken, it replaces the oldest.
 class PartPanners {
 public:
-    static constexpr std::size_t maxKept = 16; ///< Core/EnchanterLayout.h has names for 15 parts
+    static constexpr std::size_t maxPanners = 16; ///< Core/EnchanterLayout.h has names for 15 parts
 
     /// Allocates places for a layout of at most that many actuators, which has at most as many parts. False:
     /// no memory. Message thread (M), not while rendering.
     bool prepare(int actuators) noexcept {
-        const std::size_t count = std::min(maxKept, static_cast<std::size_t>(actuators));
+        const std::size_t count = std::min(maxPanners, static_cast<std::size_t>(actuators));
         parts_.fill(0);
         next_ = 0;
-        kept_ = panners_.resize(count) ? count : 0;
-        return kept_ == count;
+        capacity_ = panners_.resize(count) ? count : 0;
+        return capacity_ == count;
     }
 
     /// Sets the whole panner, and discards the panners of its parts.
-    PartPanners& operator=(const PhantomPanner& whole) noexcept {
-        whole_ = whole;
+    PartPanners& operator=(const PhantomPanner& panner) noexcept {
+        base_ = panner;
         parts_.fill(0);
         next_ = 0;
         return *this;
     }
 
-    const PhantomPanner& whole() const noexcept { return whole_; } ///< The panner itself.
+    const PhantomPanner& base() const noexcept { return base_; } ///< The panner itself.
 
-    /// As PhantomPanner::gainsAt.
+    /// Gains of an event, as PhantomPanner::gainsAt. Render thread (R); may compute a part's panner.
     void gainsAt(const CollisionEvent& event, PhantomPanner::Gains& gains) noexcept {
-        if (kept_ == 0 || !whole_.divides(event.source.part)) return whole_.gainsAt(event, gains);
-        whole_.gainsAt(event, panners_[indexOf(event.source.part)], gains);
+        if (capacity_ == 0 || !base_.needsPanner(event.source.part)) return base_.gainsAt(event, gains);
+        base_.gainsAt(event, panners_[indexOf(event.source.part)], gains);
     }
 
 private:
     std::size_t indexOf(PartNumber part) noexcept {
-        for (std::size_t i = 0; i < kept_; ++i)
+        for (std::size_t i = 0; i < capacity_; ++i)
             if (parts_[i] == part) return i;
         const std::size_t i = next_;
-        next_ = (next_ + 1) % kept_;
+        next_ = (next_ + 1) % capacity_;
         parts_[i] = part;
-        panners_[i] = whole_.pannerOf(part);
+        panners_[i] = base_.pannerOf(part);
         return i;
     }
 
-    PhantomPanner whole_;
-    std::array<PartNumber, maxKept> parts_{}; // 0: none
-    Storage<PhantomPanner, maxKept, true> panners_;
-    std::size_t kept_ = 0, next_ = 0; // next_: the one to be replaced
+    PhantomPanner base_;
+    std::array<PartNumber, maxPanners> parts_{}; // 0: none
+    Storage<PhantomPanner, maxPanners, true> panners_;
+    std::size_t capacity_ = 0, next_ = 0; // next_: the one to be replaced
 };
 
 } // namespace physvib

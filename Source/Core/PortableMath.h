@@ -44,7 +44,7 @@ constexpr double polynomial(const std::array<double, count>& c, double x) noexce
     return sum;
 }
 
-/// +-1 / (first + step k)!, or without the factorial.
+/// The series' coefficients +-1 / (first + step k)!, or without the factorial.
 template <std::size_t count>
 constexpr std::array<double, count> terms(int first, int step, double sign, bool factorial) noexcept {
     std::array<double, count> all{};
@@ -62,7 +62,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity(),
                  ln2Low = 0x1.a39ef35793c76p-33; // the first has 32 bits
 
 /// exp(r) - 1 - r of |r| <= log(2) / 2.
-inline double exponentialRest(double r) noexcept {
+inline double exponentialTail(double r) noexcept {
     static constexpr auto c = terms<12>(2, 1, 1.0, true);
     return r * r * polynomial(c, r);
 }
@@ -73,7 +73,7 @@ inline double exponential(Pair x) noexcept {
     const double whole = std::floor(x.high * std::numbers::log2e + 0.5), first = x.high - whole * ln2High,
                  low = x.low - whole * ln2Low, r = first + low;
     const Pair power = sumOf(1.0, r);
-    const double mantissa = power.high + (power.low + (exponentialRest(r) + ((first - r) + low)));
+    const double mantissa = power.high + (power.low + (exponentialTail(r) + ((first - r) + low)));
     const auto exponent = static_cast<std::int64_t>(whole), half = exponent / 2;
     const auto twoTo = [](std::int64_t n) {
         return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52);
@@ -111,17 +111,17 @@ struct SineCosine {
     double sine = 0.0, cosine = 0.0;
 };
 
-/// By quarter turns of three parts (pi / 2 in 33 + 33 + 53 bits) and the series of both.
+/// Of an angle in radians: subtracts quarter turns (pi / 2 in 33 + 33 + 53 bits), then uses both series.
 inline SineCosine sineCosine(double x) noexcept {
     if (!(std::abs(x) < 1.0e6)) x = std::remainder(x, 2.0 * std::numbers::pi);
     if (std::isnan(x)) return {none, none};
     const double quarters = std::floor(x * (2.0 / std::numbers::pi) + 0.5);
     const Pair first = sumOf(x - quarters * 0x1.921fb544p+0, -quarters * 0x1.0b4611a6p-34);
     const double last = first.low - quarters * 0x1.3198a2e037073p-69, r = first.high + last,
-                 rest = (first.high - r) + last, q = r * r, half = 0.5 * q, less = 1.0 - half;
+                 tail = (first.high - r) + last, q = r * r, half = 0.5 * q, cosineHead = 1.0 - half;
     static constexpr auto s = terms<8>(3, 2, -1.0, true), c = terms<8>(4, 2, -1.0, true);
-    const double sine = r + (rest * less - r * q * polynomial(s, q)),
-                 cosine = less + (((1.0 - less) - half) + (q * q * polynomial(c, q) - r * rest));
+    const double sine = r + (tail * cosineHead - r * q * polynomial(s, q)),
+                 cosine = cosineHead + (((1.0 - cosineHead) - half) + (q * q * polynomial(c, q) - r * tail));
     switch (static_cast<std::int64_t>(quarters) & 3) {
     case 0: return {sine, cosine};
     case 1: return {cosine, -sine};
@@ -130,9 +130,9 @@ inline SineCosine sineCosine(double x) noexcept {
     }
 }
 
-/// `turn` plus or minus atan(least / most), 0 <= least <= most: by the nearest of the tangents 0, sqrt(2) - 1
+/// `turn` plus or minus atan(minor / major), 0 <= minor <= major: from the nearest tangent of 0, sqrt(2) - 1
 /// and 1.
-inline double angleOf(double least, double most, Pair turn, double sign) noexcept {
+inline double arcTangent(double minor, double major, Pair turn, double sign) noexcept {
     struct Near {
         double tangent;
         Pair angle; ///< its arc tangent
@@ -141,12 +141,12 @@ inline double angleOf(double least, double most, Pair turn, double sign) noexcep
         {{0.0, {}},
          {0x1.a827999fcef32p-2, {0x1.921fb54442d18p-2, 0x1.c398861b78b55p-59}},
          {1.0, {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}}};
-    const Near& near = all[least > 0.6681786 * most ? 2 : least > 0.1989124 * most ? 1 : 0];
-    const Pair across = productOf(near.tangent, most), whole = sumOf(turn.high, sign * near.angle.high);
-    const double t = ((least - across.high) - across.low) / (most + near.tangent * least), q = t * t;
+    const Near& near = all[minor > 0.6681786 * major ? 2 : minor > 0.1989124 * major ? 1 : 0];
+    const Pair across = productOf(near.tangent, major), whole = sumOf(turn.high, sign * near.angle.high);
+    const double t = ((minor - across.high) - across.low) / (major + near.tangent * minor), q = t * t;
     static constexpr auto c = terms<13>(3, 2, -1.0, false);
-    const double rest = near.angle.low + (t - t * q * polynomial(c, q));
-    return whole.high + (whole.low + (turn.low + sign * rest));
+    const double tail = near.angle.low + (t - t * q * polynomial(c, q));
+    return whole.high + (whole.low + (turn.low + sign * tail));
 }
 
 /// A power of two that brings a magnitude to where its square is a normal number.
@@ -157,7 +157,7 @@ inline double scaleOf(double magnitude) noexcept {
 
 inline double exp(double x) noexcept { return detail::exponential({x, 0.0}); }
 inline double expm1(double x) noexcept {
-    return std::abs(x) < 0.34 ? x + detail::exponentialRest(x) : exp(x) - 1.0;
+    return std::abs(x) < 0.34 ? x + detail::exponentialTail(x) : exp(x) - 1.0;
 }
 inline double cosh(double x) noexcept { return 0.5 * (exp(x) + exp(-x)); }
 
@@ -196,12 +196,12 @@ inline std::complex<double> quotient(std::complex<double> a, std::complex<double
     return a * std::conj(b) / (b.real() * b.real() + b.imag() * b.imag());
 }
 inline std::complex<double> exp(std::complex<double> z) noexcept {
-    const auto both = detail::sineCosine(z.imag());
-    return exp(z.real()) * std::complex<double>{both.cosine, both.sine};
+    const auto circle = detail::sineCosine(z.imag());
+    return exp(z.real()) * std::complex<double>{circle.cosine, circle.sine};
 }
 inline double tan(double x) noexcept {
-    const auto both = detail::sineCosine(x);
-    return both.sine / both.cosine;
+    const auto circle = detail::sineCosine(x);
+    return circle.sine / circle.cosine;
 }
 
 /// From -pi to pi.
@@ -215,15 +215,15 @@ inline double atan2(double y, double x) noexcept {
         a = a > 0x1p1000 ? 1.0 : 0.0;
         b = b > 0x1p1000 ? 1.0 : 0.0;
     }
-    // From quarter or half a turn backwards.
+    // Angles near an axis are computed back from a quarter or half a turn.
     constexpr detail::Pair quarter{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54},
         half{2.0 * quarter.high, 2.0 * quarter.low};
     const bool isSteep = b > a, isLeft = std::signbit(x);
-    const double angle = detail::angleOf(std::min(a, b), a == 0.0 && b == 0.0 ? 1.0 : std::max(a, b),
-                                         isSteep  ? quarter
-                                         : isLeft ? half
-                                                  : detail::Pair{},
-                                         isSteep == isLeft ? 1.0 : -1.0);
+    const double angle = detail::arcTangent(std::min(a, b), a == 0.0 && b == 0.0 ? 1.0 : std::max(a, b),
+                                            isSteep  ? quarter
+                                            : isLeft ? half
+                                                     : detail::Pair{},
+                                            isSteep == isLeft ? 1.0 : -1.0);
     return std::copysign(angle, y);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Timed control changes of the renderer (layout and panning law, gains, mutes, delays, ceilings, recordings,
 // stop), and the record of a played event. A control fits a cache line, since it is copied from queue to
-// queue; what is larger it names.
+// queue; it points to larger data.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/NameNumbers.h"
@@ -60,7 +60,7 @@ struct PlayedEvent {
     bool isLate = false;    ///< played after its time, at once
 };
 
-/// Of all controls so far, also those that take effect later; to explain silence. One thread at a time.
+/// Result of all controls so far, also of later ones, to explain silence. One thread at a time.
 struct LastChanges {
     PhantomPanner panner;           ///< of later events
     double level = 1.0;             ///< of all channels
@@ -71,7 +71,7 @@ struct LastChanges {
     std::uint64_t mutedChannels() const noexcept { return muted | zeroGains; } ///< those that play nothing
 
     /// Notes one control, in the order of their sending.
-    void take(const RenderControl& control) noexcept {
+    void apply(const RenderControl& control) noexcept {
         using Kind = RenderControl::Kind;
         const std::uint64_t bit = std::uint64_t{1} << (static_cast<unsigned>(control.channel) % 64U);
         if (control.kind == Kind::panner && control.panner != nullptr) panner = *control.panner;

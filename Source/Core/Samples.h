@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The peak of samples, and where a tone can be cut without a step.
+// Two helpers for samples: their peak, and the times at which a tone can be cut without a step.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -21,9 +21,9 @@ inline std::int64_t nearestCrossingNs(double frequencyHz, std::int64_t ns) noexc
     return std::llround(std::round(static_cast<double>(ns) * crossingsPerNs) / crossingsPerNs);
 }
 
-/// The same for the end of a tone, which is at least a half period long. The end is at most a quarter period
-/// from `ns`, except for shorter tones. Any thread.
-inline std::int64_t softEndNs(double frequencyHz, std::int64_t ns) noexcept {
+/// The zero crossing that ends a tone, which is at least a half period long. The end is at most a quarter
+/// period from `ns`, except for shorter tones. Any thread.
+inline std::int64_t toneEndNs(double frequencyHz, std::int64_t ns) noexcept {
     return nearestCrossingNs(frequencyHz, std::max(ns, std::int64_t{std::llround(0.5e9 / frequencyHz)}));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory of a fixed size: an array, and a queue in the order of times.
+// Containers of fixed capacity: an array (Storage), and a priority queue by time (TimeOrdered).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,14 +11,14 @@
 namespace physvib {
 
 /// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on
-/// a board it lies inside the object. At most `Most` items. resize: message thread (M), not while rendering;
+/// a board it lies inside the object. At most `Max` items. resize: message thread (M), not while rendering;
 /// else: any thread that may use them.
-template <class T, std::size_t Most, bool isOnHeap>
+template <class T, std::size_t Max, bool isOnHeap>
 class Storage {
 public:
     /// Provides `count` items. False, and empty, if there is no memory. The items are value-initialised if
     /// the count has changed; otherwise they keep their values.
-    bool resize(std::size_t count) noexcept { return count <= Most; }
+    bool resize(std::size_t count) noexcept { return count <= Max; }
 
     T* data() noexcept { return items_.data(); }
     const T* data() const noexcept { return items_.data(); }
@@ -26,12 +26,12 @@ public:
     const T& operator[](std::size_t i) const noexcept { return items_[i]; }
 
 private:
-    std::array<T, Most> items_{};
+    std::array<T, Max> items_{};
 };
 
 /// Aligned to cache lines. resize writes every item, so that the system has mapped all pages before render.
-template <class T, std::size_t Most>
-class Storage<T, Most, true> {
+template <class T, std::size_t Max>
+class Storage<T, Max, true> {
     static_assert(std::is_trivially_destructible_v<T>);
 
 public:
@@ -43,8 +43,8 @@ public:
     bool resize(std::size_t count) noexcept {
         if (count == count_) return true;
         release();
-        if (count > Most) return false;
-        items_ = static_cast<T*>(::operator new(count * sizeof(T), lines, std::nothrow));
+        if (count > Max) return false;
+        items_ = static_cast<T*>(::operator new(count * sizeof(T), cacheLine, std::nothrow));
         if (items_ == nullptr) return false;
         count_ = count;
         for (std::size_t i = 0; i < count; ++i) new (items_ + i) T{};
@@ -57,9 +57,9 @@ public:
     const T& operator[](std::size_t i) const noexcept { return items_[i]; }
 
 private:
-    static constexpr std::align_val_t lines{64};
+    static constexpr std::align_val_t cacheLine{64};
     void release() noexcept {
-        ::operator delete(items_, lines);
+        ::operator delete(items_, cacheLine);
         items_ = nullptr;
         count_ = 0;
     }
@@ -80,31 +80,31 @@ public:
     bool resize(int capacity) noexcept {
         clear();
         const auto count = static_cast<std::size_t>(capacity);
-        const bool has = nodes_.resize(count) && items_.resize(count) && heap_.resize(count);
-        capacity_ = has ? capacity : 0;
-        return has;
+        const bool hasMemory = nodes_.resize(count) && items_.resize(count) && heap_.resize(count);
+        capacity_ = hasMemory ? capacity : 0;
+        return hasMemory;
     }
 
     bool empty() const noexcept { return size_ == 0; }
     bool full() const noexcept { return size_ == capacity_; }
     int size() const noexcept { return size_; }
     void clear() noexcept {
-        size_ = heaped_ = used_ = 0;
+        size_ = heapSize_ = usedItems_ = 0;
         free_ = first_ = last_ = none;
     }
 
     /// False if the queue is full; then nothing has changed.
     bool push(std::int64_t time, const T& item) noexcept {
         if (full()) return false;
-        blank() = item;
-        pushBlank(time);
+        freeItem() = item;
+        pushFreeItem(time);
         return true;
     }
 
-    /// The memory of the next item: write it in place, then call pushBlank. Only when not full.
-    T& blank() noexcept { return items_[index(free_ != none ? free_ : used_)]; }
-    void pushBlank(std::int64_t time) noexcept {
-        const std::int32_t at = free_ != none ? free_ : used_++;
+    /// The memory of the next item: write it in place, then call pushFreeItem. Only when not full.
+    T& freeItem() noexcept { return items_[index(free_ != none ? free_ : usedItems_)]; }
+    void pushFreeItem(std::int64_t time) noexcept {
+        const std::int32_t at = free_ != none ? free_ : usedItems_++;
         if (free_ != none) free_ = node(at).next;
         node(at) = {time, arrivals_++, none};
         ++size_;
@@ -113,20 +113,20 @@ public:
         else if (time >= node(last_).time)
             last_ = node(last_).next = at;
         else
-            heapUp(at);
+            pushOnHeap(at);
     }
 
     /// Time and value of the first item. Only when not empty.
-    std::int64_t nextTime() const noexcept { return node(firstPlace()).time; }
-    const T& next() const noexcept { return items_[index(firstPlace())]; }
+    std::int64_t nextTime() const noexcept { return node(firstIndex()).time; }
+    const T& next() const noexcept { return items_[index(firstIndex())]; }
 
     /// Removes the first item. Only when not empty.
     void pop() noexcept {
-        const std::int32_t at = firstPlace();
+        const std::int32_t at = firstIndex();
         if (at == first_)
             first_ = node(at).next;
         else
-            std::pop_heap(heap_.data(), heap_.data() + heaped_--, later());
+            std::pop_heap(heap_.data(), heap_.data() + heapSize_--, laterFirst());
         node(at).next = free_;
         free_ = at;
         --size_;
@@ -137,10 +137,10 @@ public:
     template <class Function>
     void retime(Function newTime) noexcept {
         for (; first_ != none; first_ = node(first_).next)
-            heap_[index(heaped_++)] = static_cast<Place>(first_);
-        std::for_each(heap_.data(), heap_.data() + heaped_,
+            heap_[index(heapSize_++)] = static_cast<ItemIndex>(first_);
+        std::for_each(heap_.data(), heap_.data() + heapSize_,
                       [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
-        std::make_heap(heap_.data(), heap_.data() + heaped_, later());
+        std::make_heap(heap_.data(), heap_.data() + heapSize_, laterFirst());
     }
 
 private:
@@ -156,27 +156,27 @@ private:
     static bool isLater(const Node& a, const Node& b) noexcept {
         return a.time != b.time ? a.time > b.time : static_cast<std::int32_t>(a.arrival - b.arrival) > 0;
     }
-    auto later() const noexcept {
+    auto laterFirst() const noexcept {
         return [this](std::int32_t a, std::int32_t b) { return isLater(node(a), node(b)); };
     }
-    void heapUp(std::int32_t at) noexcept {
-        heap_[index(heaped_++)] = static_cast<Place>(at);
-        std::push_heap(heap_.data(), heap_.data() + heaped_, later());
+    void pushOnHeap(std::int32_t at) noexcept {
+        heap_[index(heapSize_++)] = static_cast<ItemIndex>(at);
+        std::push_heap(heap_.data(), heap_.data() + heapSize_, laterFirst());
     }
-    std::int32_t firstPlace() const noexcept {
-        if (heaped_ == 0) return first_;
+    std::int32_t firstIndex() const noexcept {
+        if (heapSize_ == 0) return first_;
         return first_ == none || isLater(node(first_), node(heap_[0])) ? heap_[0] : first_;
     }
 
-    static constexpr auto most = static_cast<std::size_t>(Capacity);
-    Storage<Node, most, isOnHeap> nodes_;
-    Storage<T, most, isOnHeap> items_;
-    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // for boards
-    Storage<Place, most, isOnHeap> heap_; // places of items that arrived out of order
+    static constexpr auto maxItems = static_cast<std::size_t>(Capacity);
+    Storage<Node, maxItems, isOnHeap> nodes_;
+    Storage<T, maxItems, isOnHeap> items_;
+    using ItemIndex = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // for boards
+    Storage<ItemIndex, maxItems, isOnHeap> heap_; // places of items that arrived out of order
     std::uint32_t arrivals_ = 0;
-    std::int32_t first_ = none, last_ = none; // of the list
-    std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been used
-    int size_ = 0, heaped_ = 0;
+    std::int32_t first_ = none, last_ = none;  // of the list
+    std::int32_t free_ = none, usedItems_ = 0; // places from `usedItems_` on have never been used
+    int size_ = 0, heapSize_ = 0;
     int capacity_ = isOnHeap ? 0 : Capacity;
 };
 

@@ -27,9 +27,9 @@ template <class Real>
 constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
     const std::uint64_t quadrant = (phase + (std::uint64_t{1} << 61)) >> 62;
     // at most an eighth of a turn either way
-    const auto rest = static_cast<std::int64_t>(phase - (quadrant << 62));
+    const auto remainder = static_cast<std::int64_t>(phase - (quadrant << 62));
     const Real x = static_cast<Real>(static_cast<double>(2.0 * std::numbers::pi / 18446744073709551616.0)) *
-                   static_cast<Real>(rest);
+                   static_cast<Real>(remainder);
     const Real q = x * x;
     constexpr auto over = [](int n) { return static_cast<Real>(1.0 / n); };
     const Real sine =
@@ -58,10 +58,10 @@ constexpr double octaveUnit = 72057594037927936.0; // 2^56
 /// 2^-octaves. Relative error: 1e-11 in double, 1e-7 in float. At most 126 octaves either way.
 template <class Real>
 constexpr Real decayFactor(std::int64_t octaves) noexcept {
-    const std::int64_t whole =
+    const std::int64_t halvings =
         (octaves + (std::int64_t{1} << (octaveFractionBits - 1))) >> octaveFractionBits;
-    const std::int64_t rest = octaves - whole * (std::int64_t{1} << octaveFractionBits);
-    const Real x = static_cast<Real>(-std::numbers::ln2 / octaveUnit) * static_cast<Real>(rest);
+    const std::int64_t remainder = octaves - halvings * (std::int64_t{1} << octaveFractionBits);
+    const Real x = static_cast<Real>(-std::numbers::ln2 / octaveUnit) * static_cast<Real>(remainder);
     constexpr auto over = [](int n) { return static_cast<Real>(1.0 / n); };
     const Real power =
         1 +
@@ -73,9 +73,9 @@ constexpr Real decayFactor(std::int64_t octaves) noexcept {
                                                          (1 + x * over(7) *
                                                                   (1 + x * over(8) * (1 + x * over(9)))))))));
     if constexpr (std::is_same_v<Real, double>)
-        return power * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - whole) << 52);
+        return power * std::bit_cast<double>(static_cast<std::uint64_t>(1023 - halvings) << 52);
     else
-        return power * std::bit_cast<float>(static_cast<std::uint32_t>(127 - whole) << 23);
+        return power * std::bit_cast<float>(static_cast<std::uint32_t>(127 - halvings) << 23);
 }
 
 } // namespace physvib

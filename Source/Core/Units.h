@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Conversions and constants of units. One home for them, so that every level that is set or displayed is the
-// same.
+// Decibels and the standard gravity. All modules use these, so that every level that is set or displayed is
+// the same.
 #pragma once
 #include "Core/PortableMath.h"
 
 namespace physvib {
-/// 20 dB are a factor of ten. Any thread.
+/// The amplitude factor; 20 dB are a factor of ten. Any thread.
 inline double fromDecibels(double decibels) noexcept { return portable::pow(10.0, decibels / 20.0); }
 
 /// Decibels of an amplitude of 0 or more; 0 gives minus infinity. Any thread.

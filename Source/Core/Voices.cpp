@@ -12,9 +12,10 @@ bool MovingTones::strike(const CollisionEvent& event, FramePosition onset, std::
     voice->leadFrames = onset.leadFrames;
     voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
     voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
-    voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
-    voice->level = static_cast<double>(
-        event.amplitude * shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
+    voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.toneAgeNs) * 1e-9);
+    voice->level =
+        static_cast<double>(event.amplitude * shareLeft(event.decayPerSecond,
+                                                        static_cast<double>(event.course.toneAgeNs) * 1e-9));
     const std::int64_t life = lifeFramesOf(voice->decayIncrement);
     voice->end = voice->closeFrame =
         std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Voices that sound between two frames and fade out together: those of recordings and of moving tones.
+// Voices beside the mode bank, which fade out together (FadingVoices): recordings of contacts (SamplePlayer)
+// and moving tones (MovingTones).
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
@@ -22,9 +23,9 @@ struct VoiceTime {
     std::int64_t onset = 0, end = 0, fadeFrame = never;
 };
 
-/// At most `mostSounding` voices at once, of a type derived from VoiceTime whose `gains` point to up to
+/// At most `maxSounding` voices at once, of a type derived from VoiceTime whose `gains` point to up to
 /// `maxGains` values. Render thread (R) only; prepare: message thread (M).
-template <class Voice, int mostSounding, int maxGains>
+template <class Voice, int maxSounding, int maxGains>
 class FadingVoices {
 public:
     /// Ends all voices, and gives each one `width` gains. False: no memory. M, not while rendering.
@@ -36,9 +37,9 @@ public:
         return true;
     }
 
-    /// A new voice that begins at `onset`; null if `mostSounding` already sound then.
+    /// A new voice that begins at `onset`; null if `maxSounding` already sound then.
     Voice* add(std::int64_t onset) noexcept {
-        if (count_ == voices_.size() || soundingAt(onset) >= mostSounding) return nullptr;
+        if (count_ == voices_.size() || soundingAt(onset) >= maxSounding) return nullptr;
         Voice& voice = voices_[count_++];
         const auto gains = voice.gains;
         voice = {};
@@ -62,11 +63,11 @@ public:
     }
 
     /// Removes the voices that have ended by `frame`. The others keep the order of their sums.
-    void forget(std::int64_t frame) noexcept {
-        Voice* kept = begin();
+    void removeEnded(std::int64_t frame) noexcept {
+        Voice* writeTo = begin();
         for (Voice& voice : *this)
-            if (voice.end > frame) std::swap(*kept++, voice);
-        count_ = static_cast<std::size_t>(kept - begin());
+            if (voice.end > frame) std::swap(*writeTo++, voice);
+        count_ = static_cast<std::size_t>(writeTo - begin());
     }
 
     int count() const noexcept { return static_cast<int>(count_); }
@@ -81,7 +82,7 @@ private:
     }
 
     // twice as many, because voices that end within a tile are removed only after it
-    static constexpr auto size = static_cast<std::size_t>(2 * mostSounding);
+    static constexpr auto size = static_cast<std::size_t>(2 * maxSounding);
     int fadeFrames_ = 1;
     std::array<Voice, size> voices_{};
     Storage<std::remove_pointer_t<decltype(Voice::gains)>, size * maxGains, true> gains_;
@@ -144,7 +145,7 @@ public:
             }
             sounds = sounds || from < to;
         }
-        voices_.forget(first + frames);
+        voices_.removeEnded(first + frames);
         return sounds;
     }
 
@@ -158,7 +159,7 @@ private:
 
     int channels_ = 0;
     std::span<const RecordedContact> contacts_;
-    FadingVoices<Voice, limits::maxSampleVoices, limits::maxEnchanters> voices_;
+    FadingVoices<Voice, limits::maxSampleVoices, limits::maxActuators> voices_;
 };
 
 /// Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
@@ -195,7 +196,7 @@ public:
             for (std::int64_t frame = from; frame < to; ++frame) add(voice, frame, io, frame - first);
             sounds = true;
         }
-        voices_.forget(first + frames);
+        voices_.removeEnded(first + frames);
         return sounds;
     }
 
@@ -258,7 +259,7 @@ private:
 
     double rate_ = 48000.0;
     std::size_t channels_ = 1;
-    FadingVoices<Voice, limits::maxMovingTones, 4 * limits::maxEnchanters> voices_;
+    FadingVoices<Voice, limits::maxMovingTones, 4 * limits::maxActuators> voices_;
 };
 
 } // namespace physvib

@@ -23,9 +23,9 @@ struct AhapPiece {
 
 constexpr double silenceSeconds = 0.05; // a longer silence ends an event
 constexpr double rounding = 1e-9;       // of a line's values
-constexpr double leastPieceSeconds = 0.001;
+constexpr double minPieceSeconds = 0.001;
 constexpr double leadSeconds = 0.0004; // curves are neutral this long before a transient
-constexpr double mostChange = 2.0; // of the amplitude within a piece: curves reduce a transient's end by 3 dB
+constexpr double maxChange = 2.0; // of the amplitude within a piece: curves reduce a transient's end by 3 dB
 
 /// Divides lines that are longer than an event may be.
 std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) {
@@ -34,7 +34,8 @@ std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) 
         const EnvelopePoint from = cut.empty() ? p : cut.back();
         const int pieces =
             static_cast<int>(std::ceil((p.seconds - from.seconds) / (0.5 * limits::maxAhapEventSeconds)));
-        for (int k = 1; k < pieces; ++k) cut.push_back(between(from, p, static_cast<double>(k) / pieces));
+        for (int k = 1; k < pieces; ++k)
+            cut.push_back(interpolated(from, p, static_cast<double>(k) / pieces));
         cut.push_back(p);
     }
     return cut;
@@ -57,23 +58,23 @@ bool isSilent(std::span<const EnvelopePoint> points) {
 }
 
 /// Pieces in time order; silences are omitted, except where a transient sounds.
-class Cutter {
+class EnvelopeCutter {
 public:
-    explicit Cutter(const ClipChannel& channel)
+    explicit EnvelopeCutter(const ClipChannel& channel)
         : envelope_{envelopeOf(channel)}
         , hasTransients_{!channel.transients.empty()} {
         const std::vector<ClipTransient>& transients = channel.transients;
         double from = 0.0;
         for (std::size_t i = 0; i < transients.size(); ++i) {
-            const double start = startBeside(transients, i),
-                         end = transients[i].seconds + ClipTransient::lastsSeconds;
+            const double start = pieceStartBefore(transients, i),
+                         end = transients[i].seconds + ClipTransient::durationSeconds;
             cutStretches(from, start);
-            from = i + 1 < transients.size() ? endOrAll(end, startBeside(transients, i + 1)) : end;
-            cutBeside(start, transients[i].seconds, from);
+            from = i + 1 < transients.size() ? endOrWhole(end, pieceStartBefore(transients, i + 1)) : end;
+            cutAtTransient(start, transients[i].seconds, from);
         }
         cutStretches(from, limits::maxClipSeconds);
     }
-    std::vector<AhapPiece> take() { return std::move(pieces_); }
+    std::vector<AhapPiece> releasePieces() { return std::move(pieces_); }
 
 private:
     void add(std::vector<EnvelopePoint> points, const std::optional<EnvelopePoint>& level) {
@@ -85,7 +86,7 @@ private:
         start = std::max(start, envelope_.front().seconds);
         end = std::min(end, envelope_.back().seconds);
         if (!(end > start)) return;
-        const auto points = cutToLength(partOf(envelope_, start, end));
+        const auto points = cutToLength(envelopeSlice(envelope_, start, end));
         for (std::size_t from = 0; from + 1 < points.size();) {
             const std::size_t to = stretchEnd(points, from);
             const std::span stretch = std::span{points}.subspan(from, to - from + 1);
@@ -98,24 +99,24 @@ private:
     }
 
     /// `seconds`, or `end` if less than a piece would remain.
-    static double endOrAll(double seconds, double end) {
-        return seconds + leastPieceSeconds < end ? seconds : end;
+    static double endOrWhole(double seconds, double end) {
+        return seconds + minPieceSeconds < end ? seconds : end;
     }
 
     /// A moment before that transient, and not before the preceding one.
-    static double startBeside(const std::vector<ClipTransient>& transients, std::size_t i) {
+    static double pieceStartBefore(const std::vector<ClipTransient>& transients, std::size_t i) {
         const double at = transients[i].seconds, last = i > 0 ? transients[i - 1].seconds : 0.0;
         return std::max(at - leadSeconds, std::midpoint(last, at));
     }
 
     /// The first piece nowhere exceeds the envelope at the transient, so that the curve there is 1.
-    void cutBeside(double start, double transient, double end) {
-        EnvelopePoint level = pointAt(envelope_, transient);
-        const double changes = changesAt(level, end, 1.0),
-                     held = std::min(end, transient + envelopeRiseSeconds); // an impact's rise may take it
-        const bool isHeld = changes < held;
-        double from = isHeld ? held : changes;
-        std::vector<EnvelopePoint> points = partOf(envelope_, start, from);
+    void cutAtTransient(double start, double transient, double end) {
+        EnvelopePoint level = envelopeAt(envelope_, transient);
+        const double changeTime = changeSeconds(level, end, 1.0),
+                     held = std::min(end, transient + envelopeRiseSeconds); // an impact may rise until then
+        const bool isHeld = changeTime < held;
+        double from = isHeld ? held : changeTime;
+        std::vector<EnvelopePoint> points = envelopeSlice(envelope_, start, from);
         if (isHeld)
             std::erase_if(points,
                           [&](const EnvelopePoint& p) { return p.seconds > transient && p.seconds < held; });
@@ -126,20 +127,20 @@ private:
         if (at == points.end() || at->seconds > transient) points.insert(at, level);
         add(std::move(points), level);
         for (double to; from < end; from = to) {
-            const EnvelopePoint begin = pointAt(envelope_, from);
-            to = endOrAll(std::max(from + leastPieceSeconds, changesAt(begin, end, mostChange)), end);
-            std::vector<EnvelopePoint> part = partOf(envelope_, from, to);
+            const EnvelopePoint begin = envelopeAt(envelope_, from);
+            to = endOrWhole(std::max(from + minPieceSeconds, changeSeconds(begin, end, maxChange)), end);
+            std::vector<EnvelopePoint> part = envelopeSlice(envelope_, from, to);
             level = {from, std::ranges::max(part, {}, &EnvelopePoint::amplitude).amplitude,
                      begin.frequencyHz};
             add(std::move(part), level);
         }
     }
 
-    /// When the amplitude has risen by that factor, or fallen by mostChange, since `from`; else `end`.
-    double changesAt(const EnvelopePoint& from, double end, double mostRise) const {
-        const double low = from.amplitude / mostChange, high = from.amplitude * mostRise * (1.0 + rounding);
+    /// When the amplitude has risen by that factor, or fallen by maxChange, since `from`; else `end`.
+    double changeSeconds(const EnvelopePoint& from, double end, double maxRise) const {
+        const double low = from.amplitude / maxChange, high = from.amplitude * maxRise * (1.0 + rounding);
         EnvelopePoint last = from;
-        for (const EnvelopePoint& p : partOf(envelope_, from.seconds, end)) {
+        for (const EnvelopePoint& p : envelopeSlice(envelope_, from.seconds, end)) {
             if (p.amplitude > high)
                 return std::lerp(last.seconds, p.seconds,
                                  (high - last.amplitude) / (p.amplitude - last.amplitude));
@@ -156,15 +157,15 @@ private:
     std::vector<AhapPiece> pieces_;
 };
 
-constexpr std::size_t mostCurvePoints = 16; // per curve on a phone
+constexpr std::size_t maxCurvePoints = 16; // per curve on a phone
 constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
 constexpr double steepSeconds = 0.001; // a faster change is felt as a step
-constexpr int rootLines = 6;           // lines per line of amplitude, because its square root is curved
+constexpr int linesPerRoot = 6;        // lines per line of amplitude, because its square root is curved
 
 OrderedJson parametersJson(double intensity, double sharpness) {
     return OrderedJson::array(
-        {{{"ParameterID", "HapticIntensity"}, {"ParameterValue", shortened(intensity)}},
-         {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
+        {{{"ParameterID", "HapticIntensity"}, {"ParameterValue", roundedForFile(intensity)}},
+         {{"ParameterID", "HapticSharpness"}, {"ParameterValue", roundedForFile(sharpness)}}});
 }
 
 /// Intensities in shares of `full`. Points are closer where the amplitude is small: its root is steep.
@@ -174,10 +175,10 @@ std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, do
         const EnvelopePoint& p = envelope[i];
         const double intensity = std::sqrt(std::min(1.0, p.amplitude));
         const bool isLine = i > 0 && p.seconds - envelope[i - 1].seconds > steepSeconds;
-        for (int k = 1; isLine && k < rootLines; ++k) { // even steps of intensity
+        for (int k = 1; isLine && k < linesPerRoot; ++k) { // even steps of intensity
             const EnvelopePoint& from = envelope[i - 1];
             const double root = std::sqrt(std::min(1.0, from.amplitude)),
-                         value = root + (intensity - root) * k / rootLines;
+                         value = root + (intensity - root) * k / linesPerRoot;
             if (p.amplitude != from.amplitude)
                 curve.push_back({from.seconds + (p.seconds - from.seconds) *
                                                     std::clamp((value * value - from.amplitude) /
@@ -188,7 +189,7 @@ std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, do
         curve.push_back({p.seconds, intensity});
     }
     for (ClipPoint& p : curve) p.value = std::min(1.0, p.value / full);
-    return thinned(curve, intensityTolerance);
+    return simplifiedCurve(curve, intensityTolerance);
 }
 
 /// The events in the order in which they are added, and the curves' values after the last one.
@@ -198,12 +199,12 @@ public:
         : scale_{scale} {}
 
     void add(const AhapPiece& piece) {
-        const double start = shortened(piece.points.front().seconds),
-                     seconds = shortened(shortened(piece.points.back().seconds) - start);
+        const double start = roundedForFile(piece.points.front().seconds),
+                     seconds = roundedForFile(roundedForFile(piece.points.back().seconds) - start);
         if (!(seconds > 0.0)) return;
         const double intensity =
-            piece.level ? shortened(std::sqrt(std::min(1.0, piece.level->amplitude))) : 1.0;
-        const double sharpness = piece.level ? shortened(scale_.share(piece.level->frequencyHz)) : 0.0;
+            piece.level ? roundedForFile(std::sqrt(std::min(1.0, piece.level->amplitude))) : 1.0;
+        const double sharpness = piece.level ? roundedForFile(scale_.toShare(piece.level->frequencyHz)) : 0.0;
         if (intensity > 0.0)
             json_.push_back({{"Event",
                               {{"Time", start},
@@ -220,13 +221,13 @@ public:
 
     void add(const ClipTransient& t) {
         json_.push_back({{"Event",
-                          {{"Time", shortened(t.seconds)},
+                          {{"Time", roundedForFile(t.seconds)},
                            {"EventType", "HapticTransient"},
                            {"EventParameters", parametersJson(std::sqrt(std::clamp(t.amplitude, 0.0, 1.0)),
-                                                              scale_.share(t.frequencyHz))}}}});
+                                                              scale_.toShare(t.frequencyHz))}}}});
     }
 
-    OrderedJson take() { return std::move(json_); }
+    OrderedJson releaseJson() { return std::move(json_); }
 
 private:
     static std::vector<ClipPoint> constant(const AhapPiece& piece, double value) {
@@ -236,22 +237,22 @@ private:
     std::vector<ClipPoint> sharpnessesOf(std::span<const EnvelopePoint> envelope, double before) const {
         std::vector<ClipPoint> curve;
         for (const EnvelopePoint& p : envelope)
-            curve.push_back({p.seconds, scale_.share(p.frequencyHz) - before});
-        return thinned(curve, sharpnessTolerance);
+            curve.push_back({p.seconds, scale_.toShare(p.frequencyHz) - before});
+        return simplifiedCurve(curve, sharpnessTolerance);
     }
 
     /// Writes as many curves as necessary; each begins with the last point of the one before. None if the
-    /// curve only continues the value `isNow`.
-    void addCurves(const char* parameter, std::vector<ClipPoint> curve, double& isNow) {
-        for (ClipPoint& p : curve) p = {shortened(p.seconds), shortened(p.value)};
-        if (std::ranges::all_of(curve, [&](const ClipPoint& p) { return p.value == isNow; })) return;
-        isNow = curve.back().value;
-        for (std::size_t from = 0; from + 1 < curve.size(); from += mostCurvePoints - 1) {
+    /// curve only continues the value `currentValue`.
+    void addCurves(const char* parameter, std::vector<ClipPoint> curve, double& currentValue) {
+        for (ClipPoint& p : curve) p = {roundedForFile(p.seconds), roundedForFile(p.value)};
+        if (std::ranges::all_of(curve, [&](const ClipPoint& p) { return p.value == currentValue; })) return;
+        currentValue = curve.back().value;
+        for (std::size_t from = 0; from + 1 < curve.size(); from += maxCurvePoints - 1) {
             const double start = curve[from].seconds;
             OrderedJson points = OrderedJson::array();
-            for (std::size_t i = from; i < std::min(from + mostCurvePoints, curve.size()); ++i)
+            for (std::size_t i = from; i < std::min(from + maxCurvePoints, curve.size()); ++i)
                 points.push_back(
-                    {{"Time", shortened(curve[i].seconds - start)}, {"ParameterValue", curve[i].value}});
+                    {{"Time", roundedForFile(curve[i].seconds - start)}, {"ParameterValue", curve[i].value}});
             json_.push_back({{"ParameterCurve",
                               {{"ParameterID", parameter},
                                {"Time", start},
@@ -268,11 +269,11 @@ private:
 
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
     Pattern pattern{scale};
-    for (const AhapPiece& piece : Cutter{channel}.take()) pattern.add(piece);
+    for (const AhapPiece& piece : EnvelopeCutter{channel}.releasePieces()) pattern.add(piece);
     for (const ClipTransient& t : channel.transients) pattern.add(t);
     return jsonLines({{"Version", 1},
                       {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}},
-                      {"Pattern", pattern.take()}});
+                      {"Pattern", pattern.releaseJson()}});
 }
 
 } // namespace physvib

@@ -6,18 +6,18 @@
 namespace physvib {
 namespace {
 
-bool isWithin(std::span<const ClipPoint> curve, double least, double most) {
+bool isWithin(std::span<const ClipPoint> curve, double minValue, double maxValue) {
     double last = 0.0;
     for (const ClipPoint& p : curve) {
-        if (!(p.seconds >= last && p.seconds <= limits::maxClipSeconds && p.value >= least &&
-              p.value <= most))
+        if (!(p.seconds >= last && p.seconds <= limits::maxClipSeconds && p.value >= minValue &&
+              p.value <= maxValue))
             return false;
         last = p.seconds;
     }
     return true;
 }
 
-std::string faultOf(const ClipWave& wave) {
+std::string waveError(const ClipWave& wave) {
     if (!(wave.startSeconds >= 0.0 && std::isfinite(wave.phaseRadians)))
         return "expected a wave that begins at 0 s or later, at a finite phase";
     if (!isWithin(wave.amplitude, -limits::maxClipAmplitude, limits::maxClipAmplitude))
@@ -28,33 +28,33 @@ std::string faultOf(const ClipWave& wave) {
     return {};
 }
 
-std::string atMost(double most, const std::string& what) {
-    return "expected at most " + plainNumber(most) + " " + what + ", found more";
+std::string limitError(double maximum, const std::string& unit) {
+    return "expected at most " + plainNumber(maximum) + " " + unit + ", found more";
 }
 
 } // namespace
 
-std::string clipFault(const Clip& clip) {
-    if (clip.channels.size() > static_cast<std::size_t>(limits::maxEnchanters))
-        return atMost(limits::maxEnchanters, "channels");
+std::string clipError(const Clip& clip) {
+    if (clip.channels.size() > static_cast<std::size_t>(limits::maxActuators))
+        return limitError(limits::maxActuators, "channels");
     if (clip.points() > limits::maxClipPoints)
-        return atMost(static_cast<double>(limits::maxClipPoints), "points of curves");
+        return limitError(static_cast<double>(limits::maxClipPoints), "points of curves");
     std::size_t bands = 0;
-    double sounding = 0.0;
+    double soundingSeconds = 0.0;
     for (const ClipChannel& channel : clip.channels) {
         bands += channel.bands.size();
         for (const ClipBand& band : channel.bands)
             for (const ClipWave& wave : band.waves) {
-                if (auto fault = faultOf(wave); !fault.empty()) return fault;
-                sounding += wave.seconds();
+                if (auto error = waveError(wave); !error.empty()) return error;
+                soundingSeconds += wave.seconds();
             }
         for (const ClipTransient& t : channel.transients)
-            if (auto fault = faultOf(t.wave()); !fault.empty()) return fault;
+            if (auto error = waveError(t.wave()); !error.empty()) return error;
     }
-    if (bands > limits::maxClipBands) return atMost(static_cast<double>(limits::maxClipBands), "bands");
-    if (!(sounding <= limits::maxClipSounding))
-        return atMost(limits::maxClipSounding, "seconds of all waves together");
-    if (!(clip.seconds() <= limits::maxClipSeconds)) return atMost(limits::maxClipSeconds, "seconds");
+    if (bands > limits::maxClipBands) return limitError(static_cast<double>(limits::maxClipBands), "bands");
+    if (!(soundingSeconds <= limits::maxClipSoundingSeconds))
+        return limitError(limits::maxClipSoundingSeconds, "seconds of all waves together");
+    if (!(clip.seconds() <= limits::maxClipSeconds)) return limitError(limits::maxClipSeconds, "seconds");
     return clip.seconds() > 0.0 ? "" : "expected something to feel, found silence";
 }
 
@@ -68,14 +68,14 @@ double peakOf(const ClipChannel& channel) noexcept {
     return peak;
 }
 
-void keepOneAtATime(ClipBand& band) {
+void makeSequential(ClipBand& band) {
     sortByTime(band.waves, &ClipWave::startSeconds);
     for (std::size_t i = 0; i + 1 < band.waves.size(); ++i) {
         ClipWave& wave = band.waves[i];
-        const double left = band.waves[i + 1].startSeconds - wave.startSeconds;
-        if (left >= wave.seconds() - sameMomentSeconds) continue;
-        const ClipPoint end{left, valueAt(wave.amplitude, left)};
-        std::erase_if(wave.amplitude, [=](const ClipPoint& p) { return p.seconds >= left; });
+        const double secondsToNext = band.waves[i + 1].startSeconds - wave.startSeconds;
+        if (secondsToNext >= wave.seconds() - sameMomentSeconds) continue;
+        const ClipPoint end{secondsToNext, valueAt(wave.amplitude, secondsToNext)};
+        std::erase_if(wave.amplitude, [=](const ClipPoint& p) { return p.seconds >= secondsToNext; });
         wave.amplitude.push_back(end);
     }
     std::erase_if(band.waves, [](const ClipWave& wave) { return !(wave.seconds() > 0.0); });

@@ -19,12 +19,13 @@ namespace physvib::limits {
 
 constexpr std::size_t maxClipFileBytes = 24'000'000; // parsed JSON needs six times its bytes: 150 MB
 constexpr std::size_t maxClipPoints = 500'000;       // 10,000 impacts on four actuators, a dozen points each
-constexpr std::size_t maxClipStrikes = maxClipPoints / 2; // each has at least two points
-constexpr std::size_t maxClipBands = 4096;      // of all channels: each may have a sounding wave at any time
-constexpr double maxClipSeconds = 600.0;        // as for recordings, because a clip becomes samples
-constexpr double maxClipSounding = 7200.0;      // seconds of all waves: one second of computing per thousand
-constexpr double maxClipFrequencyHz = 10'000.0; // in MPEG's schema
-constexpr double maxClipAmplitude = 1000.0;     // a channel's gain times an amplitude within -1 to 1
+constexpr std::size_t maxClipEvents = maxClipPoints / 2; // each has at least two points
+constexpr std::size_t maxClipBands = 4096; // of all channels: each may have a sounding wave at any time
+constexpr double maxClipSeconds = 600.0;   // as for recordings, because a clip becomes samples
+constexpr double maxClipSoundingSeconds = 7200.0; // seconds of all waves: one second of computing per
+                                                  // thousand
+constexpr double maxClipFrequencyHz = 10'000.0;   // in MPEG's schema
+constexpr double maxClipAmplitude = 1000.0;       // a channel's gain times an amplitude within -1 to 1
 
 constexpr double maxAhapEventSeconds = 30.0; // for Apple's continuous events
 
@@ -35,7 +36,7 @@ namespace physvib {
 constexpr double sameMomentSeconds = 1e-9; ///< tolerance for times computed in different ways
 
 /// Rounds to whole nanoseconds, so that times computed by different sums in a file are equal. Any thread.
-inline double momentOf(double seconds) noexcept { return std::round(seconds * 1e9) / 1e9; }
+inline double roundedToNs(double seconds) noexcept { return std::round(seconds * 1e9) / 1e9; }
 
 /// A point of a piecewise linear curve.
 struct ClipPoint {
@@ -77,17 +78,20 @@ struct ClipBand {
     bool operator==(const ClipBand&) const = default;
 };
 
-/// A short pulse: a sine that falls to 0 within `lastsSeconds`.
+/// A short pulse: a sine that falls to 0 within `durationSeconds`.
 struct ClipTransient {
-    static constexpr double lastsSeconds = 0.022; ///< as in MPEG's encoder
+    static constexpr double durationSeconds = 0.022; ///< as in MPEG's encoder
     double seconds = 0.0;
     double amplitude = 0.0;
     double frequencyHz = 0.0;
     bool operator==(const ClipTransient&) const = default;
 
     ClipWave wave() const {
-        return {
-            seconds, 0.0, ClipWaveform::sine, {{0.0, amplitude}, {lastsSeconds, 0.0}}, {{0.0, frequencyHz}}};
+        return {seconds,
+                0.0,
+                ClipWaveform::sine,
+                {{0.0, amplitude}, {durationSeconds, 0.0}},
+                {{0.0, frequencyHz}}};
     }
 };
 
@@ -99,7 +103,7 @@ struct ClipDevice {
 
 struct ClipChannel {
     std::string label;
-    std::optional<EnchanterPlace> place; ///< on the clip's extent
+    std::optional<ActuatorPlace> place; ///< on the clip's extent
     ClipDevice device{};
     std::vector<ClipBand> bands{};           ///< all sound at the same time
     std::vector<ClipTransient> transients{}; ///< in time order
@@ -109,7 +113,7 @@ struct ClipChannel {
     }
 };
 
-/// At most limits::maxEnchanters channels.
+/// At most limits::maxActuators channels.
 struct Clip {
     std::string title;
     double extentWidthMetres = 0.0, extentHeightMetres = 0.0; ///< 0: no channel has a place
@@ -123,7 +127,7 @@ struct Clip {
             for (const ClipBand& band : channel.bands)
                 if (!band.waves.empty()) end = std::max(end, band.waves.back().endSeconds());
             if (!channel.transients.empty())
-                end = std::max(end, channel.transients.back().seconds + ClipTransient::lastsSeconds);
+                end = std::max(end, channel.transients.back().seconds + ClipTransient::durationSeconds);
         }
         return end;
     }
@@ -139,23 +143,23 @@ struct Clip {
 };
 
 /// Empty, or why the clip is refused: it exceeds limits, or is empty. Any thread.
-std::string clipFault(const Clip& clip);
+std::string clipError(const Clip& clip);
 
 /// The largest amplitude of any wave or transient. Any thread.
 double peakOf(const ClipChannel& channel) noexcept;
 
 /// Sorts the waves and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
-void keepOneAtATime(ClipBand& band);
+void makeSequential(ClipBand& band);
 
 /// Maps the relative frequencies (0 to 1) of phone formats to Hz: linear over the actuator's range, by
 /// default the range that MPEG's encoder uses for sharpness. Any thread.
 struct FrequencyScale {
     double lowHz = 65.0, highHz = 300.0;
 
-    double hertz(double share) const noexcept {
+    double toHz(double share) const noexcept {
         return lowHz + (highHz - lowHz) * std::clamp(share, 0.0, 1.0);
     }
-    double share(double hz) const noexcept { return std::clamp((hz - lowHz) / (highHz - lowHz), 0.0, 1.0); }
+    double toShare(double hz) const noexcept { return std::clamp((hz - lowHz) / (highHz - lowHz), 0.0, 1.0); }
 };
 
 /// Indices into `times`, earliest first. Any thread.

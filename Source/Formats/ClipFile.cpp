@@ -7,38 +7,38 @@
 namespace physvib {
 namespace {
 
-struct Facts {
+struct ClipProperties {
     std::set<double> frequenciesHz;
     double peak = 0.0;
-    bool overlaps = false; ///< a channel has more than one wave at a time
+    bool hasOverlaps = false; ///< a channel has more than one wave at a time
 };
 
-Facts factsOf(const Clip& clip) {
-    Facts facts;
+ClipProperties propertiesOf(const Clip& clip) {
+    ClipProperties properties;
     for (const ClipChannel& channel : clip.channels) {
-        facts.overlaps = facts.overlaps || channel.bands.size() > 1;
-        facts.peak = std::max(facts.peak, peakOf(channel));
-        for (const ClipTransient& t : channel.transients) facts.frequenciesHz.insert(t.frequencyHz);
+        properties.hasOverlaps = properties.hasOverlaps || channel.bands.size() > 1;
+        properties.peak = std::max(properties.peak, peakOf(channel));
+        for (const ClipTransient& t : channel.transients) properties.frequenciesHz.insert(t.frequencyHz);
         for (const ClipBand& band : channel.bands)
             for (const ClipWave& wave : band.waves)
-                for (const ClipPoint& p : wave.frequencyHz) facts.frequenciesHz.insert(p.value);
+                for (const ClipPoint& p : wave.frequencyHz) properties.frequenciesHz.insert(p.value);
     }
-    return facts;
+    return properties;
 }
 
-std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& scale) {
+std::vector<std::string> monoLosses(const ClipProperties& properties, const FrequencyScale& scale) {
     std::vector<std::string> losses{"where a hit was is not carried"};
-    if (facts.overlaps)
+    if (properties.hasOverlaps)
         losses.push_back("modes that sound at once become one envelope, at the mean of their frequencies");
     const auto outside = std::ranges::count_if(
-        facts.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
+        properties.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
     if (outside > 0)
-        losses.push_back(std::to_string(outside) + " of " + std::to_string(facts.frequenciesHz.size()) +
+        losses.push_back(std::to_string(outside) + " of " + std::to_string(properties.frequenciesHz.size()) +
                          " frequencies lie outside " + fixedNumber(scale.lowHz, 0) + " to " +
                          fixedNumber(scale.highHz, 0) + " Hz and become its ends");
-    if (facts.peak > 1.0)
+    if (properties.peak > 1.0)
         losses.push_back("what is above full scale is cut to it: the strongest is " +
-                         fixedNumber(facts.peak, 2));
+                         fixedNumber(properties.peak, 2));
     return losses;
 }
 
@@ -46,8 +46,8 @@ std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& sc
 
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    for (std::size_t i = 0; i < writtenEndings.size(); ++i)
-        if (const std::string_view ending = writtenEndings[i];
+    for (std::size_t i = 0; i < writableEndings.size(); ++i)
+        if (const std::string_view ending = writableEndings[i];
             path.size() > ending.size() &&
             std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, lower))
             return static_cast<ClipFormat>(i);
@@ -81,11 +81,12 @@ std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale&
 }
 
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
-    const Facts facts = factsOf(clip);
-    if (format == ClipFormat::hjif) return hjifLosses(clip, facts.frequenciesHz);
-    std::vector<std::string> losses = monoLosses(facts, scale);
-    const std::size_t raised =
-        format == ClipFormat::haptic && !clip.channels.empty() ? metaHapticRaised(clip.channels.front()) : 0;
+    const ClipProperties properties = propertiesOf(clip);
+    if (format == ClipFormat::hjif) return hjifLosses(clip, properties.frequenciesHz);
+    std::vector<std::string> losses = monoLosses(properties, scale);
+    const std::size_t raised = format == ClipFormat::haptic && !clip.channels.empty()
+                                   ? raisedTransientCount(clip.channels.front())
+                                   : 0;
     if (raised > 0)
         losses.push_back(std::to_string(raised) +
                          " transients are weaker than what sounds beside them and become as strong as it");

@@ -18,17 +18,17 @@ namespace physvib {
 
 enum class ClipFormat { hjif, haptic, ahap, envelope };
 
-struct ClipFormatRow {
+struct ClipFormatInfo {
     std::string_view ending, owner;
-    bool isMono;        ///< one channel only
-    bool isRead = true; ///< false: only written
+    bool isMono;            ///< one channel only
+    bool isReadable = true; ///< false: only written
 };
 
 /// The one table of haptic files, indexed by ClipFormat: help, dialogs and errors list what it has.
-inline constexpr std::array<ClipFormatRow, 4> clipFormats{{{".hjif", "MPEG", false},
-                                                           {".haptic", "Meta", true},
-                                                           {".ahap", "Apple", true},
-                                                           {".envelope", "Android", true, false}}};
+inline constexpr std::array<ClipFormatInfo, 4> clipFormats{{{".hjif", "MPEG", false},
+                                                            {".haptic", "Meta", true},
+                                                            {".ahap", "Apple", true},
+                                                            {".envelope", "Android", true, false}}};
 
 template <std::size_t Count>
 inline constexpr auto firstEndings = [] {
@@ -37,9 +37,9 @@ inline constexpr auto firstEndings = [] {
     return endings;
 }();
 /// Of files that can be written, and of those that can be read as well, which come first.
-inline constexpr auto& writtenEndings = firstEndings<clipFormats.size()>;
+inline constexpr auto& writableEndings = firstEndings<clipFormats.size()>;
 inline constexpr auto& clipEndings = firstEndings<3>;
-static_assert(clipFormats[clipEndings.size() - 1].isRead && !clipFormats[clipEndings.size()].isRead);
+static_assert(clipFormats[clipEndings.size() - 1].isReadable && !clipFormats[clipEndings.size()].isReadable);
 
 /// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
@@ -56,7 +56,7 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 /// The same for a file. Any thread but the render thread (R).
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// A file with `clip` (without a clipFault), or its first channel if the format has only one. Any thread.
+/// A file with `clip` (without a clipError), or its first channel if the format has only one. Any thread.
 std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 /// What the format cannot store of `clip`, one line each, for the user. Any thread.
@@ -73,7 +73,7 @@ std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const F
 /// Optional fields may be missing, unknown ones are ignored. Any thread.
 Result<Clip> readHjif(std::string_view text, std::string_view name);
 
-/// `clip` (without a clipFault) as JSON, 48,000 ticks per second; the date is constant. Any thread.
+/// `clip` (without a clipError) as JSON, 48,000 ticks per second; the date is constant. Any thread.
 std::string hjifText(const Clip& clip);
 
 /// What .hjif cannot store of `clip`, of these frequencies, one line each. Any thread.
@@ -90,7 +90,7 @@ std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& fr
 Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
 /// Transients weaker than the envelope beside them: the format requires them to be raised to it. Any thread.
-std::size_t metaHapticRaised(const ClipChannel& channel);
+std::size_t raisedTransientCount(const ClipChannel& channel);
 
 /// `channel` as such a file. Any thread.
 std::string metaHapticText(const ClipChannel& channel, std::string_view title,
@@ -110,12 +110,12 @@ Result<Clip> readAhap(std::string_view text, std::string_view name, const Freque
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 
 /// Counts the contents of an imported file that are not played. One thread at a time.
-class LeftOut {
+class OmissionCounter {
 public:
     /// Counts one more of that kind; its name may come from the file.
     void add(std::string_view what) {
         std::string name = printable(what);
-        ++counts_[counts_.size() < mostKinds || counts_.contains(name) ? std::move(name) : "others"];
+        ++counts_[counts_.size() < maxKinds || counts_.contains(name) ? std::move(name) : "others"];
     }
     /// "left out: AttackTime (3), Sustained (1)"; empty: none.
     std::string line() const {
@@ -126,7 +126,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t mostKinds = 12; // to keep the report short
+    static constexpr std::size_t maxKinds = 12; // to keep the report short
     std::map<std::string, int> counts_;
 };
 

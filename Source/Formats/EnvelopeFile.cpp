@@ -53,7 +53,7 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
 }
 
 /// The value of the curve; where it jumps, the value before or after the jump.
-double sideOf(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
+double valueAtStep(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
     const auto first = std::ranges::lower_bound(curve, seconds - sameMomentSeconds, {}, &ClipPoint::seconds);
     const auto end = std::ranges::upper_bound(curve, seconds + sameMomentSeconds, {}, &ClipPoint::seconds);
     return first == end ? valueAt(curve, seconds) : isBefore ? first->value : (end - 1)->value;
@@ -63,9 +63,9 @@ EnvelopePoint sumAt(std::vector<BandWalk>& bands, double seconds, bool isBefore,
     double squares = 0.0, weighted = 0.0;
     for (BandWalk& band : bands)
         if (const ClipWave* wave = band.at(seconds, isBefore)) {
-            const double a = sideOf(wave->amplitude, seconds - wave->startSeconds, isBefore);
+            const double a = valueAtStep(wave->amplitude, seconds - wave->startSeconds, isBefore);
             squares += a * a;
-            weighted += a * a * sideOf(wave->frequencyHz, seconds - wave->startSeconds, isBefore);
+            weighted += a * a * valueAtStep(wave->frequencyHz, seconds - wave->startSeconds, isBefore);
         }
     return {seconds, std::sqrt(squares), squares > 0.0 ? weighted / squares : heldHz};
 }
@@ -80,8 +80,8 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
     std::vector<BandWalk> bands(channel.bands.begin(), channel.bands.end());
     std::vector<EnvelopePoint> points;
     for (const double moment : momentsOf(channel)) {
-        const double held = points.empty() ? 0.0 : points.back().frequencyHz;
-        EnvelopePoint before = sumAt(bands, moment, true, held);
+        const double heldHz = points.empty() ? 0.0 : points.back().frequencyHz;
+        EnvelopePoint before = sumAt(bands, moment, true, heldHz);
         EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
         if (before.amplitude == 0.0)
             before.frequencyHz = after.frequencyHz; // so that the frequency does not glide during silence
@@ -102,35 +102,36 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
     return points;
 }
 
-EnvelopePoint pointAt(std::span<const EnvelopePoint> envelope, double seconds) {
+EnvelopePoint envelopeAt(std::span<const EnvelopePoint> envelope, double seconds) {
     const auto next = std::ranges::upper_bound(envelope, seconds, {}, &EnvelopePoint::seconds);
     if (envelope.empty()) return {seconds, 0.0, 0.0};
     if (next == envelope.begin()) return {seconds, 0.0, next->frequencyHz};
     const EnvelopePoint& last = *(next - 1);
     if (next == envelope.end())
         return {seconds, seconds > last.seconds ? 0.0 : last.amplitude, last.frequencyHz};
-    EnvelopePoint point = between(last, *next, (seconds - last.seconds) / (next->seconds - last.seconds));
+    EnvelopePoint point =
+        interpolated(last, *next, (seconds - last.seconds) / (next->seconds - last.seconds));
     point.seconds = seconds;
     return point;
 }
 
-std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, double fromSeconds,
-                                  double toSeconds) {
+std::vector<EnvelopePoint> envelopeSlice(std::span<const EnvelopePoint> envelope, double fromSeconds,
+                                         double toSeconds) {
     const auto first = std::ranges::upper_bound(envelope, fromSeconds, {}, &EnvelopePoint::seconds);
     const auto end = std::ranges::lower_bound(envelope, toSeconds, {}, &EnvelopePoint::seconds);
-    std::vector<EnvelopePoint> part{pointAt(envelope, fromSeconds)};
+    std::vector<EnvelopePoint> part{envelopeAt(envelope, fromSeconds)};
     if (first < end) part.insert(part.end(), first, end);
-    part.push_back(pointAt(envelope, toSeconds));
+    part.push_back(envelopeAt(envelope, toSeconds));
     return part;
 }
 
-std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
-    constexpr std::size_t longestStretch = 1024; // bounds the cost, quadratic in its length
+std::vector<ClipPoint> simplifiedCurve(const std::vector<ClipPoint>& curve, double tolerance) {
+    constexpr std::size_t maxStretchPoints = 1024; // bounds the cost, quadratic in its length
     if (curve.size() < 3) return curve;
     std::vector<bool> isKept(curve.size());
     std::vector<std::pair<std::size_t, std::size_t>> stretches;
     for (std::size_t from = 0, to; from + 1 < curve.size(); from = to) {
-        to = std::min(from + longestStretch, curve.size() - 1);
+        to = std::min(from + maxStretchPoints, curve.size() - 1);
         stretches.push_back({from, to});
         isKept[from] = isKept[to] = true;
     }
@@ -139,76 +140,77 @@ std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double toler
         stretches.pop_back();
         const ClipPoint ends[] = {curve[from], curve[to]};
         std::size_t farthest = from;
-        double most = tolerance;
+        double largest = tolerance;
         for (std::size_t i = from + 1; i < to; ++i) {
             const double distance = std::abs(curve[i].value - valueAt(ends, curve[i].seconds));
-            if (distance > most) most = distance, farthest = i;
+            if (distance > largest) largest = distance, farthest = i;
         }
         if (farthest == from) continue;
         isKept[farthest] = true;
         stretches.push_back({from, farthest});
         stretches.push_back({farthest, to});
     }
-    std::vector<ClipPoint> kept;
+    std::vector<ClipPoint> simplified;
     for (std::size_t i = 0; i < curve.size(); ++i)
-        if (isKept[i]) kept.push_back(curve[i]);
-    return kept;
+        if (isKept[i]) simplified.push_back(curve[i]);
+    return simplified;
 }
 
 namespace {
 
-constexpr std::size_t maxPoints = 16; // that every phone takes
-constexpr int maxMilliseconds = 1000; // likewise, of a point
-constexpr double tolerance = 0.01, leastTolerance = 2e-4, toleranceHertz = 1.0;
-constexpr double leastAmplitude = 5e-3; // below it an effect ends
+constexpr std::size_t maxPoints = 16; // that every phone accepts
+constexpr int maxPointMs = 1000;      // likewise, of a point
+constexpr double relativeTolerance = 0.01, minTolerance = 2e-4, toleranceHz = 1.0;
+constexpr double minAmplitude = 5e-3; // below it an effect ends
 
 /// The envelope at a whole millisecond.
 struct Sample {
-    double amplitude, hertz;
-    bool isSilent() const { return amplitude < leastAmplitude; }
+    double amplitude, frequencyHz;
+    bool isSilent() const { return amplitude < minAmplitude; }
 };
 
-std::vector<Sample> sampled(const ClipChannel& channel, const FrequencyScale& scale) {
-    ClipChannel whole = channel;
-    for (const ClipTransient& transient : channel.transients) whole.bands.push_back({{transient.wave()}});
-    const std::vector<EnvelopePoint> envelope = envelopeOf(whole);
+std::vector<Sample> sampleEnvelope(const ClipChannel& channel, const FrequencyScale& scale) {
+    ClipChannel combined = channel;
+    for (const ClipTransient& transient : channel.transients) combined.bands.push_back({{transient.wave()}});
+    const std::vector<EnvelopePoint> envelope = envelopeOf(combined);
     std::vector<Sample> samples;
     if (envelope.empty()) return samples;
     const int last = static_cast<int>(std::ceil(1e3 * envelope.back().seconds)) + 1;
     for (int ms = 0; ms <= last; ++ms) {
-        const EnvelopePoint p = pointAt(envelope, 1e-3 * ms);
+        const EnvelopePoint p = envelopeAt(envelope, 1e-3 * ms);
         samples.push_back({std::min(1.0, p.amplitude), std::clamp(p.frequencyHz, scale.lowHz, scale.highHz)});
     }
     return samples;
 }
 
 /// Slopes that stay within the tolerance of all values so far.
-struct Cone {
-    double least = -INFINITY, most = INFINITY;
-    bool take(double rise, double run, double error) {
-        const double low = std::max(least, (rise - error) / run), high = std::min(most, (rise + error) / run);
+struct SlopeRange {
+    double minSlope = -INFINITY, maxSlope = INFINITY;
+    bool narrow(double rise, double run, double error) {
+        const double low = std::max(minSlope, (rise - error) / run),
+                     high = std::min(maxSlope, (rise + error) / run);
         if (low > high) return false;
-        least = low, most = high;
+        minSlope = low, maxSlope = high;
         return true;
     }
-    double nearest(double slope) const { return std::clamp(slope, least, most); }
+    double nearest(double slope) const { return std::clamp(slope, minSlope, maxSlope); }
 };
 
 /// The farthest end of a line from `a` at `from` that is within the tolerances of all samples.
 std::size_t lineFrom(std::span<const Sample> samples, std::size_t from, const Sample& a, Sample& end) {
-    Cone amplitudes, pitches;
+    SlopeRange amplitudes, frequencies;
     std::size_t last = from + 1;
     end = samples[last];
-    for (std::size_t i = last; i < samples.size() && i - from <= maxMilliseconds; ++i) {
+    for (std::size_t i = last; i < samples.size() && i - from <= maxPointMs; ++i) {
         const Sample& b = samples[i];
         const double run = static_cast<double>(i - from), rise = b.amplitude - a.amplitude,
-                     turn = b.hertz - a.hertz;
-        if (!amplitudes.take(rise, run, std::max(leastTolerance, tolerance * b.amplitude)) ||
-            !pitches.take(turn, run, b.isSilent() ? INFINITY : toleranceHertz))
+                     change = b.frequencyHz - a.frequencyHz;
+        if (!amplitudes.narrow(rise, run, std::max(minTolerance, relativeTolerance * b.amplitude)) ||
+            !frequencies.narrow(change, run, b.isSilent() ? INFINITY : toleranceHz))
             break;
         last = i;
         end = {a.amplitude + run * amplitudes.nearest(rise / run),
-               a.hertz + run * pitches.nearest(turn / run)};
+               a.frequencyHz + run * frequencies.nearest(change / run)};
         if (b.isSilent()) break;
     }
     return last;
@@ -217,29 +219,29 @@ std::size_t lineFrom(std::span<const Sample> samples, std::size_t from, const Sa
 } // namespace
 
 std::vector<AndroidEffect> androidEffects(const ClipChannel& channel, const FrequencyScale& scale) {
-    const std::vector<Sample> samples = sampled(channel, scale);
+    const std::vector<Sample> samples = sampleEnvelope(channel, scale);
     std::vector<AndroidEffect> effects;
-    bool isOpen = false; // the last effect goes on
+    bool isEffectOpen = false; // the last effect goes on
     const auto begin = [&](std::size_t at) {
-        effects.push_back({static_cast<int>(at), samples[at].hertz, {}});
-        isOpen = true;
+        effects.push_back({static_cast<int>(at), samples[at].frequencyHz, {}});
+        isEffectOpen = true;
     };
-    Sample now{}; // where the last line has ended
+    Sample lineEnd{}; // where the last line has ended
     for (std::size_t at = 0, end = 0; at + 1 < samples.size(); at = end) {
         end = at + 1;
         if (samples[at].isSilent() && samples[end].isSilent()) {
-            isOpen = false;
+            isEffectOpen = false;
             continue;
         }
-        if (!isOpen || effects.back().points.size() == maxPoints) {
+        if (!isEffectOpen || effects.back().points.size() == maxPoints) {
             begin(at);
-            now = samples[end]; // from 0 within the first millisecond
+            lineEnd = samples[end]; // from 0 within the first millisecond
         } else {
-            end = lineFrom(samples, at, Sample{now}, now);
+            end = lineFrom(samples, at, Sample{lineEnd}, lineEnd);
         }
-        if (samples[end].isSilent()) now.amplitude = 0.0;
+        if (samples[end].isSilent()) lineEnd.amplitude = 0.0;
         effects.back().points.push_back(
-            {std::clamp(now.amplitude, 0.0, 1.0), now.hertz, static_cast<int>(end - at)});
+            {std::clamp(lineEnd.amplitude, 0.0, 1.0), lineEnd.frequencyHz, static_cast<int>(end - at)});
     }
     return effects;
 }
@@ -250,9 +252,9 @@ std::string envelopeText(const ClipChannel& channel, std::string_view title, con
     for (const AndroidEffect& effect : androidEffects(channel, scale)) {
         OrderedJson points = OrderedJson::array();
         for (const AndroidPoint& p : effect.points)
-            points.push_back({rounded(p.amplitude, 1e5), rounded(p.hertz, 10.0), p.milliseconds});
-        effects.push_back({{"start_ms", effect.startMilliseconds},
-                           {"initial_hz", rounded(effect.initialHertz, 10.0)},
+            points.push_back({rounded(p.amplitude, 1e5), rounded(p.frequencyHz, 10.0), p.durationMs});
+        effects.push_back({{"start_ms", effect.startMs},
+                           {"initial_hz", rounded(effect.initialHz, 10.0)},
                            {"points", std::move(points)}});
     }
     return jsonLines({{"android_waveform_envelope", 1},

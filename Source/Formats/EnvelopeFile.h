@@ -29,33 +29,33 @@ struct EnvelopePoint {
 std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds = envelopeRiseSeconds);
 
 /// On the line from `a` to `b`, at that share. Any thread.
-inline EnvelopePoint between(const EnvelopePoint& a, const EnvelopePoint& b, double share) {
+inline EnvelopePoint interpolated(const EnvelopePoint& a, const EnvelopePoint& b, double share) {
     return {std::lerp(a.seconds, b.seconds, share), std::lerp(a.amplitude, b.amplitude, share),
             std::lerp(a.frequencyHz, b.frequencyHz, share)};
 }
 
 /// The envelope at that time; silence before its first point and after its last. Any thread.
-EnvelopePoint pointAt(std::span<const EnvelopePoint> envelope, double seconds);
+EnvelopePoint envelopeAt(std::span<const EnvelopePoint> envelope, double seconds);
 
 /// Its points between two times, plus one at both. Any thread.
-std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, double fromSeconds,
-                                  double toSeconds);
+std::vector<EnvelopePoint> envelopeSlice(std::span<const EnvelopePoint> envelope, double fromSeconds,
+                                         double toSeconds);
 
 /// The fewest points of `curve` that stay within `tolerance` of it. Any thread.
-std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance);
+std::vector<ClipPoint> simplifiedCurve(const std::vector<ClipPoint>& curve, double tolerance);
 
 /// Rounds a time, amplitude or share to what is perceptible, for short numbers. Any thread.
-inline double shortened(double value) { return std::round(value * 1e6) / 1e6; }
+inline double roundedForFile(double value) { return std::round(value * 1e6) / 1e6; }
 
 struct AndroidPoint {
-    double amplitude = 0.0, hertz = 0.0;
-    int milliseconds = 0; ///< from the point before, along a line
+    double amplitude = 0.0, frequencyHz = 0.0;
+    int durationMs = 0; ///< from the point before, along a line
 };
 
 /// One VibrationEffect.
 struct AndroidEffect {
-    int startMilliseconds = 0;
-    double initialHertz = 0.0;
+    int startMs = 0;
+    double initialHz = 0.0;
     std::vector<AndroidPoint> points; ///< 1 to 16
 };
 

@@ -16,9 +16,9 @@ constexpr int ticksPerSecond = 48000; ///< in written files: onsets are as exact
 // a date is mandatory; a constant one makes equal clips give equal bytes
 constexpr std::string_view version = "2023", profile = "Main", date = "1970-01-01T00:00:00Z";
 constexpr int level = 1;
-constexpr double mostPhase = 6.28318; // 2 pi, as rounded in MPEG's schema
-constexpr int anyBodyPart = 0; // of body_part_mask: unspecified; MPEG's reader drops a channel without it
-constexpr int mostCoordinate = 127; // of a place, in grid points
+constexpr double maxPhaseRadians = 6.28318; // 2 pi, as rounded in MPEG's schema
+constexpr int anyBodyPart = 0;     // of body_part_mask: unspecified; MPEG's reader drops a channel without it
+constexpr int maxCoordinate = 127; // of a place, in grid points
 // indexed by ClipWaveform
 constexpr std::array<std::string_view, 5> waveforms{"Sine", "Square", "Triangle", "SawToothUp",
                                                     "SawToothDown"};
@@ -33,10 +33,10 @@ struct GridPoint {
 struct PlaceGrid {
     explicit PlaceGrid(const Clip& clip) {
         const double longest = std::max(clip.extentWidthMetres, clip.extentHeightMetres);
-        pitchMetres = 1e-3 * std::max(1.0, std::ceil(longest * 1e3 / (mostCoordinate - 1) - 1e-9));
+        pitchMetres = 1e-3 * std::max(1.0, std::ceil(longest * 1e3 / (maxCoordinate - 1) - 1e-9));
         points = {pointsOf(clip.extentWidthMetres), pointsOf(clip.extentHeightMetres)};
     }
-    GridPoint at(const EnchanterPlace& place) const {
+    GridPoint at(const ActuatorPlace& place) const {
         const auto index = [this](double metres, int count) {
             return static_cast<int>(
                 std::clamp(std::lround(metres / pitchMetres), 0L, static_cast<long>(count - 1)));
@@ -51,11 +51,11 @@ private:
 };
 
 /// Sets a channel's place, on a grid of 1 mm: the format has no unit. A grid of one point has no places.
-void takePlace(Clip& clip, ClipChannel& channel, GridPoint points, GridPoint at) {
+void setPlace(Clip& clip, ClipChannel& channel, GridPoint points, GridPoint at) {
     if (points.x < 1 || points.y < 1 || points.x + points.y < 3 || at.x < 0 || at.y < 0 || at.x >= points.x ||
         at.y >= points.y)
         return;
-    channel.place = EnchanterPlace{1e-3 * at.x, 1e-3 * at.y};
+    channel.place = ActuatorPlace{1e-3 * at.x, 1e-3 * at.y};
     clip.extentWidthMetres = std::max(clip.extentWidthMetres, 1e-3 * std::max(1, points.x - 1));
     clip.extentHeightMetres = std::max(clip.extentHeightMetres, 1e-3 * std::max(1, points.y - 1));
 }
@@ -81,7 +81,7 @@ struct BandKind {
 };
 
 /// Approximates cubics with slope 0 at every keyframe by lines.
-std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
+std::vector<ClipPoint> linearisedCubics(const std::vector<ClipPoint>& keyframes) {
     constexpr int lines = 8;
     std::vector<ClipPoint> out;
     for (std::size_t i = 0; i + 1 < keyframes.size(); ++i)
@@ -96,16 +96,16 @@ std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
 }
 
 /// The curve itself is the signal: a sine of 0 Hz at its maximum.
-void asCurve(ClipWave& wave, bool isCubic) {
+void makeCurveWave(ClipWave& wave, bool isCubic) {
     wave.phaseRadians = 0.5 * std::numbers::pi;
     wave.waveform = ClipWaveform::sine;
     wave.frequencyHz = {{0.0, 0.0}};
-    if (isCubic) wave.amplitude = smoothed(wave.amplitude);
+    if (isCubic) wave.amplitude = linearisedCubics(wave.amplitude);
 }
 
 /// Adds an effect that begins at `startSeconds` to its band, or, if it has transients, to its channel.
-void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band,
-                ClipChannel& channel) {
+void addEffect(const Effect& effect, double startSeconds, const BandKind& kind, ClipBand& band,
+               ClipChannel& channel) {
     ClipWave wave{startSeconds, effect.phaseRadians, effect.waveform, {}, {}};
     for (const Keyframe& frame : effect.keyframes) {
         if (frame.amplitude) wave.amplitude.push_back({frame.seconds, kind.gain * *frame.amplitude});
@@ -118,7 +118,7 @@ void takeEffect(const Effect& effect, double startSeconds, const BandKind& kind,
     const double end = effect.keyframes.empty() ? 0.0 : effect.keyframes.back().seconds;
     if (wave.amplitude.empty()) wave.amplitude.push_back({0.0, kind.gain});
     if (wave.amplitude.back().seconds < end) wave.amplitude.push_back({end, wave.amplitude.back().value});
-    if (kind.type == BandType::curve) asCurve(wave, kind.isCubic);
+    if (kind.type == BandType::curve) makeCurveWave(wave, kind.isCubic);
     if (!wave.frequencyHz.empty()) band.waves.push_back(std::move(wave));
 }
 
@@ -135,8 +135,8 @@ public:
         for (std::size_t i = 0; i < perceptions.arraySize(); ++i) readPerception(perceptions.item(i));
         if (clip_.channels.empty())
             perceptions.fail("expected a vibrotactile perception with channels, found none");
-        if (auto fault = clipFault(clip_); !fault.empty()) perceptions.fail(fault);
-        clip_.leftOut = leftOut_.line();
+        if (auto error = clipError(clip_); !error.empty()) perceptions.fail(error);
+        clip_.leftOut = omissions_.line();
         return std::move(clip_);
     }
 
@@ -144,7 +144,7 @@ private:
     void readPerception(const JsonField& perception) {
         perception.expectObject();
         if (!isVibrotactile(perception)) // actuators cannot play it
-            return leftOut_.add("a perception of " + perception["perception_modality"].line());
+            return omissions_.add("a perception of " + perception["perception_modality"].line());
         library_.clear();
         for (std::size_t i = 0;
              perception.has("effect_library") && i < perception["effect_library"].arraySize(); ++i) {
@@ -152,8 +152,8 @@ private:
             library_.insert_or_assign(effect["id"].wholeNumber(), i);
         }
         const JsonField channels = perception["channels"];
-        if (clip_.channels.size() + channels.arraySize() > static_cast<std::size_t>(limits::maxEnchanters))
-            channels.fail("expected at most " + std::to_string(limits::maxEnchanters) +
+        if (clip_.channels.size() + channels.arraySize() > static_cast<std::size_t>(limits::maxActuators))
+            channels.fail("expected at most " + std::to_string(limits::maxActuators) +
                           " channels, found more");
         for (std::size_t i = 0; i < channels.arraySize(); ++i) readChannel(channels.item(i), perception);
     }
@@ -161,14 +161,15 @@ private:
     /// Also "Other" with waves or transients, as MPEG's encoder writes .ahap; wavelets' meaning is unknown.
     static bool isVibrotactile(const JsonField& perception) {
         const JsonField modality = perception["perception_modality"];
-        if (!modality.is("Other") || !perception.has("channels")) return modality.is("Vibrotactile");
+        if (!modality.isString("Other") || !perception.has("channels"))
+            return modality.isString("Vibrotactile");
         bool isFelt = false;
         for (std::size_t i = 0; i < perception["channels"].arraySize(); ++i) {
             const JsonField bands = perception["channels"].item(i)["bands"];
             for (std::size_t j = 0; j < bands.arraySize(); ++j) {
                 const JsonField type = bands.item(j)["band_type"];
-                if (type.is("WaveletWave")) return false;
-                isFelt = isFelt || type.is("VectorialWave") || type.is("Transient");
+                if (type.isString("WaveletWave")) return false;
+                isFelt = isFelt || type.isString("VectorialWave") || type.isString("Transient");
             }
         }
         return isFelt;
@@ -180,8 +181,8 @@ private:
         if (json.has("description")) channel.label = json["description"].line();
         if (json.has("actuator_resolution") && json.has("actuator_target") &&
             json["actuator_target"].arraySize() == 1)
-            takePlace(clip_, channel, point(json["actuator_resolution"]),
-                      point(json["actuator_target"].item(0)));
+            setPlace(clip_, channel, point(json["actuator_resolution"]),
+                     point(json["actuator_target"].item(0)));
         gain_ = json.has("gain") ? json["gain"].numberWithin(0.0, limits::maxClipAmplitude) : 1.0;
         const JsonField bands = json["bands"];
         for (std::size_t i = 0; i < bands.arraySize(); ++i) readBand(bands.item(i), perception, channel);
@@ -205,14 +206,14 @@ private:
         for (std::size_t i = 0; i < effects.arraySize(); ++i) {
             const JsonField effect = effects.item(i);
             const double start = effect.has("position") ? seconds(effect["position"]) : 0.0;
-            takeEffect(effectOf(referred(effect, perception), kind.type), start, kind, band, channel);
+            addEffect(effectOf(resolvedEffect(effect, perception), kind.type), start, kind, band, channel);
         }
-        keepOneAtATime(band);
+        makeSequential(band);
         if (!band.waves.empty()) channel.bands.push_back(std::move(band));
     }
 
     /// The effect itself, or the library's effect that it refers to.
-    JsonField referred(const JsonField& effect, const JsonField& perception) const {
+    JsonField resolvedEffect(const JsonField& effect, const JsonField& perception) const {
         effect.expectObject();
         constexpr std::array<std::string_view, 2> types{"Basis", "Reference"};
         if (effect["effect_type"].oneOf(types) == 0) return effect;
@@ -220,7 +221,8 @@ private:
         if (found == library_.end())
             effect["id"].fail("expected an effect of the library, found none of that number");
         const JsonField basis = perception["effect_library"].item(found->second);
-        if (!basis["effect_type"].is("Basis")) basis["effect_type"].fail("expected Basis in the library");
+        if (!basis["effect_type"].isString("Basis"))
+            basis["effect_type"].fail("expected Basis in the library");
         return basis;
     }
 
@@ -256,7 +258,7 @@ private:
 
     static constexpr std::array<std::string_view, 2> curveTypes{"Linear", "Cubic"};
     Clip clip_;
-    LeftOut leftOut_;
+    OmissionCounter omissions_;
     std::map<int, std::size_t> library_; // of this perception: index of an effect by its number
     int timescale_ = 1000;
     double gain_ = 1.0;
@@ -286,19 +288,19 @@ std::vector<TickFrame> tickFrames(const ClipWave& wave) {
 }
 
 /// Rounds a value up to 10 to what is perceptible, for short numbers.
-double eightDigits(double value) { return std::round(value * 1e8) / 1e8; }
+double roundedTo8Digits(double value) { return std::round(value * 1e8) / 1e8; }
 
-constexpr double usualTopHz = 1000.0; // upper limit of written bands: the tactile range
+constexpr double defaultTopHz = 1000.0; // upper limit of written bands: the tactile range
 
 /// An object without its end, for more fields.
-std::string begun(const OrderedJson& fields) {
+std::string openObject(const OrderedJson& fields) {
     std::string text = jsonLine(fields);
     text.resize(text.size() - 2); // " }"
     return text + ", ";
 }
 
 template <class Items, class Write>
-std::string listed(const Items& items, Write write) {
+std::string jsonList(const Items& items, Write write) {
     std::string text = "[";
     for (std::size_t i = 0; i < items.size(); ++i)
         text.append(i == 0 ? "\n" : ",\n").append(write(items[i], i));
@@ -311,7 +313,7 @@ OrderedJson keyframesJson(const ClipWave& wave, double gain) {
     OrderedJson frames = OrderedJson::array();
     for (const TickFrame& found : tickFrames(wave)) {
         OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", found.ticks}});
-        if (found.amplitude) frame["amplitude_modulation"] = eightDigits(*found.amplitude / gain);
+        if (found.amplitude) frame["amplitude_modulation"] = roundedTo8Digits(*found.amplitude / gain);
         if (found.frequencyHz) frame["frequency_modulation"] = *found.frequencyHz;
     }
     return frames;
@@ -320,14 +322,14 @@ OrderedJson keyframesJson(const ClipWave& wave, double gain) {
 std::string effectText(const ClipWave& wave, double gain) {
     return jsonLine({{"effect_type", "Basis"},
                      {"position", tickOf(wave.startSeconds)},
-                     {"phase", eightDigits(std::min(wave.phaseRadians, mostPhase))},
+                     {"phase", roundedTo8Digits(std::min(wave.phaseRadians, maxPhaseRadians))},
                      {"base_signal", waveforms[static_cast<std::size_t>(wave.waveform)]},
                      {"keyframes", keyframesJson(wave, gain)}});
 }
 
 std::string effectText(const ClipTransient& transient, double gain) {
     const OrderedJson frame{{"relative_position", 0},
-                            {"amplitude_modulation", eightDigits(transient.amplitude / gain)},
+                            {"amplitude_modulation", roundedTo8Digits(transient.amplitude / gain)},
                             {"frequency_modulation", transient.frequencyHz}};
     return jsonLine({{"effect_type", "Basis"},
                      {"position", tickOf(transient.seconds)},
@@ -336,36 +338,36 @@ std::string effectText(const ClipTransient& transient, double gain) {
 
 template <class Effects>
 std::string bandText(const char* type, const Effects& effects, double topHz, double gain) {
-    return begun({{"band_type", type},
-                  {"lower_frequency_limit", 0},
-                  {"upper_frequency_limit", std::ceil(topHz)}}) +
+    return openObject({{"band_type", type},
+                       {"lower_frequency_limit", 0},
+                       {"upper_frequency_limit", std::ceil(topHz)}}) +
            "\"effects\": " +
-           listed(effects, [gain](const auto& effect, std::size_t) { return effectText(effect, gain); }) +
+           jsonList(effects, [gain](const auto& effect, std::size_t) { return effectText(effect, gain); }) +
            " }";
 }
 
-double topOf(const ClipBand& band) {
-    double top = usualTopHz;
+double topFrequencyHz(const ClipBand& band) {
+    double top = defaultTopHz;
     for (const ClipWave& wave : band.waves)
         for (const ClipPoint& p : wave.frequencyHz) top = std::max(top, p.value);
     return top;
 }
 
 /// 1, or the largest amplitude if that is beyond full scale.
-double gainOf(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
+double channelGain(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
 
 std::string bandsText(const ClipChannel& channel, double gain) {
-    std::string bands = listed(channel.bands, [=](const ClipBand& band, std::size_t) {
-        return bandText("VectorialWave", band.waves, topOf(band), gain);
+    std::string bands = jsonList(channel.bands, [=](const ClipBand& band, std::size_t) {
+        return bandText("VectorialWave", band.waves, topFrequencyHz(band), gain);
     });
     if (channel.transients.empty()) return bands;
     bands.pop_back();
     return bands + (channel.bands.empty() ? "\n" : ",\n") +
-           bandText("Transient", channel.transients, usualTopHz, gain) + "]";
+           bandText("Transient", channel.transients, defaultTopHz, gain) + "]";
 }
 
 std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_t j) {
-    const double gain = gainOf(channel);
+    const double gain = channelGain(channel);
     OrderedJson head{{"id", j},      {"description", channel.label}, {"reference_device_id", j + 1},
                      {"gain", gain}, {"mixing_coefficient", 1},      {"body_part_mask", anyBodyPart}};
     if (channel.place) {
@@ -373,7 +375,7 @@ std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_
         head["actuator_resolution"] = vectorJson(grid.points, 1);
         head["actuator_target"] = OrderedJson::array({vectorJson(grid.at(*channel.place), 0)});
     }
-    return begun(head) + "\"bands\": " + bandsText(channel, gain) + " }";
+    return openObject(head) + "\"bands\": " + bandsText(channel, gain) + " }";
 }
 
 std::string deviceText(const ClipChannel& channel, std::size_t j) {
@@ -388,16 +390,16 @@ std::string deviceText(const ClipChannel& channel, std::size_t j) {
 }
 
 /// Largest displacement of a place by the grid.
-double farthestFromGrid(const Clip& clip) {
+double maxGridShiftMetres(const Clip& clip) {
     const PlaceGrid grid{clip};
-    double most = 0.0;
+    double metres = 0.0;
     for (const ClipChannel& channel : clip.channels)
         if (channel.place) {
             const GridPoint at = grid.at(*channel.place);
-            most = std::max({most, std::abs(at.x * grid.pitchMetres - channel.place->xMetres),
-                             std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
+            metres = std::max({metres, std::abs(at.x * grid.pitchMetres - channel.place->xMetres),
+                               std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
         }
-    return most;
+    return metres;
 }
 
 } // namespace
@@ -410,35 +412,36 @@ Result<Clip> readHjif(std::string_view text, std::string_view name) {
 
 std::string hjifText(const Clip& clip) {
     std::string text =
-        begun({{"version", version},
-               {"profile", profile},
-               {"level", level},
-               {"date", date},
-               {"description", clip.title},
-               {"timescale", ticksPerSecond},
-               {"avatars", OrderedJson::array({{{"id", 1}, {"lod", 0}, {"type", "Vibration"}}})},
-               {"syncs", OrderedJson::array({{{"timestamp", 0}, {"timescale", ticksPerSecond}}})}});
-    text += "\"perceptions\": [\n" + begun({{"id", 0},
-                                            {"perception_modality", "Vibrotactile"},
-                                            {"description", clip.title},
-                                            {"avatar_id", 1},
-                                            {"effect_library", OrderedJson::array()}});
-    text += "\"reference_devices\": " + listed(clip.channels, deviceText) + ",\n\"channels\": ";
+        openObject({{"version", version},
+                    {"profile", profile},
+                    {"level", level},
+                    {"date", date},
+                    {"description", clip.title},
+                    {"timescale", ticksPerSecond},
+                    {"avatars", OrderedJson::array({{{"id", 1}, {"lod", 0}, {"type", "Vibration"}}})},
+                    {"syncs", OrderedJson::array({{{"timestamp", 0}, {"timescale", ticksPerSecond}}})}});
+    text += "\"perceptions\": [\n" + openObject({{"id", 0},
+                                                 {"perception_modality", "Vibrotactile"},
+                                                 {"description", clip.title},
+                                                 {"avatar_id", 1},
+                                                 {"effect_library", OrderedJson::array()}});
+    text += "\"reference_devices\": " + jsonList(clip.channels, deviceText) + ",\n\"channels\": ";
     return text +
-           listed(clip.channels,
-                  [&](const ClipChannel& channel, std::size_t j) { return channelText(clip, channel, j); }) +
+           jsonList(clip.channels, [&](const ClipChannel& channel,
+                                       std::size_t j) { return channelText(clip, channel, j); }) +
            " }] }\n";
 }
 
 std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& frequenciesHz) {
     std::vector<std::string> losses;
-    if (const double metres = farthestFromGrid(clip); metres > 1e-6)
+    if (const double metres = maxGridShiftMetres(clip); metres > 1e-6)
         losses.push_back("places are moved by up to " + fixedNumber(1e3 * metres, 2) +
                          " mm, onto a grid of at most 127 points");
-    const auto broken = std::ranges::find_if(frequenciesHz, [](double hz) { return hz != std::floor(hz); });
-    if (broken != frequenciesHz.end())
-        losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " + fixedNumber(*broken, 2) +
-                         " Hz; ours does not");
+    const auto fractional =
+        std::ranges::find_if(frequenciesHz, [](double hz) { return hz != std::floor(hz); });
+    if (fractional != frequenciesHz.end())
+        losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " +
+                         fixedNumber(*fractional, 2) + " Hz; ours does not");
     return losses;
 }
 

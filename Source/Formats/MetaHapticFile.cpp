@@ -18,7 +18,7 @@ double timeOf(const JsonField& point, double last) {
 
 /// Since `start`. Before its first point, or without points, a device plays the middle of its band.
 std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, const FrequencyScale& scale) {
-    std::vector<ClipPoint> curve{{0.0, scale.hertz(0.5)}};
+    std::vector<ClipPoint> curve{{0.0, scale.toHz(0.5)}};
     if (!envelopes.has("frequency") || envelopes["frequency"].isNull()) return curve;
     const JsonField list = envelopes["frequency"];
     double last = 0.0;
@@ -26,12 +26,12 @@ std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, c
         const JsonField point = list.item(i);
         last = timeOf(point, last);
         if (i == 0) curve.push_back({last, curve.back().value}); // the step before the first point
-        curve.push_back({last, scale.hertz(point["frequency"].numberUpTo(1.0))});
+        curve.push_back({last, scale.toHz(point["frequency"].numberUpTo(1.0))});
     }
-    std::vector<ClipPoint> since{{0.0, valueAt(curve, start)}};
+    std::vector<ClipPoint> sinceStart{{0.0, valueAt(curve, start)}};
     for (const ClipPoint& p : curve)
-        if (p.seconds > start) since.push_back({p.seconds - start, p.value});
-    return since;
+        if (p.seconds > start) sinceStart.push_back({p.seconds - start, p.value});
+    return sinceStart;
 }
 
 Clip readClip(const JsonField& root, const FrequencyScale& scale) {
@@ -61,12 +61,12 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
         if (strength < wave.amplitude.back().value)
             emphasis["amplitude"].fail("expected at least the envelope's amplitude");
         clip.channels[0].transients.push_back(
-            {last, strength, scale.hertz(emphasis["frequency"].numberUpTo(1.0))});
+            {last, strength, scale.toHz(emphasis["frequency"].numberUpTo(1.0))});
     }
     if (!(wave.seconds() > 0.0)) amplitudes.fail("expected an envelope that lasts");
     wave.frequencyHz = frequenciesOf(envelopes, wave.startSeconds, scale);
     clip.channels[0].bands.push_back({{std::move(wave)}});
-    if (auto fault = clipFault(clip); !fault.empty()) envelopes.fail(fault);
+    if (auto error = clipError(clip); !error.empty()) envelopes.fail(error);
     return clip;
 }
 
@@ -77,24 +77,24 @@ std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) 
     return curve;
 }
 
-constexpr double unfeltSeconds = 0.0009; // maximum shift of a transient
+constexpr double maxShiftSeconds = 0.0009; // maximum shift of a transient
 
 /// The nearest time at which the envelope does not exceed the transient: its own, or a point nearby.
-double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
+double shiftedSeconds(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
     const double at = transient.seconds;
     if (valueAt(curve, at) <= transient.amplitude) return at;
-    double nearest = 2.0 * unfeltSeconds;
-    for (auto p = std::ranges::lower_bound(curve, at - unfeltSeconds, {}, &ClipPoint::seconds);
-         p != curve.end() && p->seconds <= at + unfeltSeconds; ++p)
+    double nearest = 2.0 * maxShiftSeconds;
+    for (auto p = std::ranges::lower_bound(curve, at - maxShiftSeconds, {}, &ClipPoint::seconds);
+         p != curve.end() && p->seconds <= at + maxShiftSeconds; ++p)
         if (p->value <= transient.amplitude && std::abs(p->seconds - at) < std::abs(nearest))
             nearest = p->seconds - at;
-    return std::abs(nearest) <= unfeltSeconds ? at + nearest : at;
+    return std::abs(nearest) <= maxShiftSeconds ? at + nearest : at;
 }
 
 /// In time order.
-std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
-                                  const std::vector<ClipPoint>& curve) {
-    for (ClipTransient& t : transients) t.seconds = placeOf(t, curve);
+std::vector<ClipTransient> shiftedTransients(std::vector<ClipTransient> transients,
+                                             const std::vector<ClipPoint>& curve) {
+    for (ClipTransient& t : transients) t.seconds = shiftedSeconds(t, curve);
     sortByTime(transients, &ClipTransient::seconds);
     return transients;
 }
@@ -107,8 +107,8 @@ std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
     sortByTime(with, &ClipPoint::seconds);
     if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
     const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
-    if (!(shortened(with.back().seconds) > 0.0) || !transients.empty())
-        with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::lastsSeconds), 0.0});
+    if (!(roundedForFile(with.back().seconds) > 0.0) || !transients.empty())
+        with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::durationSeconds), 0.0});
     return with;
 }
 
@@ -117,11 +117,11 @@ OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vecto
     OrderedJson list = OrderedJson::array();
     auto next = transients.begin();
     for (const ClipPoint& p : curve) {
-        OrderedJson& point =
-            list.emplace_back(OrderedJson{{"time", shortened(p.seconds)}, {"amplitude", shortened(p.value)}});
+        OrderedJson& point = list.emplace_back(
+            OrderedJson{{"time", roundedForFile(p.seconds)}, {"amplitude", roundedForFile(p.value)}});
         if (next == transients.end() || next->seconds > p.seconds) continue;
-        point["emphasis"] = {{"amplitude", shortened(std::clamp(next->amplitude, p.value, 1.0))},
-                             {"frequency", shortened(scale.share(next->frequencyHz))}};
+        point["emphasis"] = {{"amplitude", roundedForFile(std::clamp(next->amplitude, p.value, 1.0))},
+                             {"frequency", roundedForFile(scale.toShare(next->frequencyHz))}};
         ++next;
     }
     return list;
@@ -130,10 +130,10 @@ OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vecto
 OrderedJson frequenciesJson(const std::vector<EnvelopePoint>& envelope, const FrequencyScale& scale) {
     constexpr double tolerance = 1e-3; // as a share of the scale
     std::vector<ClipPoint> curve;
-    for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, scale.share(p.frequencyHz)});
+    for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, scale.toShare(p.frequencyHz)});
     OrderedJson list = OrderedJson::array();
-    for (const ClipPoint& p : thinned(curve, tolerance))
-        list.push_back({{"time", shortened(p.seconds)}, {"frequency", shortened(p.value)}});
+    for (const ClipPoint& p : simplifiedCurve(curve, tolerance))
+        list.push_back({{"time", roundedForFile(p.seconds)}, {"frequency", roundedForFile(p.value)}});
     return list;
 }
 
@@ -145,11 +145,11 @@ Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const 
     });
 }
 
-std::size_t metaHapticRaised(const ClipChannel& channel) {
+std::size_t raisedTransientCount(const ClipChannel& channel) {
     const auto amplitudes = amplitudesOf(envelopeOf(channel));
     constexpr double unfelt = 0.01; // of full scale
     return static_cast<std::size_t>(
-        std::ranges::count_if(placed(channel.transients, amplitudes), [&](const ClipTransient& t) {
+        std::ranges::count_if(shiftedTransients(channel.transients, amplitudes), [&](const ClipTransient& t) {
             return t.amplitude + unfelt < valueAt(amplitudes, t.seconds);
         }));
 }
@@ -157,7 +157,7 @@ std::size_t metaHapticRaised(const ClipChannel& channel) {
 std::string metaHapticText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
     const auto envelope = envelopeOf(channel);
     const auto amplitudes = amplitudesOf(envelope);
-    const auto transients = placed(channel.transients, amplitudes);
+    const auto transients = shiftedTransients(channel.transients, amplitudes);
     OrderedJson envelopes{
         {"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
     if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty())

@@ -16,7 +16,7 @@
 namespace physvib {
 namespace {
 
-constexpr int ticks = StrikeClipSettings::ticksPerSecond;
+constexpr int ticks = EventClipSettings::ticksPerSecond;
 constexpr double silence = 1e-7; // 140 dB below full scale, where the renderer ends a mode too
 
 using Phasor = std::complex<double>;
@@ -25,7 +25,7 @@ struct Mode {
     double frequencyHz, decayPerSecond;
     auto operator<=>(const Mode&) const = default;
     /// The factor by which a phasor changes in so many seconds.
-    Phasor turn(double seconds) const {
+    Phasor phasorFactor(double seconds) const {
         return portable::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds);
     }
 };
@@ -39,12 +39,13 @@ struct Edge {
 void addEdges(std::vector<Edge>& edges, const Mode& mode, const CollisionEvent& event, double gain) {
     const FrameClock clock{ticks};
     const FramePosition onset = clock.at(event.timeNs);
-    const double age = onset.leadFrames / ticks + static_cast<double>(event.course.sinceNs) * 1e-9;
-    const Phasor begun = event.amplitude * gain * mode.turn(age);
-    edges.push_back({onset.frame, begun});
+    const double age = onset.leadFrames / ticks + static_cast<double>(event.course.toneAgeNs) * 1e-9;
+    const Phasor initialPhasor = event.amplitude * gain * mode.phasorFactor(age);
+    edges.push_back({onset.frame, initialPhasor});
     if (event.durationNs == 0) return;
     const std::int64_t close = clock.at(event.timeNs + event.durationNs).frame;
-    edges.push_back({close, -begun * mode.turn(static_cast<double>(close - onset.frame) / ticks)});
+    edges.push_back(
+        {close, -initialPhasor * mode.phasorFactor(static_cast<double>(close - onset.frame) / ticks)});
 }
 
 double positivePhase(Phasor phasor) {
@@ -67,7 +68,7 @@ std::vector<ClipWave> wavesOf(const Mode& mode, std::vector<Edge> edges, double 
                              ClipWaveform::sine,
                              decayCurve(portable::abs(ringing), mode.decayPerSecond, length, error, ticks),
                              {{0.0, mode.frequencyHz}}});
-        if (!isLast) ringing *= mode.turn(static_cast<double>(length) / ticks);
+        if (!isLast) ringing *= mode.phasorFactor(static_cast<double>(length) / ticks);
     }
     return waves;
 }
@@ -79,7 +80,7 @@ struct ModeWave {
 
 /// Uses as few bands as there are simultaneous waves. A mode stays in its band as long as possible: at the
 /// tick where one of its waves ends, the next begins.
-std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
+std::vector<ClipBand> packedBands(std::vector<ModeWave> waves, std::size_t modes) {
     sortByTime(waves, [](const ModeWave& w) { return w.wave.startSeconds; });
     std::vector<ClipBand> bands;
     std::vector<std::size_t> lastMode, bandOf(modes, waves.size());
@@ -114,11 +115,11 @@ double longestChord(double error) {
     return low;
 }
 
-constexpr double lastChord = 6.0; // in errors: from here on one last line to 0 stays within the error
+constexpr double finalChordErrors = 6.0; // in errors: from here on one last line to 0 stays within the error
 
 } // namespace
 
-Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings) {
+Clip clipFromEvents(std::span<const CollisionEvent> events, const EventClipSettings& settings) {
     std::vector<std::map<Mode, std::vector<Edge>>> modes(settings.channels);
     PhantomPanner::Gains gains{};
     for (const CollisionEvent& event : events) {
@@ -141,7 +142,7 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
             ++number;
             if (points > limits::maxClipPoints) break; // the same
         }
-        clip.channels[j].bands = packed(std::move(waves), number);
+        clip.channels[j].bands = packedBands(std::move(waves), number);
     }
     return clip;
 }
@@ -158,16 +159,16 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
         return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(u / decayPerTick, 9e15)));
     };
     for (std::int64_t tick = 0; tick < endTick;) {
-        const double left = portable::exp(-decayPerTick * static_cast<double>(tick));
-        if (decayPerTick > 0.0 && left <= lastChord * error) {
-            const std::int64_t last = tick + ticksOf(portable::log(std::max(1.0, left / error)));
+        const double remainingShare = portable::exp(-decayPerTick * static_cast<double>(tick));
+        if (decayPerTick > 0.0 && remainingShare <= finalChordErrors * error) {
+            const std::int64_t last = tick + ticksOf(portable::log(std::max(1.0, remainingShare / error)));
             if (last <= endTick) {
                 curve.push_back(at(last, 0.0));
                 return curve;
             }
         }
         tick = decayPerTick > 0.0
-                   ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / left, 0.5))))
+                   ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / remainingShare, 0.5))))
                    : endTick;
         curve.push_back(at(tick, amplitude * portable::exp(-decayPerTick * static_cast<double>(tick))));
     }
@@ -183,14 +184,14 @@ public:
         : curve_{curve} {}
 
     double value(double seconds) {
-        goTo(seconds);
+        advanceTo(seconds);
         if (next_ == 0) return curve_.front().value;
         const ClipPoint& from = curve_[next_ - 1];
         return next_ == curve_.size() ? from.value : from.value + slope() * (seconds - from.seconds);
     }
     /// From 0 to `seconds`.
     double integral(double seconds) {
-        goTo(seconds);
+        advanceTo(seconds);
         if (next_ == 0) return curve_.front().value * seconds;
         const ClipPoint& from = curve_[next_ - 1];
         const double t = seconds - from.seconds;
@@ -198,7 +199,7 @@ public:
     }
 
 private:
-    void goTo(double seconds) {
+    void advanceTo(double seconds) {
         for (; next_ < curve_.size() && curve_[next_].seconds <= seconds; ++next_) {
             const ClipPoint& to = curve_[next_];
             before_ += next_ == 0 ? to.value * to.seconds
@@ -216,14 +217,14 @@ private:
     double before_ = 0.0;  // integral up to the point before it
 };
 
-constexpr double frameSlack = 1e-6; // a time that was a whole number of ticks gives that tick again
+constexpr double frameTolerance = 1e-6; // a time that was a whole number of ticks gives that tick again
 
-std::size_t frameFrom(double seconds, int rateHz) {
-    return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameSlack)));
+std::size_t firstFrameFrom(double seconds, int rateHz) {
+    return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameTolerance)));
 }
 
 /// Value of the waveform at a phase in cycles.
-double shape(ClipWaveform waveform, double cycles) {
+double waveformValue(ClipWaveform waveform, double cycles) {
     const double place = cycles - std::floor(cycles);
     switch (waveform) {
     case ClipWaveform::square: return place < 0.5 ? 1.0 : -1.0;
@@ -239,10 +240,10 @@ void add(const ClipWave& wave, int rateHz, std::vector<double>& out) {
         if (p.value >= 0.5 * rateHz) return;
     CurveWalk amplitude{wave.amplitude}, frequency{wave.frequencyHz};
     const double phase = wave.phaseRadians / (2.0 * std::numbers::pi);
-    const std::size_t end = std::min(out.size(), frameFrom(wave.endSeconds(), rateHz));
-    for (std::size_t n = frameFrom(wave.startSeconds, rateHz); n < end; ++n) {
+    const std::size_t end = std::min(out.size(), firstFrameFrom(wave.endSeconds(), rateHz));
+    for (std::size_t n = firstFrameFrom(wave.startSeconds, rateHz); n < end; ++n) {
         const double t = std::max(0.0, static_cast<double>(n) / rateHz - wave.startSeconds);
-        out[n] += amplitude.value(t) * shape(wave.waveform, phase + frequency.integral(t));
+        out[n] += amplitude.value(t) * waveformValue(wave.waveform, phase + frequency.integral(t));
     }
 }
 
@@ -250,7 +251,7 @@ void add(const ClipWave& wave, int rateHz, std::vector<double>& out) {
 
 SampledSound clipSound(const Clip& clip, int sampleRateHz) {
     SampledSound sound{sampleRateHz, {}};
-    std::vector<double> sum(std::max<std::size_t>(1, frameFrom(clip.seconds(), sampleRateHz)));
+    std::vector<double> sum(std::max<std::size_t>(1, firstFrameFrom(clip.seconds(), sampleRateHz)));
     for (const ClipChannel& channel : clip.channels) {
         std::ranges::fill(sum, 0.0);
         for (const ClipBand& band : channel.bands)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Provenance of an output file: its first line, `# physvib VERSION key=value ...`.
+// Provenance of an output file: program version, seed and other inputs, as its first line or its comment.
 #pragma once
 #include <algorithm>
 #include <string>

@@ -7,17 +7,16 @@
 
 namespace physvib {
 
-/// An error to be converted to a Result: one line naming file, place and expectation. Result escapes
-/// unprintable characters.
+/// An error to be converted to a Result: one line naming file, place and expectation.
 struct Failure {
     std::string message;
 };
 
-/// Either `value` (and no error), or `error` and an empty `value`: never a partial value.
+/// Either `value` with an empty `error`, or `error` with a default `value`.
 template <class T>
 struct Result {
-    Result(T loaded)
-        : value(std::move(loaded)) {}
+    Result(T result)
+        : value(std::move(result)) {}
     Result(Failure failure)
         : error(cleanLine(failure.message)) {}
     explicit operator bool() const noexcept { return error.empty(); }

@@ -18,9 +18,9 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double twoPi = 2.0 * std::numbers::pi;
 constexpr double fadeSeconds = 0.02;
-constexpr double longestDelaySeconds = 1.0; // SweepSettings::restSeconds
+constexpr double maxDelaySeconds = 1.0; // SweepSettings::tailSeconds
 
-struct Point {
+struct ResponsePoint {
     double hz;
     Complex response;
 };
@@ -40,7 +40,7 @@ Complex spectrumAt(const std::vector<float>& x, double radiansPerFrame) {
 
 /// Adds the transfer function at `count` logarithmically spaced frequencies. The spacing makes the phases
 /// agree for the true delay only.
-void addPoints(std::vector<Point>& points, const std::vector<float>& played,
+void addPoints(std::vector<ResponsePoint>& points, const std::vector<float>& played,
                const std::vector<float>& recorded, double rateHz, const FrequencyBand& band, int count) {
     for (int i = 0; i < count; ++i) {
         const double hz = band.lowHz * std::pow(band.highHz / band.lowHz, (i + 0.5) / count),
@@ -50,72 +50,72 @@ void addPoints(std::vector<Point>& points, const std::vector<float>& played,
 }
 
 /// Half-height width of the peak, within `band`.
-FrequencyBand peakOf(const Resonator& r, const FrequencyBand& band) {
+FrequencyBand peakBand(const Resonator& r, const FrequencyBand& band) {
     const double half = std::max(r.resonanceHz / r.q, 2.0);
     return {std::clamp(r.resonanceHz - half, band.lowHz, band.highHz - 1.0),
             std::clamp(r.resonanceHz + half, band.lowHz + 1.0, band.highHz)};
 }
 
-/// In the model f^4 / |H|^2 is a parabola in f^2; weighted so that all points count by their magnitude.
-Resonator firstGuess(const std::vector<Point>& points) {
-    double strongestHz = 0.0, strongest = -1.0;
+/// First guess: in the model, f^4 / |H|^2 is a parabola in f^2. Weights make all points count by magnitude.
+Resonator firstGuess(const std::vector<ResponsePoint>& points) {
+    double maxPowerHz = 0.0, maxPower = -1.0;
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const Point& p : points) {
+    Eigen::Vector3d rightSide = Eigen::Vector3d::Zero();
+    for (const ResponsePoint& p : points) {
         const double power = std::norm(p.response), square = p.hz * p.hz, target = square * square / power,
                      weight = power * power / (square * square);
-        if (power > strongest) strongest = power, strongestHz = p.hz;
+        if (power > maxPower) maxPower = power, maxPowerHz = p.hz;
         const Eigen::Vector3d basis{1.0, square, square * square};
         matrix += weight * basis * basis.transpose();
-        right += weight * target * basis;
+        rightSide += weight * target * basis;
     }
-    const Eigen::Vector3d c = matrix.ldlt().solve(right);
+    const Eigen::Vector3d c = matrix.ldlt().solve(rightSide);
     // c2 (f0^4 + (f0^2 / Q^2 - 2 f0^2) f^2 + f^4)
     const double square = std::sqrt(c[0] / c[2]), loss = c[1] / (c[2] * square) + 2.0;
-    if (!(square > 0.0) || !(loss > 0.0)) return {strongestHz, 3.0};
+    if (!(square > 0.0) || !(loss > 0.0)) return {maxPowerHz, 3.0};
     return {std::sqrt(square), 1.0 / std::sqrt(loss)};
 }
 
-/// Trial parameters of the fit. The best gain follows linearly, so only three numbers are searched.
-struct Trial {
-    std::array<double, 3> at; ///< log f0, log Q, delay
+/// Candidate parameters of the fit. The best gain follows linearly, so only three numbers are searched.
+struct Candidate {
+    std::array<double, 3> parameters; ///< log f0, log Q, delay
     Complex gain;
     double error;
 
-    static Complex model(const std::array<double, 3>& at, double hz) {
-        return Resonator{std::exp(at[0]), std::exp(at[1])}.at(hz) * std::polar(1.0, -twoPi * hz * at[2]);
+    static Complex model(const std::array<double, 3>& p, double hz) {
+        return Resonator{std::exp(p[0]), std::exp(p[1])}.at(hz) * std::polar(1.0, -twoPi * hz * p[2]);
     }
-    Trial(const std::vector<Point>& points, const std::array<double, 3>& wanted)
-        : at{wanted} {
+    Candidate(const std::vector<ResponsePoint>& points, const std::array<double, 3>& start)
+        : parameters{start} {
         Complex product = 0.0;
         double power = 0.0;
-        for (const Point& p : points) {
-            const Complex m = model(at, p.hz);
+        for (const ResponsePoint& p : points) {
+            const Complex m = model(parameters, p.hz);
             product += std::conj(m) * p.response;
             power += std::norm(m);
         }
         gain = (product / power).real(); // real: polarity may be inverted, but phase belongs to the delay
         error = 0.0;
-        for (const Point& p : points) error += std::norm(p.response - gain * model(at, p.hz));
+        for (const ResponsePoint& p : points) error += std::norm(p.response - gain * model(parameters, p.hz));
     }
 };
 
 /// The delay at which the phases agree best with guess(hz): coarse steps, then a golden-section search.
-template <class Guess>
-double delayOf(const std::vector<Point>& points, Guess guess) {
+template <class Model>
+double bestDelaySeconds(const std::vector<ResponsePoint>& points, Model model) {
     const auto agreement = [&](double seconds) {
         Complex sum = 0.0;
-        for (const Point& p : points)
-            sum += p.response * std::conj(guess(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
+        for (const ResponsePoint& p : points)
+            sum += p.response * std::conj(model(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
         return std::abs(sum.real());
     };
     const double step = 0.1 / points.back().hz;
     double best = 0.0;
-    for (double seconds = 0.0; seconds < longestDelaySeconds; seconds += step)
+    for (double seconds = 0.0; seconds < maxDelaySeconds; seconds += step)
         if (agreement(seconds) > agreement(best)) best = seconds;
     double low = best - step, high = best + step;
     for (int i = 0; i < 40; ++i) {
-        const double a = low + 0.382 * (high - low), b = high - 0.382 * (high - low);
+        const double a = low + 0.382 * (high - low), b = high - 0.382 * (high - low); // golden section
         (agreement(a) > agreement(b) ? high : low) = agreement(a) > agreement(b) ? b : a;
     }
     return 0.5 * (low + high);
@@ -123,55 +123,56 @@ double delayOf(const std::vector<Point>& points, Guess guess) {
 
 /// A pattern search with shrinking steps along the axes and their combination. Unlike Gauss-Newton it needs
 /// no derivatives of the projected gain, and three numbers are few.
-Trial refine(const std::vector<Point>& points, Trial best) {
-    std::array<double, 3> step{0.02, 0.2, 1e-4};
-    for (int round = 0; round < 400 && *std::ranges::max_element(step) > 1e-9; ++round) {
-        const Trial before = best;
+Candidate refine(const std::vector<ResponsePoint>& points, Candidate best) {
+    std::array<double, 3> steps{0.02, 0.2, 1e-4};
+    for (int round = 0; round < 400 && *std::ranges::max_element(steps) > 1e-9; ++round) {
+        const Candidate previous = best;
         for (std::size_t i = 0; i < 3; ++i) {
-            bool moved = false;
+            bool hasMoved = false;
             for (const double sign : {1.0, -1.0}) {
-                auto at = best.at;
-                at[i] += sign * step[i];
-                if (const Trial next{points, at}; next.error < best.error) best = next, moved = true;
-                if (moved) break;
+                auto moved = best.parameters;
+                moved[i] += sign * steps[i];
+                if (const Candidate next{points, moved}; next.error < best.error)
+                    best = next, hasMoved = true;
+                if (hasMoved) break;
             }
-            step[i] *= moved ? 1.3 : 0.5;
+            steps[i] *= hasMoved ? 1.3 : 0.5;
         }
-        auto ahead = best.at; // along the direction of progress
-        for (std::size_t i = 0; i < 3; ++i) ahead[i] += best.at[i] - before.at[i];
-        if (const Trial next{points, ahead}; next.error < best.error) best = next;
+        auto extrapolated = best.parameters; // along the direction of progress
+        for (std::size_t i = 0; i < 3; ++i) extrapolated[i] += best.parameters[i] - previous.parameters[i];
+        if (const Candidate next{points, extrapolated}; next.error < best.error) best = next;
     }
     return best;
 }
 
-double energyOf(const std::vector<Point>& points) {
+double energyOf(const std::vector<ResponsePoint>& points) {
     double energy = 0.0;
-    for (const Point& p : points) energy += std::norm(p.response);
+    for (const ResponsePoint& p : points) energy += std::norm(p.response);
     return energy;
 }
-// the spectrum's energy is not finite
-constexpr const char* unswept = "what was played: expected a sweep through the whole band";
+// the error if the energy of the transfer function is not finite
+constexpr const char* sweepError = "what was played: expected a sweep through the whole band";
 
-std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz,
-                    const FrequencyBand& band) {
+std::string inputError(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz,
+                       const FrequencyBand& band) {
     if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0)
         return "expected a band of at least 10 Hz below half the rate";
-    constexpr double shortestSeconds = 0.1;
-    if (auto fault = recordingFault(played, rateHz, shortestSeconds); !fault.empty())
-        return "what was played: " + fault;
-    if (auto fault = recordingFault(recorded, rateHz, shortestSeconds); !fault.empty())
-        return "what was recorded: " + fault;
+    constexpr double minSeconds = 0.1;
+    if (auto error = recordingError(played, rateHz, minSeconds); !error.empty())
+        return "what was played: " + error;
+    if (auto error = recordingError(recorded, rateHz, minSeconds); !error.empty())
+        return "what was recorded: " + error;
     if (isSilent(played)) return "what was played: expected a sweep, found silence";
     if (isSilent(recorded)) return "what was recorded: expected the sweep, found silence";
-    const std::string clipped = clippingFault(recorded, rateHz);
+    const std::string clipped = clippingError(recorded, rateHz);
     return clipped.empty() ? clipped : "what was recorded: " + clipped;
 }
 
 } // namespace
 
-std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
+std::vector<float> makeSweep(const SweepSettings& s, double rateHz) {
     const auto frames = static_cast<std::size_t>(s.seconds * rateHz);
-    std::vector<float> samples(frames + static_cast<std::size_t>(s.restSeconds * rateHz));
+    std::vector<float> samples(frames + static_cast<std::size_t>(s.tailSeconds * rateHz));
     const double growth = std::log(s.band.highHz / s.band.lowHz) / s.seconds;
     for (std::size_t n = 0; n < frames; ++n) {
         const double t = static_cast<double>(n) / rateHz,
@@ -185,10 +186,10 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
 
 FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
     // relative to the peak or the plateau
-    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
+    const double minMagnitude = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
     FrequencyBand band{};
     for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
-        if (std::abs(resonator.at(hz)) < least) continue;
+        if (std::abs(resonator.at(hz)) < minMagnitude) continue;
         if (band.lowHz == 0.0) band.lowHz = hz;
         band.highHz = hz;
     }
@@ -197,22 +198,23 @@ FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand&
 
 Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band) {
-    if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
-    std::vector<Point> points;
+    if (auto error = inputError(played, recorded, rateHz, band); !error.empty()) return Failure{error};
+    std::vector<ResponsePoint> points;
     addPoints(points, played, recorded, rateHz, band, 240);
     const Resonator guess = firstGuess(points);
-    const Trial rough = refine(points, {points,
-                                        {std::log(guess.resonanceHz), std::log(guess.q),
-                                         delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
+    const Candidate rough =
+        refine(points, {points,
+                        {std::log(guess.resonanceHz), std::log(guess.q),
+                         bestDelaySeconds(points, [&guess](double hz) { return guess.at(hz); })}});
     // around the peak, which determines resonance and Q
-    addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band),
-              120);
+    addPoints(points, played, recorded, rateHz,
+              peakBand({std::exp(rough.parameters[0]), std::exp(rough.parameters[1])}, band), 120);
     const double energy = energyOf(points);
-    if (!std::isfinite(energy)) return Failure{unswept};
-    const Trial best = refine(points, {points, rough.at});
-    MeasuredActuator measured{{std::exp(best.at[0]), std::exp(best.at[1])},
+    if (!std::isfinite(energy)) return Failure{sweepError};
+    const Candidate best = refine(points, {points, rough.parameters});
+    MeasuredActuator measured{{std::exp(best.parameters[0]), std::exp(best.parameters[1])},
                               best.gain.real(),
-                              best.at[2],
+                              best.parameters[2],
                               best.error / energy,
                               rateHz};
     if (!(measured.residualShare < 0.5))
@@ -227,15 +229,15 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
 
 Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band) {
-    if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
-    std::vector<Point> points;
+    if (auto error = inputError(played, recorded, rateHz, band); !error.empty()) return Failure{error};
+    std::vector<ResponsePoint> points;
     addPoints(points, played, recorded, rateHz, band, 240);
     const double energy = energyOf(points);
-    if (!std::isfinite(energy)) return Failure{unswept};
+    if (!std::isfinite(energy)) return Failure{sweepError};
     MeasuredLoopback m;
-    m.delaySeconds = delayOf(points, [](double) { return Complex{1.0}; });
+    m.delaySeconds = bestDelaySeconds(points, [](double) { return Complex{1.0}; });
     Complex sum = 0.0;
-    for (const Point& p : points) sum += p.response * std::polar(1.0, twoPi * p.hz * m.delaySeconds);
+    for (const ResponsePoint& p : points) sum += p.response * std::polar(1.0, twoPi * p.hz * m.delaySeconds);
     const double count = static_cast<double>(points.size());
     m.gain = sum.real() / count;
     m.residualShare = 1.0 - m.gain * m.gain * count / energy;

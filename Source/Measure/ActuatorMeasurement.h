@@ -12,20 +12,20 @@ namespace physvib {
 struct SweepSettings {
     FrequencyBand band{20.0, 1000.0};
     double seconds = 5.0;      ///< of the sine
-    double restSeconds = 1.0;  ///< silence after it: the longest delay and decay that can be measured
-    double level = 0.25118864; ///< peak; -12 dB of full scale, the usual start level
+    double tailSeconds = 1.0;  ///< silence after it: the longest delay and decay that can be measured
+    double level = 0.25118864; ///< peak; -12 dB of full scale, the default start level
 };
 
 /// Samples in [-1, 1]. Message thread (M) only.
-std::vector<float> sweepOf(const SweepSettings& settings, double rateHz);
+std::vector<float> makeSweep(const SweepSettings& settings, double rateHz);
 
 /// Model of a linear actuator and everything between output and recording: gain e^(-i w delay) H(f), see
 /// Core/Actuators/ActuatorEqualiser.h.
 struct MeasuredActuator {
     Resonator resonator;
     double gain = 0.0;          ///< recorded over played at the resonance; negative: inverted polarity
-    double delaySeconds = 0.0;  ///< 0 to SweepSettings::restSeconds
-    double residualShare = 0.0; ///< of the response's energy over the band: what the model leaves
+    double delaySeconds = 0.0;  ///< 0 to SweepSettings::tailSeconds
+    double residualShare = 0.0; ///< of the response's energy over the band, not explained by the model
     double rateHz = 0.0;
 
     /// The band in which the response is within `decibels` of its peak, clipped to `swept`.
@@ -36,7 +36,7 @@ struct MeasuredActuator {
 /// round-trip latency.
 struct MeasuredLoopback {
     double gain = 0.0;          ///< recorded over played; negative: inverted polarity
-    double delaySeconds = 0.0;  ///< 0 to SweepSettings::restSeconds
+    double delaySeconds = 0.0;  ///< 0 to SweepSettings::tailSeconds
     double residualShare = 0.0; ///< as MeasuredActuator's
 };
 
@@ -46,7 +46,7 @@ struct MeasuredLoopback {
 Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band = SweepSettings{}.band);
 
-/// The same with a cable as the model; refused if it explains less than nine tenths. M only.
+/// The same with a cable as the model; an error if it explains less than nine tenths. M only.
 Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band = SweepSettings{}.band);
 

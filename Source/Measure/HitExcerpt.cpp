@@ -12,9 +12,9 @@ double energyOf(std::span<const double> samples) {
 
 namespace {
 
-constexpr double longestHitSeconds = 1.0;   // long enough to estimate a slower decay
-constexpr double frameSeconds = 0.025;      // a period of 40 Hz, so that power does not ripple
-constexpr double leastBeforeSeconds = 0.01; // a shorter silence is too short to estimate an offset
+constexpr double maxHitSeconds = 1.0;      // long enough to estimate a slower decay
+constexpr double frameSeconds = 0.025;     // a period of 40 Hz, so that power does not ripple
+constexpr double minSilenceSeconds = 0.01; // a shorter silence is too short to estimate an offset
 
 double power(std::span<const double> samples) {
     return energyOf(samples) / static_cast<double>(samples.size());
@@ -38,45 +38,47 @@ double offsetOf(std::span<const double> samples) {
     return mean * mean > 9.0 * power(samples) / static_cast<double>(samples.size()) ? mean : 0.0;
 }
 
-std::size_t loudest(const std::vector<double>& samples) {
+std::size_t peakIndex(const std::vector<double>& samples) {
     return static_cast<std::size_t>(
         std::ranges::max_element(samples, {}, [](double s) { return std::abs(s); }) - samples.begin());
 }
 
 /// First sample near the peak that exceeds the noise and a fiftieth of the peak.
-std::size_t firstLoud(const std::vector<double>& samples, std::size_t peak, double noise, double rateHz) {
+std::size_t onsetIndex(const std::vector<double>& samples, std::size_t peak, double noise, double rateHz) {
     const double threshold = std::max(4.0 * std::sqrt(noise), 0.02 * std::abs(samples[peak]));
     std::size_t first = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
     while (first < peak && std::abs(samples[first]) < threshold) ++first;
     return first;
 }
 
-/// Where the noise begins, or the next impact: ten times the lowest power so far, near the highest.
-std::size_t endOf(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
+/// End of the impact: where the noise begins, or the next impact, with ten times the lowest power so far.
+std::size_t endIndex(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
     const std::size_t frame = samplesIn(frameSeconds, rateHz),
-                      most = std::min(samples.size(), begin + samplesIn(longestHitSeconds, rateHz));
-    double least = HUGE_VAL, highest = 0.0;
-    for (std::size_t i = begin; i + frame <= most; i += frame) {
-        const double now = power(std::span(samples).subspan(i, frame));
-        highest = std::max(highest, now);
-        if (i > begin && now < 1.2 * noise) return i + frame;
-        if (now > 10.0 * least && now > 0.01 * highest) return i;
-        least = std::min(least, now);
+                      endLimit = std::min(samples.size(), begin + samplesIn(maxHitSeconds, rateHz));
+    double minPower = HUGE_VAL, maxPower = 0.0;
+    for (std::size_t i = begin; i + frame <= endLimit; i += frame) {
+        const double framePower = power(std::span(samples).subspan(i, frame));
+        maxPower = std::max(maxPower, framePower);
+        if (i > begin && framePower < 1.2 * noise) return i + frame;
+        if (framePower > 10.0 * minPower && framePower > 0.01 * maxPower) return i;
+        minPower = std::min(minPower, framePower);
     }
-    return most;
+    return endLimit;
 }
 
 } // namespace
 
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz) {
     std::vector<double> x(samples.begin(), samples.end());
-    const std::size_t peak = loudest(x), quiet = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
+    const std::size_t peak = peakIndex(x),
+                      quietSamples = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
     HitExcerpt hit;
-    if (quiet >= samplesIn(leastBeforeSeconds, rateHz)) hit.offset = offsetOf(std::span(x).first(quiet));
+    if (quietSamples >= samplesIn(minSilenceSeconds, rateHz))
+        hit.offset = offsetOf(std::span(x).first(quietSamples));
     for (double& s : x) s -= hit.offset;
     const double noise = noisePower(x, samplesIn(0.4 * frameSeconds, rateHz));
-    hit.begin = firstLoud(x, loudest(x), noise, rateHz);
-    hit.end = endOf(x, hit.begin, noise, rateHz);
+    hit.begin = onsetIndex(x, peakIndex(x), noise, rateHz);
+    hit.end = endIndex(x, hit.begin, noise, rateHz);
     return hit;
 }
 
@@ -87,18 +89,18 @@ namespace {
 
 /// View of samples in which values that are not finite count as 0, as in the limiter, and large values are
 /// clamped to keep running sums exact.
-class Heard {
+class ClampedSamples {
 public:
-    Heard(std::span<const float> samples, double fullScale)
+    ClampedSamples(std::span<const float> samples, double fullScale)
         : samples_{samples}
-        , most_{limits::maxAmplitude * fullScale} {}
+        , limit_{limits::maxAmplitude * fullScale} {}
 
     std::ptrdiff_t count() const { return std::ssize(samples_); }
     /// 0 before the first and after the last sample.
     double at(std::ptrdiff_t i) const {
         if (i < 0 || i >= count()) return 0.0;
         const double sample = samples_[static_cast<std::size_t>(i)];
-        return std::isfinite(sample) ? std::clamp(sample, -most_, most_) : 0.0;
+        return std::isfinite(sample) ? std::clamp(sample, -limit_, limit_) : 0.0;
     }
     double mean() const {
         double sum = 0.0;
@@ -108,20 +110,20 @@ public:
 
 private:
     std::span<const float> samples_;
-    double most_;
+    double limit_;
 };
 
 /// The triangular running mean, sample by sample.
 class RunningMean {
 public:
-    RunningMean(const Heard& samples, double sampleRateHz)
+    RunningMean(const ClampedSamples& samples, double sampleRateHz)
         : samples_{samples}
-        , reach_{std::lround(0.25 * SlowPart::leastSeconds * sampleRateHz)}
+        , reach_{std::lround(0.25 * SlowPart::windowSeconds * sampleRateHz)}
         , next_{-2 * reach_} {
         while (next_ < 0) next();
     }
 
-    /// At the next sample, from the first on.
+    /// The mean at the next sample; the first call is for the first sample.
     double next() {
         ahead_ += samples_.at(next_ + 2 * reach_) - samples_.at(next_ - 1);
         behind_ += samples_.at(next_ - 1) - samples_.at(next_ - 2 * reach_ - 2);
@@ -132,7 +134,7 @@ public:
     }
 
 private:
-    Heard samples_;
+    ClampedSamples samples_;
     std::ptrdiff_t reach_, next_;
     double ahead_ = 0.0, behind_ = 0.0; // sums of the 2 reach_ + 1 samples around next_ + reach_ and next_ -
                                         // reach_ - 1
@@ -141,35 +143,36 @@ private:
 
 } // namespace
 
-SlowPart takeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale) {
-    SlowPart taken;
-    if (!(fullScale > 0.0) || static_cast<double>(samples.size()) < SlowPart::leastSeconds * sampleRateHz)
-        return taken;
-    const Heard heard{samples, fullScale};
-    if (const double mean = heard.mean(); std::abs(mean) >= SlowPart::leastMean * fullScale) {
-        taken.mean = std::abs(mean) / fullScale;
+SlowPart removeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale) {
+    SlowPart removed;
+    if (!(fullScale > 0.0) || static_cast<double>(samples.size()) < SlowPart::windowSeconds * sampleRateHz)
+        return removed;
+    const ClampedSamples clamped{samples, fullScale};
+    if (const double mean = clamped.mean(); std::abs(mean) >= SlowPart::minMean * fullScale) {
+        removed.mean = std::abs(mean) / fullScale;
         for (float& x : samples) x = static_cast<float>(x - mean);
     }
-    double most = 0.0;
-    RunningMean course{heard, sampleRateHz};
-    for (std::size_t i = 0; i < samples.size(); ++i) most = std::max(most, std::abs(course.next()));
-    if (most < SlowPart::leastRest * fullScale) return taken;
-    taken.rest = most / fullScale;
-    std::vector<float> rest(samples.size());
-    RunningMean again{heard, sampleRateHz};
-    for (std::size_t i = 0; i < samples.size(); ++i) rest[i] = static_cast<float>(samples[i] - again.next());
-    samples = std::move(rest);
-    return taken;
+    double slowPeak = 0.0;
+    RunningMean peakPass{clamped, sampleRateHz};
+    for (std::size_t i = 0; i < samples.size(); ++i) slowPeak = std::max(slowPeak, std::abs(peakPass.next()));
+    if (slowPeak < SlowPart::minVarying * fullScale) return removed;
+    removed.varying = slowPeak / fullScale;
+    std::vector<float> filtered(samples.size());
+    RunningMean filterPass{clamped, sampleRateHz};
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        filtered[i] = static_cast<float>(samples[i] - filterPass.next());
+    samples = std::move(filtered);
+    return removed;
 }
 
 std::string SlowPart::text() const {
-    if (!isAny()) return {};
-    const std::string ofMean = mean != 0.0 ? "a mean of " + fixedNumber(mean, 2) : "",
-                      ofRest = rest != 0.0
-                                   ? "up to " + fixedNumber(rest, 2) + (mean != 0.0 ? " beside it" : "")
-                                   : "";
-    return "what lies below " + numberText(limits::slowestToneHz) + " Hz is not played: " + ofMean +
-           (mean != 0.0 && rest != 0.0 ? ", and " : "") + ofRest + ", of full scale";
+    if (!isPresent()) return {};
+    const std::string meanText = mean != 0.0 ? "a mean of " + fixedNumber(mean, 2) : "",
+                      varyingText = varying != 0.0 ? "up to " + fixedNumber(varying, 2) +
+                                                         (mean != 0.0 ? " beside it" : "")
+                                                   : "";
+    return "what lies below " + numberText(limits::slowestToneHz) + " Hz is not played: " + meanText +
+           (mean != 0.0 && varying != 0.0 ? ", and " : "") + varyingText + ", of full scale";
 }
 
 } // namespace physvib

@@ -23,7 +23,7 @@ inline std::size_t samplesIn(double seconds, double rateHz) noexcept {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(seconds * rateHz)));
 }
 
-/// The sum of their squares. Any thread.
+/// Sum of the squared samples. Any thread.
 double energyOf(std::span<const double> samples);
 
 /// The excerpt from the onset of the loudest impact to the noise, the next impact, or one second;
@@ -31,20 +31,20 @@ double energyOf(std::span<const double> samples);
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz);
 
 /// The channel with the highest peak; `channels` are not empty. Any thread.
-inline const std::vector<float>& loudestOf(const std::vector<std::vector<float>>& channels) {
+inline const std::vector<float>& loudestChannel(const std::vector<std::vector<float>>& channels) {
     return *std::ranges::max_element(channels, {}, [](const auto& samples) { return peakOf(samples); });
 }
 
 // Checks whether a recording can be measured: too short, not finite, clipped. Message thread (M) only.
 
-inline std::string placeOf(std::size_t sample, double rateHz) {
+inline std::string timeText(std::size_t sample, double rateHz) {
     return " at " + fixedNumber(static_cast<double>(sample) / rateHz, 4) + " s";
 }
 
 /// Empty, or the error that the recording is clipped: three equal samples at the peak between steep flanks.
 /// Rounding flattens peaks too, but then the next sample is only a few steps lower; `step` is the smallest
 /// difference in the recording.
-inline std::string clippingFault(const std::vector<float>& x, double rateHz) {
+inline std::string clippingError(const std::vector<float>& x, double rateHz) {
     float peak = 0.0f, step = HUGE_VALF;
     for (std::size_t i = 0; i < x.size(); ++i) {
         peak = std::max(peak, std::abs(x[i]));
@@ -58,51 +58,53 @@ inline std::string clippingFault(const std::vector<float>& x, double rateHz) {
                     behind = after < x.size() ? std::abs(x[i] - x[after]) : 0.0f;
         if (std::max(before, behind) > 8.0f * step)
             return "expected a recording that is not clipped, found " + std::to_string(after - i) +
-                   " equal samples at its peak" + placeOf(i, rateHz);
+                   " equal samples at its peak" + timeText(i, rateHz);
         i = after;
     }
     return {};
 }
 
+/// True if all samples are equal.
 inline bool isSilent(const std::vector<float>& x) {
     return std::ranges::all_of(x, [&](float s) { return s == x.front(); });
 }
 
-inline std::string notFinite(float x, std::size_t sample, double rateHz) {
+inline std::string nonFiniteError(float x, std::size_t sample, double rateHz) {
     return "expected finite samples, found " + std::string(std::isnan(x) ? "NaN" : "infinity") +
-           placeOf(sample, rateHz);
+           timeText(sample, rateHz);
 }
 
 /// Empty, or the error that it is too short or has NaN, infinite or huge samples.
-inline std::string recordingFault(const std::vector<float>& x, double rateHz, double shortestSeconds) {
-    if (static_cast<double>(x.size()) < shortestSeconds * rateHz)
-        return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) +
+inline std::string recordingError(const std::vector<float>& x, double rateHz, double minSeconds) {
+    if (static_cast<double>(x.size()) < minSeconds * rateHz)
+        return "expected at least " + numberText(minSeconds) + " s, found " + std::to_string(x.size()) +
                (x.size() == 1 ? " sample" : " samples");
     const auto bad = std::ranges::find_if(x, [](float s) { return !std::isfinite(s) || std::abs(s) > 1e6f; });
-    return bad == x.end() ? "" : notFinite(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
+    return bad == x.end() ? "" : nonFiniteError(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
 /// The removed part below limits::slowestToneHz, which is imperceptible and only heats a coil, in shares of
 /// full scale; 0: too little, and the samples are unchanged.
 struct SlowPart {
-    static constexpr double leastSeconds = 0.2; ///< a period of limits::slowestToneHz; shorter: no slow part
-    static constexpr double leastMean = 0.01, leastRest = 0.1;
+    static constexpr double windowSeconds = 0.2; ///< a period of limits::slowestToneHz; shorter: no slow part
+    static constexpr double minMean = 0.01, minVarying = 0.1;
 
-    double mean = 0.0; ///< maximum over the channels, like `rest`
-    double rest = 0.0; ///< peak of the varying part below that frequency
+    double mean = 0.0;    ///< maximum over the channels, like `varying`
+    double varying = 0.0; ///< peak of the varying part below that frequency
 
-    bool isAny() const noexcept { return mean != 0.0 || rest != 0.0; }
-    void join(const SlowPart& other) noexcept {
+    bool isPresent() const noexcept { return mean != 0.0 || varying != 0.0; }
+    void mergeMax(const SlowPart& other) noexcept {
         mean = std::max(mean, other.mean);
-        rest = std::max(rest, other.rest);
+        varying = std::max(varying, other.varying);
     }
     /// A note for the user; empty if nothing was removed. Any thread.
     std::string text() const;
 };
 
-/// Subtracts the mean, and then, if it reaches leastRest, what is left below limits::slowestToneHz: a running
-/// mean over leastSeconds with triangular weights (-4.5 dB at 5 Hz, -18 dB at 2 Hz, -30 dB at 1 Hz; within
-/// 0.5 dB from 10 Hz on). `fullScale`: the sample value that is played as full scale. Any thread but R.
-SlowPart takeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale = 1.0);
+/// Subtracts the mean, and then, if it reaches minVarying, what is left below limits::slowestToneHz: a
+/// running mean over windowSeconds with triangular weights (-4.5 dB at 5 Hz, -18 dB at 2 Hz, -30 dB at 1 Hz;
+/// within 0.5 dB from 10 Hz on). `fullScale`: the sample value that is played as full scale. Not for the
+/// render thread (allocates).
+SlowPart removeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale = 1.0);
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Model selection for partials: adds one per round while the cost falls, then tries other starts, and the
-// model of Eq. 5.1.
+// Model selection for partials: adds one per round while the cost (unexplained energy, and a penalty per
+// parameter) falls; then tries other start values, and the model of Eq. 5.1.
 #include "Measure/HitFit.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/Spectrum.h"
@@ -38,7 +38,7 @@ std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks)
 }
 
 /// c with x[n] + c[0] x[n-1] + ... = 0 in the least-squares sense; empty if undetermined.
-std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order) {
+std::vector<double> predictionCoefficients(const std::vector<double>& x, std::size_t order) {
     NormalEquations equations(order);
     std::vector<NormalEquations::Column> columns(order);
     for (std::size_t n = order; n < x.size(); ++n) {
@@ -62,7 +62,8 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
     if (samples.size() < blocks || blocks < 4 * partials) return found;
     const std::size_t blockFrames = samples.size() / blocks; // whole ones
     const double blockRateHz = rateHz / static_cast<double>(blockFrames);
-    for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
+    for (const std::complex<double> root :
+         rootsOf(predictionCoefficients(meansOf(samples, blocks), 2 * partials)))
         if (root.imag() > 1e-6 && std::isfinite(root.real()))
             found.push_back(
                 {std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
@@ -70,258 +71,262 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
     return found;
 }
 
-constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
-constexpr double shortHit = 8.0;     // omega / tau
-constexpr double penalty = 1.5;      // per parameter, in units of ln N: for it and its search (Schwarz 1978)
+constexpr double roundingShare = 1e-11;     // of the energy: a smaller residual is rounding
+constexpr double shortHitRatio = 8.0;       // omega / tau
+constexpr double penaltyPerParameter = 1.5; // per parameter, in units of ln N: for it and its search (Schwarz
+                                            // 1978)
 
 } // namespace
 
-HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz, std::size_t most)
+HitFit::HitFit(std::vector<double> samples, std::size_t initialOnset, double rateHz, std::size_t maxPartials)
     : samples_{std::move(samples)}
-    , onset_{guess}
+    , onset_{initialOnset}
     , rateHz_{rateHz}
-    , most_{most}
+    , maxPartials_{maxPartials}
     , energy_{energyOf(samples_)}
-    , fit_{rest(), rateHz} {
+    , fit_{afterOnset(), rateHz} {
     addPartials();
     if (fit_.partials().empty()) return;
-    cost_ = costOf(unexplainedEnergy(), 4 * fit_.partials().size());
-    tryStruck(fit_.partials());
+    cost_ = modelCost(unexplainedEnergy(), 4 * fit_.partials().size());
+    tryCommonOnset(fit_.partials());
     tryOtherStarts();
 }
 
 PartialError HitFit::errorOf(std::size_t partial) const {
-    const PartialError white = struck_ ? struck_->errorOf(partial) : fit_.errorOf(partial);
-    const double more = std::sqrt(std::max(1.0, noiseAbout(partials()[partial])));
-    return {more * white.omega, more * white.tau};
+    const PartialError white = commonOnset_ ? commonOnset_->errorOf(partial) : fit_.errorOf(partial);
+    const double noiseFactor = std::sqrt(std::max(1.0, noiseDensityAround(partials()[partial])));
+    return {noiseFactor * white.omega, noiseFactor * white.tau};
 }
 
 // Coloured noise counts by its density around the frequency (Whittle 1953): the density of the residual,
 // weighted by the partial's decay, over that of white noise of equal power. It is measured beside the
 // partial, because the fit leaves nothing at the partial itself.
-double HitFit::noiseAbout(const Partial& partial) const {
-    std::vector<double> left = samples_;
+double HitFit::noiseDensityAround(const Partial& partial) const {
+    std::vector<double> residuals = samples_;
     double weight = 0.0, density = 0.0;
     const double onset = onsetSeconds();
     const auto first = static_cast<std::size_t>(std::ceil(onset * rateHz_));
     for (const Partial& p : partials()) {
         DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - onset};
-        for (std::size_t i = first; i < left.size(); ++i, phasor.next())
-            left[i] -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
+        for (std::size_t i = first; i < residuals.size(); ++i, phasor.next())
+            residuals[i] -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
     }
-    const auto rest = std::span<const double>(left).subspan(first);
-    for (std::size_t i = 0; i < rest.size(); ++i)
+    const auto decaying = std::span<const double>(residuals).subspan(first);
+    for (std::size_t i = 0; i < decaying.size(); ++i)
         weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
-    // distances in units of the decay, at which the partial's own line has fallen off
-    constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6};
-    for (const double by : besides) {
+    // distances in units of the decay rate, at which the partial's own line has fallen off
+    constexpr std::array<double, 10> offsets{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6};
+    for (const double offset : offsets) {
         const auto point =
-            pointOfSpectrum(rest, rateHz_, std::abs(partial.omega + by * partial.tau), partial.tau);
-        density += (point.re * point.re + point.im * point.im) / besides.size();
+            spectrumValue(decaying, rateHz_, std::abs(partial.omega + offset * partial.tau), partial.tau);
+        density += (point.re * point.re + point.im * point.im) / offsets.size();
     }
-    return density / weight * static_cast<double>(left.size()) / energyOf(left);
+    return density / weight * static_cast<double>(residuals.size()) / energyOf(residuals);
 }
 
 double HitFit::energyBeforeOnset() const { return energyOf(std::span(samples_).first(onset_)); }
 
-double HitFit::costOf(double unexplained, std::size_t numbers) const {
+double HitFit::modelCost(double unexplained, std::size_t parameterCount) const {
     const double count = static_cast<double>(samples_.size());
-    return count * std::log(std::max(unexplained, cleanShare * energy_)) +
-           penalty * static_cast<double>(numbers) * std::log(count);
+    return count * std::log(std::max(unexplained, roundingShare * energy_)) +
+           penaltyPerParameter * static_cast<double>(parameterCount) * std::log(count);
 }
 
 void HitFit::addPartials() {
-    const auto cost = [this] { return costOf(unexplainedEnergy(), 4 * fit_.partials().size()); };
-    double least = cost();
-    while (fit_.partials().size() < most_ && unexplainedEnergy() > cleanShare * energy_) {
+    const auto cost = [this] { return modelCost(unexplainedEnergy(), 4 * fit_.partials().size()); };
+    double lowest = cost();
+    while (fit_.partials().size() < maxPartials_ && unexplainedEnergy() > roundingShare * energy_) {
         const std::size_t onset = onset_;
         const std::vector<Partial> partials = fit_.partials();
-        fit_.addHighest();
+        fit_.addHighestPeak();
         fit_.refine();
         if (moveOnset()) fit_.refine();
-        const double now = cost();
-        if (!(now < least)) return restart(onset, partials);
-        least = now;
+        const double newCost = cost();
+        if (!(newCost < lowest)) return restart(onset, partials);
+        lowest = newCost;
     }
 }
 
-void HitFit::tryFree(const std::vector<Partial>& starts) {
-    PartialFit fit{rest(), rateHz_};
+void HitFit::tryFreePhases(const std::vector<Partial>& starts) {
+    PartialFit fit{afterOnset(), rateHz_};
     for (const Partial& p : starts) fit.add(p);
     fit.solveLinear();
     fit.refine();
-    const double cost = costOf(energyBeforeOnset() + fit.residualEnergy(), 4 * starts.size());
+    const double cost = modelCost(energyBeforeOnset() + fit.residualEnergy(), 4 * starts.size());
     if (!(cost < cost_)) return;
     cost_ = cost;
     fit_ = fit;
-    struck_.reset();
+    commonOnset_.reset();
 }
 
-void HitFit::tryStruck(const std::vector<Partial>& starts) {
-    StruckFit fit{samples_, rateHz_, onset_, starts};
+void HitFit::tryCommonOnset(const std::vector<Partial>& starts) {
+    CommonOnsetFit fit{samples_, rateHz_, onset_, starts};
     fit.refine();
-    const double cost = costOf(fit.residualEnergy(), 3 * starts.size());
+    const double cost = modelCost(fit.residualEnergy(), 3 * starts.size());
     if (!(cost < cost_)) return;
     cost_ = cost;
-    struck_ = std::move(fit);
+    commonOnset_ = std::move(fit);
 }
 
 // Partials that decay within two periods form one broad spectral peak, on which the search above fails.
 void HitFit::tryOtherStarts() {
     const std::vector<Partial> found = fit_.partials();
-    const auto longest = std::ranges::min(found, {}, &Partial::tau);
+    const auto slowestDecay = std::ranges::min(found, {}, &Partial::tau);
     const auto strongest =
         std::ranges::max(found, {}, [this](const Partial& p) { return p.spectralPeak(seconds()); });
-    if (strongest.omega > shortHit * strongest.tau) return;
-    for (const double lives : {2.0, 4.0})
+    if (strongest.omega > shortHitRatio * strongest.tau) return;
+    for (const double decayTimes : {2.0, 4.0})
         for (const std::size_t blocks : {16u, 48u})
-            for (std::size_t count = 1; count <= std::min<std::size_t>(4, most_); ++count) {
-                if (unexplainedEnergy() < cleanShare * energy_ && count >= partials().size()) break;
-                const auto length = std::min(rest().size(), samplesIn(lives / longest.tau, rateHz_));
+            for (std::size_t count = 1; count <= std::min<std::size_t>(4, maxPartials_); ++count) {
+                if (unexplainedEnergy() < roundingShare * energy_ && count >= partials().size()) break;
+                const auto length =
+                    std::min(afterOnset().size(), samplesIn(decayTimes / slowestDecay.tau, rateHz_));
                 std::vector<Partial> starts;
                 for (const PredictedPartial& p :
-                     predictPartials(rest().first(length), rateHz_, count, blocks))
+                     predictPartials(afterOnset().first(length), rateHz_, count, blocks))
                     starts.push_back({p.omega, p.tau, 0.0, 1.0});
                 if (starts.empty()) continue;
-                tryStruck(starts);
-                tryFree(starts);
+                tryCommonOnset(starts);
+                tryFreePhases(starts);
             }
 }
 
 // A sample x that the model m covers reduces the unexplained energy by 2 x m - m^2.
 bool HitFit::moveOnset() {
     const std::size_t reach = std::min(samples_.size() / 2, onset_ + samplesIn(onsetReachSeconds, rateHz_));
-    double gain = 0.0, most = 0.0;
+    double gain = 0.0, maxGain = 0.0;
     std::size_t best = reach;
     for (std::size_t i = reach; i-- > 0;) {
         double model = 0.0;
         for (const Partial& p : fit_.partials())
             model += p.at((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
         gain += model * (2.0 * samples_[i] - model);
-        if (gain > most) {
-            most = gain;
+        if (gain > maxGain) {
+            maxGain = gain;
             best = i;
         }
     }
     if (best == onset_) return false;
-    const double by = (static_cast<double>(best) - static_cast<double>(onset_)) / rateHz_;
+    const double shiftSeconds = (static_cast<double>(best) - static_cast<double>(onset_)) / rateHz_;
     std::vector<Partial> moved;
-    for (const Partial& p : fit_.partials()) moved.push_back(p.shifted(by));
+    for (const Partial& p : fit_.partials()) moved.push_back(p.shifted(shiftSeconds));
     restart(best, moved);
     return true;
 }
 
 void HitFit::restart(std::size_t onset, const std::vector<Partial>& partials) {
     onset_ = onset;
-    fit_ = PartialFit{rest(), rateHz_};
+    fit_ = PartialFit{afterOnset(), rateHz_};
     for (const Partial& p : partials) fit_.add(p);
 }
 
 // Least-squares fit of Eq. 5.1. Parameters in the order of the equations: the onset, then omega, tau and
 // amplitude of each partial.
 
-std::size_t StruckFit::firstOf(const State& state) const {
+std::size_t CommonOnsetFit::firstSampleOf(const State& state) const {
     return std::min(samples_.size(),
                     static_cast<std::size_t>(std::max(0.0, std::ceil(state.onset * rateHz_))));
 }
 
-std::vector<double> StruckFit::residual(const State& state) const {
-    std::vector<double> rest(samples_.begin(), samples_.end());
-    const std::size_t first = firstOf(state);
-    for (const StruckPartial& p : state.partials) {
+std::vector<double> CommonOnsetFit::residual(const State& state) const {
+    std::vector<double> residuals(samples_.begin(), samples_.end());
+    const std::size_t first = firstSampleOf(state);
+    for (const CommonOnsetPartial& p : state.partials) {
         DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - state.onset};
-        for (std::size_t i = first; i < rest.size(); ++i, phasor.next())
-            rest[i] -= p.amplitude * phasor.sine();
+        for (std::size_t i = first; i < residuals.size(); ++i, phasor.next())
+            residuals[i] -= p.amplitude * phasor.sine();
     }
-    return rest;
+    return residuals;
 }
 
-double StruckFit::energyOf(const State& state) const { return physvib::energyOf(residual(state)); }
+double CommonOnsetFit::energyOf(const State& state) const { return physvib::energyOf(residual(state)); }
 
-NormalEquations StruckFit::equationsOf(const State& state) const {
-    NormalEquations equations(1 + numbersEach * state.partials.size());
-    const std::vector<double> rest = residual(state);
-    const std::size_t first = firstOf(state);
+NormalEquations CommonOnsetFit::equationsOf(const State& state) const {
+    NormalEquations equations(1 + parametersPerPartial * state.partials.size());
+    const std::vector<double> residuals = residual(state);
+    const std::size_t first = firstSampleOf(state);
     const double begin = static_cast<double>(first) / rateHz_ - state.onset;
     std::vector<DecayingPhasor> phasors;
-    for (const StruckPartial& p : state.partials) phasors.emplace_back(p.omega, p.tau, rateHz_, begin);
+    for (const CommonOnsetPartial& p : state.partials) phasors.emplace_back(p.omega, p.tau, rateHz_, begin);
     std::vector<NormalEquations::Column> columns(equations.size());
-    for (std::size_t at = first; at < rest.size(); at += NormalEquations::block) {
-        const std::size_t count = std::min(NormalEquations::block, rest.size() - at);
+    for (std::size_t at = first; at < residuals.size(); at += NormalEquations::block) {
+        const std::size_t count = std::min(NormalEquations::block, residuals.size() - at);
         columns[0].fill(0.0);
         for (std::size_t k = 0; k < state.partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
-                const StruckPartial& p = state.partials[k];
+                const CommonOnsetPartial& p = state.partials[k];
                 const double t = begin + static_cast<double>(at - first + i) / rateHz_,
                              c = phasors[k].cosine(), s = phasors[k].sine();
                 columns[0][i] += p.amplitude * (p.tau * s - p.omega * c);
-                columns[1 + numbersEach * k][i] = t * p.amplitude * c;
-                columns[2 + numbersEach * k][i] = -t * p.amplitude * s;
-                columns[3 + numbersEach * k][i] = s;
+                columns[1 + parametersPerPartial * k][i] = t * p.amplitude * c;
+                columns[2 + parametersPerPartial * k][i] = -t * p.amplitude * s;
+                columns[3 + parametersPerPartial * k][i] = s;
             }
-        equations.add(columns, std::span(rest).subspan(at, count));
+        equations.add(columns, std::span(residuals).subspan(at, count));
     }
     return equations;
 }
 
-StruckFit::State StruckFit::solvedAt(double onset, State state) const {
+CommonOnsetFit::State CommonOnsetFit::solvedAt(double onset, State state) const {
     state.onset = onset;
-    for (StruckPartial& p : state.partials) p.amplitude = 0.0;
-    const auto amplitudes = equationsOf(state).each(numbersEach, numbersEach, 1).step(1e-12);
+    for (CommonOnsetPartial& p : state.partials) p.amplitude = 0.0;
+    const auto amplitudes =
+        equationsOf(state).subset(parametersPerPartial, parametersPerPartial, 1).step(1e-12);
     for (std::size_t k = 0; k < amplitudes.size(); ++k) state.partials[k].amplitude = amplitudes[k];
     return state;
 }
 
-StruckFit::State StruckFit::moved(const State& from, std::span<const double> step) const {
-    State to = from;
-    to.onset = std::clamp(from.onset + step[0], 0.0, 0.5 * static_cast<double>(samples_.size()) / rateHz_);
-    for (std::size_t k = 0; k < to.partials.size(); ++k) {
-        const auto by = step.subspan(1 + numbersEach * k, numbersEach);
-        StruckPartial& p = to.partials[k];
-        p = {PartialFit::allowedOmega(p.omega + by[0], rateHz_), PartialFit::allowedTau(p.tau + by[1]),
-             p.amplitude + by[2]};
+CommonOnsetFit::State CommonOnsetFit::stepped(const State& from, std::span<const double> step) const {
+    State moved = from;
+    moved.onset = std::clamp(from.onset + step[0], 0.0, 0.5 * static_cast<double>(samples_.size()) / rateHz_);
+    for (std::size_t k = 0; k < moved.partials.size(); ++k) {
+        const auto change = step.subspan(1 + parametersPerPartial * k, parametersPerPartial);
+        CommonOnsetPartial& p = moved.partials[k];
+        p = {PartialFit::clampedOmega(p.omega + change[0], rateHz_),
+             PartialFit::clampedTau(p.tau + change[1]), p.amplitude + change[2]};
     }
-    return to;
+    return moved;
 }
 
-// A partial is at rest where its phase is a multiple of pi: tries, for each, the one nearest to the guess.
-StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
-                     std::span<const Partial> partials)
+// A partial is at rest where its phase is a multiple of pi. For each partial, the nearest such time is tried.
+CommonOnsetFit::CommonOnsetFit(std::span<const double> samples, double rateHz, std::size_t onset,
+                               std::span<const Partial> partials)
     : samples_{samples}
     , rateHz_{rateHz} {
     for (const Partial& p : partials) state_.partials.push_back({p.omega, p.tau, 0.0});
-    const double guess = static_cast<double>(onset) / rateHz;
-    state_ = solvedAt(guess, state_);
-    double least = residualEnergy();
+    const double guessSeconds = static_cast<double>(onset) / rateHz;
+    state_ = solvedAt(guessSeconds, state_);
+    double lowest = residualEnergy();
     for (const Partial& p : partials) {
-        const double at = guess - std::remainder(std::atan2(p.cosine, p.sine), std::numbers::pi) / p.omega;
-        State trial = solvedAt(std::max(at, 0.0), state_);
-        if (const double energy = energyOf(trial); energy < least) {
-            least = energy;
+        const double restSeconds =
+            guessSeconds - std::remainder(std::atan2(p.cosine, p.sine), std::numbers::pi) / p.omega;
+        State trial = solvedAt(std::max(restSeconds, 0.0), state_);
+        if (const double energy = energyOf(trial); energy < lowest) {
+            lowest = energy;
             state_ = std::move(trial);
         }
     }
 }
 
-bool StruckFit::refine() {
-    return descend(
+bool CommonOnsetFit::refine() {
+    return minimise(
         state_, [this](const State& s) { return energyOf(s); },
         [this](const State& s) { return equationsOf(s); },
-        [this](const State& s, std::span<const double> step) { return moved(s, step); });
+        [this](const State& s, std::span<const double> step) { return stepped(s, step); });
 }
 
-std::vector<Partial> StruckFit::partials() const {
+std::vector<Partial> CommonOnsetFit::partials() const {
     std::vector<Partial> all;
-    for (const StruckPartial& p : state_.partials) all.push_back({p.omega, p.tau, 0.0, p.amplitude});
+    for (const CommonOnsetPartial& p : state_.partials) all.push_back({p.omega, p.tau, 0.0, p.amplitude});
     return all;
 }
 
-PartialError StruckFit::errorOf(std::size_t partial) const {
+PartialError CommonOnsetFit::errorOf(std::size_t partial) const {
     const NormalEquations equations = equationsOf(state_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(1 + numbersEach * partial, variance),
-            equations.errorOf(2 + numbersEach * partial, variance)};
+    return {equations.errorOf(1 + parametersPerPartial * partial, variance),
+            equations.errorOf(2 + parametersPerPartial * partial, variance)};
 }
 
 } // namespace physvib

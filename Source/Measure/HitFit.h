@@ -11,18 +11,19 @@ namespace physvib {
 
 /// A partial of Eq. 5.1 that begins with all others, at rest: amplitude sin(omega (t - onset)) exp(-tau (t -
 /// onset)) from the onset on; the amplitude may be negative.
-struct StruckPartial {
+struct CommonOnsetPartial {
     double omega = 0.0, tau = 0.0, amplitude = 0.0;
 };
 
 /// Samples x[i] at i / rateHz seconds; silence before the onset, which may lie between samples. One parameter
-/// fewer per partial than with free phases, so that overlapping partials can be separated. M only.
-class StruckFit {
+/// fewer per partial than with free phases, so that overlapping partials can be separated. Message thread (M)
+/// only.
+class CommonOnsetFit {
 public:
     /// `samples` must outlive the fit. The partials' phases and amplitudes only guide the search for the
     /// onset: time 0 is sample `onset`.
-    StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
-              std::span<const Partial> partials);
+    CommonOnsetFit(std::span<const double> samples, double rateHz, std::size_t onset,
+                   std::span<const Partial> partials);
 
     bool refine();
     double residualEnergy() const { return energyOf(state_); }
@@ -31,17 +32,17 @@ public:
     PartialError errorOf(std::size_t partial) const;
 
 private:
-    static constexpr std::size_t numbersEach = 3; ///< parameters of a partial
+    static constexpr std::size_t parametersPerPartial = 3; ///< parameters of a partial
     struct State {
         double onset = 0.0;
-        std::vector<StruckPartial> partials;
+        std::vector<CommonOnsetPartial> partials;
     };
     std::vector<double> residual(const State& state) const;
     double energyOf(const State& state) const;
     NormalEquations equationsOf(const State& state) const;
     State solvedAt(double onset, State state) const;
-    State moved(const State& state, std::span<const double> step) const;
-    std::size_t firstOf(const State& state) const;
+    State stepped(const State& state, std::span<const double> step) const;
+    std::size_t firstSampleOf(const State& state) const;
 
     std::span<const double> samples_;
     double rateHz_;
@@ -54,48 +55,50 @@ private:
 /// fewer parameters. Message thread (M) only.
 class HitFit {
 public:
-    static constexpr std::size_t usualPartials = 6;
-    /// `guess`: initial onset in `samples`; it moves by at most onsetReachSeconds per partial. `most`:
-    /// maximum number of partials.
-    HitFit(std::vector<double> samples, std::size_t guess, double rateHz, std::size_t most = usualPartials);
+    static constexpr std::size_t defaultPartials = 6;
+    /// `initialOnset`: an index of `samples`, which moves by at most onsetReachSeconds per partial.
+    HitFit(std::vector<double> samples, std::size_t initialOnset, double rateHz,
+           std::size_t maxPartials = defaultPartials);
     HitFit(const HitFit&) = delete; // the fits refer to the samples
     HitFit& operator=(const HitFit&) = delete;
 
-    /// time 0 is the onset
-    std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); }
-    /// Cramer-Rao bound for noise with the residual's density around the partial
+    /// Fitted partials; their time 0 is the onset.
+    std::vector<Partial> partials() const {
+        return commonOnset_ ? commonOnset_->partials() : fit_.partials();
+    }
+    /// Standard errors: Cramer-Rao bound for noise of the residual's density around the partial.
     PartialError errorOf(std::size_t partial) const;
     double onsetSeconds() const noexcept {
-        return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
+        return commonOnset_ ? commonOnset_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
     }
-    /// after the onset
+    /// Length after the onset.
     double seconds() const noexcept {
         return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds();
     }
     double energy() const noexcept { return energy_; }
     double unexplainedEnergy() const {
-        return struck_ ? struck_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy();
+        return commonOnset_ ? commonOnset_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy();
     }
 
 private:
     void addPartials();
     void tryOtherStarts();
-    void tryFree(const std::vector<Partial>& starts);
-    void tryStruck(const std::vector<Partial>& starts);
+    void tryFreePhases(const std::vector<Partial>& starts);
+    void tryCommonOnset(const std::vector<Partial>& starts);
     bool moveOnset();
     void restart(std::size_t onset, const std::vector<Partial>& partials);
     double energyBeforeOnset() const;
-    double noiseAbout(const Partial& partial) const;
-    double costOf(double unexplained, std::size_t numbers) const;
-    std::span<const double> rest() const { return std::span(samples_).subspan(onset_); }
+    double noiseDensityAround(const Partial& partial) const;
+    double modelCost(double unexplained, std::size_t parameterCount) const;
+    std::span<const double> afterOnset() const { return std::span(samples_).subspan(onset_); }
 
     std::vector<double> samples_;
     std::size_t onset_;
     double rateHz_;
-    std::size_t most_;
+    std::size_t maxPartials_;
     double energy_;
     PartialFit fit_;
-    std::optional<StruckFit> struck_; ///< set if Eq. 5.1 fits better
+    std::optional<CommonOnsetFit> commonOnset_; ///< set if Eq. 5.1 fits better
     double cost_ = 0.0;
 };
 

@@ -16,7 +16,7 @@ struct ExtractionBand {
     double lowHz = 20.0, highHz = 1000.0; ///< tactile range
 };
 
-/// A further partial of it; `amplitude`: relative to the material's own.
+/// A partial beside the material's own; `amplitude` is relative to that.
 struct FurtherPartial {
     double frequencyHz = 0.0, decayPerSecond = 0.0, amplitude = 0.0;
 };
@@ -25,12 +25,13 @@ struct FurtherPartial {
 struct ContactSound {
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
-    std::vector<FurtherPartial> others; ///< in the band, the highest spectral peak first; none with twoPeaks
+    std::vector<FurtherPartial> furtherPartials; ///< in the band, the highest spectral peak first; none with
+                                                 ///< twoPeaks
     /// standard errors (HitFit::errorOf); 0 with twoPeaks
     double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0;
-    double residualShare = 0.0; ///< share of the impact's energy that the fitted partials do not explain
-    double ownShare = 0.0;      ///< share of the impact's energy that this partial explains
-    int partials = 0;           ///< number found, in the band or not
+    double residualShare = 0.0;  ///< share of the impact's energy that the fitted partials do not explain
+    double explainedShare = 0.0; ///< share of the impact's energy that this partial explains
+    int partialCount = 0;        ///< number found, in the band or not
     double beginSeconds = 0.0, lengthSeconds = 0.0; ///< the excerpt
     /// errors within 0.5 % and 5 %, and most of the impact is explained
     bool isConfident() const noexcept {

@@ -36,51 +36,51 @@ Eigen::Map<Eigen::VectorXd> vectorOf(std::vector<double>& numbers) {
 
 NormalEquations::NormalEquations(std::size_t size)
     : matrix_(size * size)
-    , right_(size) {}
+    , rightSide_(size) {}
 
-void NormalEquations::add(const std::vector<Column>& columns, std::span<const double> rest) {
-    const Rows derivatives(columns.front().data(), index(rest.size()), index(size()),
+void NormalEquations::add(const std::vector<Column>& columns, std::span<const double> residuals) {
+    const Rows derivatives(columns.front().data(), index(residuals.size()), index(size()),
                            Eigen::OuterStride<>(index(block)));
     Eigen::Map<Matrix> matrix(matrix_.data(), index(size()), index(size()));
     matrix.triangularView<Eigen::Lower>() += derivatives.transpose() * derivatives;
-    vectorOf(right_) +=
-        derivatives.transpose() * Eigen::Map<const Eigen::VectorXd>(rest.data(), index(rest.size()));
+    vectorOf(rightSide_) += derivatives.transpose() *
+                            Eigen::Map<const Eigen::VectorXd>(residuals.data(), index(residuals.size()));
 }
 
 std::vector<double> NormalEquations::step(double lambda) const {
     Matrix damped = square(matrix_, size());
     damped.diagonal() *= 1.0 + lambda;
-    std::vector<double> b = right_;
+    std::vector<double> b = rightSide_;
     return solve(damped, vectorOf(b)) ? b : std::vector<double>{};
 }
 
-NormalEquations NormalEquations::each(std::size_t first, std::size_t stride, std::size_t width) const {
-    std::vector<std::size_t> kept;
+NormalEquations NormalEquations::subset(std::size_t first, std::size_t stride, std::size_t width) const {
+    std::vector<std::size_t> indices;
     for (std::size_t at = first; at < size(); at += stride)
-        for (std::size_t i = 0; i < width; ++i) kept.push_back(at + i);
-    NormalEquations part(kept.size());
-    for (std::size_t a = 0; a < kept.size(); ++a) {
+        for (std::size_t i = 0; i < width; ++i) indices.push_back(at + i);
+    NormalEquations part(indices.size());
+    for (std::size_t a = 0; a < indices.size(); ++a) {
         for (std::size_t b = 0; b <= a; ++b)
-            part.matrix_[a * kept.size() + b] = matrix_[kept[a] * size() + kept[b]];
-        part.right_[a] = right_[kept[a]];
+            part.matrix_[a * indices.size() + b] = matrix_[indices[a] * size() + indices[b]];
+        part.rightSide_[a] = rightSide_[indices[a]];
     }
     return part;
 }
 
-double NormalEquations::errorOf(std::size_t number, double variance) const {
+double NormalEquations::errorOf(std::size_t parameter, double variance) const {
     std::vector<double> unit(size());
-    unit[number] = 1.0;
-    return solve(square(matrix_, size()), vectorOf(unit)) ? std::sqrt(variance * unit[number]) : HUGE_VAL;
+    unit[parameter] = 1.0;
+    return solve(square(matrix_, size()), vectorOf(unit)) ? std::sqrt(variance * unit[parameter]) : HUGE_VAL;
 }
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double lowestHz = 10.0;                   // lower frequencies are drift, not vibration
-constexpr double leastTau = 0.01, mostTau = 5000.0; // bounds: hum, click
+constexpr double minHz = 10.0;                   // lower frequencies are drift, not vibration
+constexpr double minTau = 0.01, maxTau = 5000.0; // bounds: hum, click
 
 /// Parameters per partial, in the order of the equations.
-constexpr std::size_t numbersEach = 4;
+constexpr std::size_t parametersPerPartial = 4;
 
 void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
     DecayingPhasor phasor{p.omega, p.tau, rateHz};
@@ -92,7 +92,7 @@ void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
 
 /// Sets the best amplitudes at p's frequency and decay; returns the energy that this removes.
 double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& p) {
-    const Complex<double> point = pointOfSpectrum(samples, rateHz, p.omega, p.tau);
+    const Complex<double> point = spectrumValue(samples, rateHz, p.omega, p.tau);
     double cc = 0.0, ss = 0.0, cs = 0.0;
     DecayingPhasor phasor{p.omega, p.tau, rateHz};
     for (std::size_t i = 0; i < samples.size(); ++i, phasor.next()) {
@@ -114,49 +114,49 @@ PartialFit::PartialFit(std::span<const double> samples, double rateHz)
     , rateHz_{rateHz} {}
 
 NormalEquations PartialFit::equationsOf(const std::vector<Partial>& partials) const {
-    NormalEquations equations(numbersEach * partials.size());
-    const std::vector<double> rest = residualOf(partials);
+    NormalEquations equations(parametersPerPartial * partials.size());
+    const std::vector<double> residuals = residualOf(partials);
     std::vector<DecayingPhasor> phasors;
     for (const Partial& p : partials) phasors.emplace_back(p.omega, p.tau, rateHz_);
     std::vector<NormalEquations::Column> columns(equations.size());
-    for (std::size_t first = 0; first < rest.size(); first += NormalEquations::block) {
-        const std::size_t count = std::min(NormalEquations::block, rest.size() - first);
+    for (std::size_t first = 0; first < residuals.size(); first += NormalEquations::block) {
+        const std::size_t count = std::min(NormalEquations::block, residuals.size() - first);
         for (std::size_t k = 0; k < partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
                 const Partial& p = partials[k];
                 const double t = static_cast<double>(first + i) / rateHz_, c = phasors[k].cosine(),
                              s = phasors[k].sine();
-                columns[numbersEach * k][i] = c;
-                columns[numbersEach * k + 1][i] = s;
-                columns[numbersEach * k + 2][i] = t * (p.sine * c - p.cosine * s);
-                columns[numbersEach * k + 3][i] = -t * (p.cosine * c + p.sine * s);
+                columns[parametersPerPartial * k][i] = c;
+                columns[parametersPerPartial * k + 1][i] = s;
+                columns[parametersPerPartial * k + 2][i] = t * (p.sine * c - p.cosine * s);
+                columns[parametersPerPartial * k + 3][i] = -t * (p.cosine * c + p.sine * s);
             }
-        equations.add(columns, std::span(rest).subspan(first, count));
+        equations.add(columns, std::span(residuals).subspan(first, count));
     }
     return equations;
 }
 
 std::vector<double> PartialFit::residualOf(const std::vector<Partial>& partials) const {
-    std::vector<double> rest(samples_.begin(), samples_.end());
-    for (const Partial& p : partials) subtract(rest, p, rateHz_);
-    return rest;
+    std::vector<double> residuals(samples_.begin(), samples_.end());
+    for (const Partial& p : partials) subtract(residuals, p, rateHz_);
+    return residuals;
 }
 
-double PartialFit::energyWith(const std::vector<Partial>& partials) const {
+double PartialFit::residualEnergyOf(const std::vector<Partial>& partials) const {
     return energyOf(residualOf(partials));
 }
 
 // The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2, below its frequency.
-void PartialFit::addHighest() {
-    const std::vector<double> rest = residualOf(partials_);
-    const double peak = 2.0 * pi * highestPeakHz(rest, rateHz_, lowestHz, 0.5 * rateHz_);
+void PartialFit::addHighestPeak() {
+    const std::vector<double> residuals = residualOf(partials_);
+    const double peak = 2.0 * pi * highestPeakHz(residuals, rateHz_, minHz, 0.5 * rateHz_);
     Partial best;
-    double most = -1.0;
+    double maxRemoved = -1.0;
     for (double tau = 2.0; tau < 2000.0; tau *= 1.6)
         for (const double omega : {peak, std::hypot(peak, tau)}) {
             Partial p{std::min(omega, pi * rateHz_), tau, 0.0, 0.0};
-            if (const double taken = solveAmplitudes(rest, rateHz_, p); taken > most) {
-                most = taken;
+            if (const double removed = solveAmplitudes(residuals, rateHz_, p); removed > maxRemoved) {
+                maxRemoved = removed;
                 best = p;
             }
         }
@@ -165,37 +165,38 @@ void PartialFit::addHighest() {
 
 void PartialFit::solveLinear() {
     for (Partial& p : partials_) p.cosine = p.sine = 0.0;
-    const std::vector<double> amplitudes = equationsOf(partials_).each(0, numbersEach, 2).step(1e-12);
+    const std::vector<double> amplitudes =
+        equationsOf(partials_).subset(0, parametersPerPartial, 2).step(1e-12);
     for (std::size_t k = 0; k < partials_.size() && !amplitudes.empty(); ++k)
         partials_[k].cosine = amplitudes[2 * k], partials_[k].sine = amplitudes[2 * k + 1];
 }
 
-double PartialFit::allowedOmega(double omega, double rateHz) noexcept {
-    return std::clamp(omega, 2.0 * pi * lowestHz, pi * rateHz);
+double PartialFit::clampedOmega(double omega, double rateHz) noexcept {
+    return std::clamp(omega, 2.0 * pi * minHz, pi * rateHz);
 }
-double PartialFit::allowedTau(double tau) noexcept { return std::clamp(tau, leastTau, mostTau); }
+double PartialFit::clampedTau(double tau) noexcept { return std::clamp(tau, minTau, maxTau); }
 
 bool PartialFit::refine() {
-    const auto moved = [this](std::vector<Partial> partials, const std::vector<double>& step) {
+    const auto stepped = [this](std::vector<Partial> partials, const std::vector<double>& step) {
         for (std::size_t k = 0; k < partials.size(); ++k) {
-            const double* const by = &step[numbersEach * k];
+            const double* const change = &step[parametersPerPartial * k];
             Partial& p = partials[k];
-            p = {allowedOmega(p.omega + by[2], rateHz_), allowedTau(p.tau + by[3]), p.cosine + by[0],
-                 p.sine + by[1]};
+            p = {clampedOmega(p.omega + change[2], rateHz_), clampedTau(p.tau + change[3]),
+                 p.cosine + change[0], p.sine + change[1]};
         }
         return partials;
     };
-    return descend(
-        partials_, [this](const auto& partials) { return energyWith(partials); },
-        [this](const auto& partials) { return equationsOf(partials); }, moved);
+    return minimise(
+        partials_, [this](const auto& partials) { return residualEnergyOf(partials); },
+        [this](const auto& partials) { return equationsOf(partials); }, stepped);
 }
 
 PartialError PartialFit::errorOf(std::size_t partial) const {
     const NormalEquations equations = equationsOf(partials_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(numbersEach * partial + 2, variance),
-            equations.errorOf(numbersEach * partial + 3, variance)};
+    return {equations.errorOf(parametersPerPartial * partial + 2, variance),
+            equations.errorOf(parametersPerPartial * partial + 3, variance)};
 }
 
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz) {
@@ -205,16 +206,17 @@ double highestPeakHz(std::span<const double> samples, double rateHz, double lowH
         return std::clamp<std::ptrdiff_t>(std::lround(hz / binHz), 1,
                                           static_cast<std::ptrdiff_t>(all.size()) - 2);
     };
-    const auto highest =
+    const auto highestBin =
         std::max_element(all.begin() + bin(lowHz), all.begin() + bin(highHz) + 1) - all.begin();
-    double low = static_cast<double>(highest - 1) * binHz, high = static_cast<double>(highest + 1) * binHz;
-    const auto height = [&](double hz) {
-        const auto point = pointOfSpectrum(samples, rateHz, 2.0 * pi * hz, 0.0);
+    double low = static_cast<double>(highestBin - 1) * binHz,
+           high = static_cast<double>(highestBin + 1) * binHz;
+    const auto magnitudeAt = [&](double hz) {
+        const auto point = spectrumValue(samples, rateHz, 2.0 * pi * hz, 0.0);
         return std::hypot(point.re, point.im);
     };
     while (high - low > 1e-3 * binHz) { // ternary search between the neighbours of the highest bin
         const double third = (high - low) / 3.0;
-        if (height(low + third) < height(high - third))
+        if (magnitudeAt(low + third) < magnitudeAt(high - third))
             low += third;
         else
             high -= third;

@@ -10,8 +10,8 @@
 
 namespace physvib {
 
-/// Damped nonlinear least squares (Levenberg 1944, Marquardt 1963), shared by the fits to samples. J^T J and
-/// J^T r of a model's derivatives J and the residual r. Message thread (M) only (allocates).
+/// Equations of damped nonlinear least squares (Levenberg 1944, Marquardt 1963): the sums J^T J and J^T r of
+/// a model's derivatives J and its residual r over the samples. Message thread (M) only (allocates).
 class NormalEquations {
 public:
     static constexpr std::size_t block = 256; ///< rows per call, contiguous in memory for fast products
@@ -19,48 +19,50 @@ public:
 
     explicit NormalEquations(std::size_t size);
 
-    /// Adds as many rows as `rest` has, at most `block`: the residual, and its derivative by each parameter.
-    void add(const std::vector<Column>& columns, std::span<const double> rest);
+    /// Adds as many rows as `residuals` has, at most `block`: the residual, and its derivative by each
+    /// parameter.
+    void add(const std::vector<Column>& columns, std::span<const double> residuals);
 
     /// The step with damping `lambda`; empty if the equations are singular.
     std::vector<double> step(double lambda) const;
 
     /// The equations of only the parameters `first`, `first + stride`, ... (`width` of each): those in which
     /// the model is linear.
-    NormalEquations each(std::size_t first, std::size_t stride, std::size_t width) const;
+    NormalEquations subset(std::size_t first, std::size_t stride, std::size_t width) const;
 
     /// Standard error of a parameter under white noise of `variance` (Cramer-Rao bound); infinite if it is
     /// undetermined.
-    double errorOf(std::size_t number, double variance) const;
+    double errorOf(std::size_t parameter, double variance) const;
 
-    std::size_t size() const noexcept { return right_.size(); }
+    std::size_t size() const noexcept { return rightSide_.size(); }
 
 private:
-    std::vector<double> matrix_, right_; // row by row; only the lower triangle is used
+    std::vector<double> matrix_, rightSide_; // row by row; only the lower triangle is used
 };
 
 /// Improves `model` until the energy no longer falls; false if no step lowered it. `energyOf(model)` is
-/// minimised, `equationsOf(model)` returns its NormalEquations, `moved(model, step)` the model after a step.
-template <class Model, class Energy, class Equations, class Move>
-bool descend(Model& model, Energy energyOf, Equations equationsOf, Move moved) {
-    constexpr int mostSteps = 40;
-    constexpr double enough = 1e-12; // relative gain of a step that ends the search
+/// minimised, `equationsOf(model)` returns its NormalEquations, `stepped(model, step)` the model after a
+/// step.
+template <class Model, class Energy, class Equations, class Step>
+bool minimise(Model& model, Energy energyOf, Equations equationsOf, Step stepped) {
+    constexpr int maxSteps = 40;
+    constexpr double minRelativeGain = 1e-12; // relative gain of a step that ends the search
     double energy = energyOf(model), lambda = 1e-3;
     NormalEquations equations = equationsOf(model);
     bool hasMoved = false;
-    for (int i = 0; i < mostSteps && lambda < 1e9; ++i) {
+    for (int i = 0; i < maxSteps && lambda < 1e9; ++i) {
         const std::vector<double> step = equations.step(lambda);
-        Model trial = step.empty() ? model : moved(model, step);
-        const double found = step.empty() ? energy : energyOf(trial);
-        if (!(found < energy)) {
+        Model trial = step.empty() ? model : stepped(model, step);
+        const double newEnergy = step.empty() ? energy : energyOf(trial);
+        if (!(newEnergy < energy)) {
             lambda *= 10.0;
             continue;
         }
-        const bool isEnough = energy - found < enough * energy;
+        const bool hasConverged = energy - newEnergy < minRelativeGain * energy;
         model = std::move(trial);
-        energy = found;
+        energy = newEnergy;
         hasMoved = true;
-        if (isEnough) break;
+        if (hasConverged) break;
         lambda *= 0.1;
         equations = equationsOf(model);
     }
@@ -103,7 +105,7 @@ public:
 
     /// Adds a partial at the highest spectral peak of the residual, with the decay that removes most energy;
     /// without refinement.
-    void addHighest();
+    void addHighestPeak();
 
     /// Adds a partial as a start value.
     void add(const Partial& partial) { partials_.push_back(partial); }
@@ -115,16 +117,16 @@ public:
     bool refine();
 
     const std::vector<Partial>& partials() const noexcept { return partials_; }
-    double residualEnergy() const { return energyWith(partials_); }
+    double residualEnergy() const { return residualEnergyOf(partials_); }
     PartialError errorOf(std::size_t partial) const;
 
-    static double allowedOmega(double omega, double rateHz) noexcept; ///< limited to what a fit may use
-    static double allowedTau(double tau) noexcept;
+    static double clampedOmega(double omega, double rateHz) noexcept; ///< limited to what a fit may use
+    static double clampedTau(double tau) noexcept;
 
 private:
     NormalEquations equationsOf(const std::vector<Partial>& partials) const;
     std::vector<double> residualOf(const std::vector<Partial>& partials) const;
-    double energyWith(const std::vector<Partial>& partials) const;
+    double residualEnergyOf(const std::vector<Partial>& partials) const;
 
     std::span<const double> samples_;
     double rateHz_;
@@ -142,17 +144,17 @@ public:
     /// The first sample lies at `seconds`.
     DecayingPhasor(double omega, double tau, double rateHz, double seconds = 0.0)
         : turn_{at(omega, tau, 1.0 / rateHz)}
-        , now_{at(omega, tau, seconds)} {}
-    double cosine() const noexcept { return now_.re; }
-    double sine() const noexcept { return now_.im; }
-    void next() noexcept { now_ = now_ * turn_; }
+        , current_{at(omega, tau, seconds)} {}
+    double cosine() const noexcept { return current_.re; }
+    double sine() const noexcept { return current_.im; }
+    void next() noexcept { current_ = current_ * turn_; }
 
 private:
     static Complex<double> at(double omega, double tau, double seconds) {
         const double decay = std::exp(-tau * seconds);
         return {decay * std::cos(omega * seconds), decay * std::sin(omega * seconds)};
     }
-    Complex<double> turn_, now_;
+    Complex<double> turn_, current_;
 };
 
 } // namespace physvib

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, double omega, double tau) {
+Complex<double> spectrumValue(std::span<const double> samples, double rateHz, double omega, double tau) {
     const double factor = std::exp(-tau / rateHz);
     const Complex<double> turn{factor * std::cos(omega / rateHz), -factor * std::sin(omega / rateHz)};
     Complex<double> sum, phasor{1.0, 0.0};

@@ -15,12 +15,12 @@
 namespace physvib {
 namespace {
 
-// Removes the material's resonance from the recording of a scrape, so that one pulse per grain remains.
-// Smoothing by a cos^4 kernel and its derivatives; the resonance by weighted least squares with past values
-// as instrumental variables.
+// Removes the material's resonance from the recording of a scrape, so that one pulse per grain remains. A
+// cos^4 kernel and its derivatives smooth the samples; weighted least squares with past values as
+// instrumental variables estimate the resonance.
 
-/// A grain that excites A exp(-tau t) sin(omega t) gives a pulse of height A, with the shape of the smoothing
-/// kernel.
+/// Pulses of a scrape. A grain that excites A exp(-tau t) sin(omega t) gives a pulse of height A, with the
+/// shape of the smoothing kernel.
 struct ScrapePulses {
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the resonance
     std::vector<double> heights;                    ///< positive at grains, 0 between them
@@ -28,7 +28,7 @@ struct ScrapePulses {
     double skewness = 0.0; ///< of the heights: that of noise is 0
 };
 
-constexpr std::size_t fewestSamples = 4; // half width below which derivatives are inaccurate
+constexpr std::size_t minReachSamples = 4; // half width below which derivatives are inaccurate
 
 /// cos^4 kernel of area 1 over 2 reach + 1 samples, and its first two derivatives in time.
 struct Smoothing {
@@ -71,12 +71,13 @@ Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) {
 /// Finds c = {2 tau, omega^2 + tau^2, minus the mean of the excitation} such that bend + c[0] slope + c[1]
 /// value + c[2] is small most of the time. Noise in the regressors would make the decay look faster; values
 /// `lag` earlier have independent noise and do not depend on later impacts.
-std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const std::vector<double>& slope,
-                                       const std::vector<double>& bend, Eigen::Index lag) {
+std::optional<Eigen::Vector3d> fitResonance(const std::vector<double>& value,
+                                            const std::vector<double>& slope, const std::vector<double>& bend,
+                                            Eigen::Index lag) {
     constexpr int rounds = 20;
-    constexpr double least = 0.02; // of the rms: limits the weight of small residuals
+    constexpr double minResidualShare = 0.02; // of the rms: limits the weight of small residuals
     const Eigen::Index rows = static_cast<Eigen::Index>(value.size()) - lag;
-    if (rows < 100) return std::nullopt;
+    if (rows < 100) return std::nullopt; // too few for three coefficients
     Eigen::MatrixX3d all(rows + lag, 3);
     all << mapped(slope), mapped(value), Eigen::ArrayXd::Ones(rows + lag);
     Eigen::RowVector3d scale = (all.colwise().squaredNorm() / static_cast<double>(rows)).cwiseSqrt();
@@ -88,16 +89,16 @@ std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const s
     for (int round = 0; round < rounds; ++round) {
         const Eigen::Matrix3Xd past = (all.topRows(rows).array().colwise() * weights).matrix().transpose();
         found = (past * all.bottomRows(rows)).fullPivLu().solve(past * target);
-        const Eigen::ArrayXd left = (target - all.bottomRows(rows) * found).array().abs();
-        weights = 1.0 / left.max(least * std::sqrt(left.square().mean()));
+        const Eigen::ArrayXd residuals = (target - all.bottomRows(rows) * found).array().abs();
+        weights = 1.0 / residuals.max(minResidualShare * std::sqrt(residuals.square().mean()));
         if (!weights.allFinite()) return std::nullopt;
     }
     return (found.array() / scale.transpose().array()).matrix();
 }
 
 double skewnessOf(const std::vector<double>& x) {
-    const auto from = mapped(x) - mapped(x).mean();
-    return from.cube().mean() / std::pow(from.square().mean(), 1.5);
+    const auto deviations = mapped(x) - mapped(x).mean();
+    return deviations.cube().mean() / std::pow(deviations.square().mean(), 1.5);
 }
 
 /// Smooths `samples` over halfWidthSeconds to both sides. x'' + 2 tau x' + (omega^2 + tau^2) x is the
@@ -106,24 +107,26 @@ double skewnessOf(const std::vector<double>& x) {
 std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz,
                                          double halfWidthSeconds) {
     const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
-    if (reach < fewestSamples || samples.size() < 100 * reach) return std::nullopt;
+    if (reach < minReachSamples || samples.size() < 100 * reach) return std::nullopt;
     const Smoothing smoothing{reach, rateHz};
     const std::size_t step = std::max<std::size_t>(1, reach / 8);
     const auto value = convolved(samples, smoothing.value, step),
                slope = convolved(samples, smoothing.slope, step),
                bend = convolved(samples, smoothing.bend, step);
-    const auto found = ringing(value, slope, bend, static_cast<Eigen::Index>(2 * reach / step + 2));
-    if (!found) return std::nullopt;
-    const double tau = 0.5 * (*found)[0], omega2 = (*found)[1] - tau * tau;
+    const auto coefficients =
+        fitResonance(value, slope, bend, static_cast<Eigen::Index>(2 * reach / step + 2));
+    if (!coefficients) return std::nullopt;
+    const double tau = 0.5 * (*coefficients)[0], omega2 = (*coefficients)[1] - tau * tau;
     if (!(tau > 0.0) || !(omega2 > tau * tau)) return std::nullopt;
     ScrapePulses pulses;
     pulses.frequencyHz = std::sqrt(omega2) / (2.0 * std::numbers::pi);
     pulses.decayPerSecond = tau;
     pulses.heightsPerSecond = rateHz / static_cast<double>(step);
-    const double highest = smoothing.value[reach] * rateHz * std::sqrt(omega2);
+    const double unitHeight = smoothing.value[reach] * rateHz * std::sqrt(omega2);
     for (std::size_t n = 0; n < value.size(); ++n)
-        pulses.heights.push_back((bend[n] + (*found)[0] * slope[n] + (*found)[1] * value[n] + (*found)[2]) /
-                                 highest);
+        pulses.heights.push_back(
+            (bend[n] + (*coefficients)[0] * slope[n] + (*coefficients)[1] * value[n] + (*coefficients)[2]) /
+            unitHeight);
     pulses.skewness = skewnessOf(pulses.heights);
     if (pulses.skewness < 0.0) { // recorded with inverted polarity
         for (double& height : pulses.heights) height = -height;
@@ -135,7 +138,7 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
 /// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits. M only.
 std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
     const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
-    return convolved(samples, Smoothing{std::max(reach, fewestSamples), rateHz}.slope, 1);
+    return convolved(samples, Smoothing{std::max(reach, minReachSamples), rateHz}.slope, 1);
 }
 
 /// Estimates from the pulses of a scrape.
@@ -145,7 +148,7 @@ struct GrainTrain {
     double unevenness = 0.0; ///< standard deviation of the spacings, in spacings: ridges 0, at random 0.37
     double lostShare = 0.0;  ///< estimated share of grains that were missed, too weak for the noise or too
                              ///< close to another. perSecond and strength are corrected for them
-    std::size_t counted = 0;
+    std::size_t grainCount = 0;
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the material's vibration
 
     /// Any thread. A value in between is neither, and unreliable.
@@ -153,12 +156,12 @@ struct GrainTrain {
     bool isRandom() const noexcept { return unevenness >= 0.3; }
 };
 
-constexpr double narrowestSeconds = 0.000125, widestSeconds = 0.012;
-constexpr double leastSkewness = 1.2;
-constexpr std::size_t fewestGrains = 20;
-constexpr double mostLost = 0.3;
-constexpr double mostSpread = 0.8; // coefficient of variation of heights: random grains have 0.46, ringing of
-                                   // another partial above 1
+constexpr double minHalfWidthSeconds = 0.000125, maxHalfWidthSeconds = 0.012;
+constexpr double minSkewness = 1.2;
+constexpr std::size_t minGrains = 20;
+constexpr double maxLostShare = 0.3;
+constexpr double maxHeightSpread = 0.8; // coefficient of variation of heights: random grains have 0.46,
+                                        // ringing of another partial above 1
 
 /// RMS of the negative values: noise is symmetric, pulses are positive.
 double noiseOf(std::span<const double> x) {
@@ -168,29 +171,30 @@ double noiseOf(std::span<const double> x) {
     return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-struct Standing {
+struct ProminentPeaks {
     std::vector<Peak> peaks; ///< peaks above the threshold
     double threshold, mean;  ///< mean: estimated height of all grains, including those below the threshold
 };
 
-/// For uniformly distributed heights the mean above the threshold is (mean x most + threshold) / 2.
-Standing standingOut(const std::vector<Peak>& peaks, double noise) {
-    constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0,
-                     leastShare = 0.12;
-    Standing out{{}, sure * noise, 0.0};
+/// For uniformly distributed heights the mean above the threshold is (mean x maxStrength + threshold) / 2.
+ProminentPeaks prominentPeaks(const std::vector<Peak>& peaks, double noise) {
+    constexpr double maxStrength = GrainChance::minStrength + GrainChance::strengthRange, noiseFactor = 5.0,
+                     minShare = 0.12;
+    ProminentPeaks prominent{{}, noiseFactor * noise, 0.0};
     for (int round = 0; round < 10; ++round) {
-        out.peaks.clear();
+        prominent.peaks.clear();
         double sum = 0.0;
         for (const Peak& peak : peaks)
-            if (peak.height > out.threshold) sum += peak.height, out.peaks.push_back(peak);
-        if (out.peaks.size() < fewestGrains) break;
-        const double seen = sum / static_cast<double>(out.peaks.size());
-        out.mean = out.threshold > GrainChance::leastStrength * seen
-                       ? std::max(0.3 * seen, (2.0 * seen - out.threshold) / most)
-                       : seen;
-        out.threshold = std::max(sure * noise, leastShare * out.mean);
+            if (peak.height > prominent.threshold) sum += peak.height, prominent.peaks.push_back(peak);
+        if (prominent.peaks.size() < minGrains) break;
+        const double meanAbove = sum / static_cast<double>(prominent.peaks.size());
+        prominent.mean =
+            prominent.threshold > GrainChance::minStrength * meanAbove
+                ? std::max(0.3 * meanAbove, (2.0 * meanAbove - prominent.threshold) / maxStrength)
+                : meanAbove;
+        prominent.threshold = std::max(noiseFactor * noise, minShare * prominent.mean);
     }
-    return out;
+    return prominent;
 }
 
 double spreadOf(const std::vector<Peak>& peaks) {
@@ -201,13 +205,13 @@ double spreadOf(const std::vector<Peak>& peaks) {
 
 /// Spacings of consecutive peaks, without pauses, which are longer than random spacings.
 std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
-    constexpr double pause = 4.0; // medians
+    constexpr double pauseMedians = 4.0; // medians
     std::vector<double> gaps;
-    for (std::size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i].at - peaks[i - 1].at);
+    for (std::size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i].position - peaks[i - 1].position);
     std::vector<double> sorted = gaps;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    std::erase_if(gaps, [longest = pause * *middle](double gap) { return gap > longest; });
+    std::erase_if(gaps, [maxGap = pauseMedians * *middle](double gap) { return gap > maxGap; });
     return gaps;
 }
 
@@ -224,35 +228,40 @@ double unevennessOf(const std::vector<double>& gaps) {
 
 /// Share of random grains that follow the one before at less than this, in spacings: a difference of two
 /// uniform distributions.
-double nearerThan(double spacings) {
+double shareCloserThan(double spacings) {
     constexpr double range = GrainChance::spacingRange;
     return std::pow(std::max(0.0, spacings - (1.0 - range)) / range, 2.0) / 2.0;
 }
 
-std::optional<GrainTrain> countedAt(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
+std::optional<GrainTrain> grainTrainAt(std::span<const double> samples, double rateHz,
+                                       double halfWidthSeconds) {
     const auto pulses = scrapePulses(samples, rateHz, halfWidthSeconds);
-    if (!pulses || !(pulses->skewness >= leastSkewness)) return std::nullopt;
-    const Standing out = standingOut(peaksOf(pulses->heights), noiseOf(pulses->heights));
-    if (out.peaks.size() < fewestGrains || spreadOf(out.peaks) > mostSpread) return std::nullopt;
+    if (!pulses || !(pulses->skewness >= minSkewness)) return std::nullopt;
+    const ProminentPeaks prominent = prominentPeaks(peaksOf(pulses->heights), noiseOf(pulses->heights));
+    if (prominent.peaks.size() < minGrains || spreadOf(prominent.peaks) > maxHeightSpread)
+        return std::nullopt;
     GrainTrain train;
     train.frequencyHz = pulses->frequencyHz;
     train.decayPerSecond = pulses->decayPerSecond;
-    train.counted = out.peaks.size();
-    const std::vector<double> gaps = gapsOf(out.peaks);
+    train.grainCount = prominent.peaks.size();
+    const std::vector<double> gaps = gapsOf(prominent.peaks);
     train.perSecond = pulses->heightsPerSecond / meanOf(gaps);
     train.unevenness = unevennessOf(gaps);
-    const double weak = std::clamp(
-        (out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
-    constexpr double apart = 0.75; // of the half width: closer pulses merge
-    const double near = nearerThan(apart * halfWidthSeconds * train.perSecond / (1.0 - weak));
-    train.lostShare = weak + near;
+    const double weakShare = std::clamp((prominent.threshold / prominent.mean - GrainChance::minStrength) /
+                                            GrainChance::strengthRange,
+                                        0.0, 0.95);
+    constexpr double mergeWidths = 0.75; // of the half width: closer pulses merge
+    const double mergedShare =
+        shareCloserThan(mergeWidths * halfWidthSeconds * train.perSecond / (1.0 - weakShare));
+    train.lostShare = weakShare + mergedShare;
     if (train.isEven()) { // ridges: all alike, and none close to another
         train.strength = 0.0;
-        for (const Peak& peak : out.peaks) train.strength += peak.height / static_cast<double>(train.counted);
+        for (const Peak& peak : prominent.peaks)
+            train.strength += peak.height / static_cast<double>(train.grainCount);
         return train;
     }
-    train.strength = out.mean;
-    train.perSecond *= (1.0 + near) / (1.0 - weak);
+    train.strength = prominent.mean;
+    train.perSecond *= (1.0 + mergedShare) / (1.0 - weakShare);
     return train;
 }
 
@@ -260,21 +269,20 @@ std::optional<GrainTrain> countedAt(std::span<const double> samples, double rate
 /// are lost. Message thread (M) only.
 std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz) {
     std::optional<GrainTrain> best;
-    for (double width = narrowestSeconds; width < widestSeconds && !(best && best->lostShare == 0.0);
+    for (double width = minHalfWidthSeconds; width < maxHalfWidthSeconds && !(best && best->lostShare == 0.0);
          width *= std::sqrt(2.0)) {
-        const auto train = countedAt(samples, rateHz, width);
-        if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare))
+        const auto train = grainTrainAt(samples, rateHz, width);
+        if (train && train->lostShare <= maxLostShare && (!best || train->lostShare < best->lostShare))
             best = train;
     }
     return best;
 }
 
-constexpr double shortestSeconds = 0.5, mostSeconds = 8.0;
-constexpr std::size_t mostSamples = 400'000; // a second of computing, 50 MB
+constexpr double minSeconds = 0.5, maxSeconds = 8.0;
+constexpr std::size_t maxSamples = 400'000; // a second of computing, 50 MB
 
 std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
-    const std::size_t size =
-                          std::min({x.size(), mostSamples, static_cast<std::size_t>(mostSeconds * rateHz)}),
+    const std::size_t size = std::min({x.size(), maxSamples, static_cast<std::size_t>(maxSeconds * rateHz)}),
                       from = (x.size() - size) / 2;
     const auto begin = x.begin() + static_cast<std::ptrdiff_t>(from);
     return {begin, begin + static_cast<std::ptrdiff_t>(size)};
@@ -282,18 +290,18 @@ std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
 
 /// Autocorrelation normalised by the energy of the stronger of the two overlapping parts, so that a decaying
 /// signal does not look similar to itself.
-std::vector<double> likenessOf(std::span<const double> x) {
-    std::vector<double> likeness = autocorrelation(x), energy{0.0};
+std::vector<double> normalisedAutocorrelation(std::span<const double> x) {
+    std::vector<double> similarity = autocorrelation(x), energy{0.0};
     for (const double sample : x) energy.push_back(energy.back() + sample * sample);
-    for (std::size_t lag = 0; lag < likeness.size(); ++lag) {
+    for (std::size_t lag = 0; lag < similarity.size(); ++lag) {
         const double stronger = std::max(energy[x.size() - lag], energy[x.size()] - energy[lag]);
-        likeness[lag] = stronger > 0.0 ? likeness[lag] / stronger : 0.0;
+        similarity[lag] = stronger > 0.0 ? similarity[lag] / stronger : 0.0;
     }
-    return likeness;
+    return similarity;
 }
 
 Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) {
-    return vertex(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from),
+    return peakAt(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from),
                                                                x.begin() + static_cast<std::ptrdiff_t>(to)) -
                                               x.begin()));
 }
@@ -302,61 +310,64 @@ Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) 
 /// resonance; 0 if there is none. Uses the autocorrelation of the slope: at large lags the resonance has
 /// decayed, the repetition has not.
 double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
-    constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
+    constexpr double smoothSeconds = 0.00025, minSimilarity = 0.6;
     const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
     if (slope.size() < 200) return 0.0;
     // without the start of the recording
-    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5));
-    const std::size_t n = likeness.size();
-    const double far = highestWithin(likeness, n / 4, n / 2).height; // at such lags a resonance has decayed
-    if (far < leastLikeness) return 0.0;
-    double lag = 0.0;
+    const auto similarity = normalisedAutocorrelation(std::span{slope}.subspan(slope.size() / 5));
+    const std::size_t n = similarity.size();
+    const double laterSimilarity = highestWithin(similarity, n / 4, n / 2).height; // at such lags a resonance
+                                                                                   // has decayed
+    if (laterSimilarity < minSimilarity) return 0.0;
+    double lag = 0.0; // of the first peak that is about as high as later ones
     for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
-        if (isPeak(likeness, i))
-            if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003)
-                lag = peak.at;
+        if (isPeak(similarity, i))
+            if (const Peak peak = peakAt(similarity, i);
+                peak.height >= 1.0 - 3.0 * (1.0 - laterSimilarity) - 0.003)
+                lag = peak.position;
     // larger multiples of the lag make it more precise
-    for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0)
-        lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag),
-                            static_cast<std::size_t>((times + 0.25) * lag) + 2)
-                  .at /
-              times;
+    for (double multiple = 2.0; lag > 4.0 && lag * multiple < 0.5 * static_cast<double>(n) - lag;
+         multiple *= 2.0)
+        lag = highestWithin(similarity, static_cast<std::size_t>((multiple - 0.25) * lag),
+                            static_cast<std::size_t>((multiple + 0.25) * lag) + 2)
+                  .position /
+              multiple;
     return lag > 4.0 ? rateHz / lag : 0.0;
 }
 
 /// If ridges pass at more than the resonance, both are hard to separate: only the repetition rate is certain.
-void tellWhatRings(ScrapedTexture& found, const GrainTrain& train) {
-    if (found.texture.pattern == GrainPattern::regular && found.grainsPerSecond > train.frequencyHz) return;
-    found.frequencyHz = train.frequencyHz;
-    found.decayPerSecond = train.decayPerSecond;
-    found.strength = train.strength;
-    found.counted = train.counted;
-    found.lostShare = train.lostShare;
+void setResonance(ScrapedTexture& result, const GrainTrain& train) {
+    if (result.texture.pattern == GrainPattern::regular && result.grainsPerSecond > train.frequencyHz) return;
+    result.frequencyHz = train.frequencyHz;
+    result.decayPerSecond = train.decayPerSecond;
+    result.strength = train.strength;
+    result.grainCount = train.grainCount;
+    result.lostShare = train.lostShare;
 }
 
 } // namespace
 
 Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double rateHz,
                                       const Scrape& scrape) {
-    if (auto fault = recordingFault(samples, rateHz, shortestSeconds); !fault.empty())
-        return Failure{std::move(fault)};
+    if (auto error = recordingError(samples, rateHz, minSeconds); !error.empty())
+        return Failure{std::move(error)};
     if (isSilent(samples)) return Failure{"expected a scrape, found silence"};
-    if (auto fault = clippingFault(samples, rateHz); !fault.empty()) return Failure{std::move(fault)};
+    if (auto error = clippingError(samples, rateHz); !error.empty()) return Failure{std::move(error)};
     const std::vector<double> x = middleOf(samples, rateHz);
     const auto train = grainTrain(x, rateHz);
     const bool isRandom = train && train->isRandom(), isCounted = isRandom || (train && train->isEven());
-    ScrapedTexture found;
-    found.texture.pattern = isRandom ? GrainPattern::random : GrainPattern::regular;
-    found.grainsPerSecond = isCounted ? train->perSecond : repetitionsPerSecond(x, rateHz);
-    if (!(found.grainsPerSecond > 0.0))
+    ScrapedTexture result;
+    result.texture.pattern = isRandom ? GrainPattern::random : GrainPattern::regular;
+    result.grainsPerSecond = isCounted ? train->perSecond : repetitionsPerSecond(x, rateHz);
+    if (!(result.grainsPerSecond > 0.0))
         return Failure{"expected a scrape whose grains stand out or repeat, found none that do"};
-    if (isCounted) tellWhatRings(found, *train);
-    found.texture.grainMetres = scrape.metresPerSecond / found.grainsPerSecond;
-    if (found.strength > 0.0)
-        found.texture.roughness =
-            found.strength * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
-    if (const auto fault = faultOf(found.texture); !fault.empty()) return Failure{std::string{fault}};
-    return found;
+    if (isCounted) setResonance(result, *train);
+    result.texture.grainMetres = scrape.metresPerSecond / result.grainsPerSecond;
+    if (result.strength > 0.0)
+        result.texture.roughness =
+            result.strength * scrape.massKg / grainImpulse(1.0, scrape.loadNewtons, scrape.metresPerSecond);
+    if (const auto error = errorOf(result.texture); !error.empty()) return Failure{std::string{error}};
+    return result;
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extracts a surface's grains from the recording of a scrape.
+// Extracts a surface's grains (spacing, pattern, roughness) from the recording of a scrape.
 #pragma once
 #include "Contacts/Grains.h"
 #include "Io/Result.h"
@@ -20,7 +20,7 @@ struct ScrapedTexture {
     double grainsPerSecond = 0.0;
     double strength = 0.0; ///< of a grain, in the recording's full scale; 0: not known
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the resonance; 0: not known
-    std::size_t counted = 0;                        ///< grains that stood out in a recording
+    std::size_t grainCount = 0;                     ///< grains that stood out in a recording
     double lostShare = 0.0;                         ///< estimated share of grains that did not
 };
 

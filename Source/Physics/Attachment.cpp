@@ -72,26 +72,26 @@ private:
     b2ContactListener* chained_ = nullptr;
     // active, and nothing to forward to: no other listener, or Box2D's own, which does nothing
     bool isAlone_ = false;
-    b2DestructionListener* chainedEnds_ = nullptr;
+    b2DestructionListener* chainedDestruction_ = nullptr;
     const void* callFor_ = nullptr; // object of the call that is being forwarded
 };
 
 namespace {
 
 // A world may call a listener for as long as the program runs.
-void keepForEver(std::unique_ptr<WorldListener> listener) {
-    struct Kept {
+void keepUntilExit(std::unique_ptr<WorldListener> listener) {
+    struct Node {
         std::unique_ptr<WorldListener> listener;
-        Kept* next;
+        Node* next;
     };
-    static std::atomic<Kept*> newest{nullptr}; // worlds may live on several threads; never destroyed,
+    static std::atomic<Node*> newest{nullptr}; // worlds may live on several threads; never destroyed,
                                                // since a world may outlive it
-    auto* const kept = new Kept{std::move(listener), newest.load()};
-    while (!newest.compare_exchange_weak(kept->next, kept)) {
+    auto* const node = new Node{std::move(listener), newest.load()};
+    while (!newest.compare_exchange_weak(node->next, node)) {
     }
 }
 
-// As b2ContactFilter decides.
+// True if b2ContactFilter lets fixtures with these filters touch.
 bool mayTouch(const b2Filter& a, const b2Filter& b) noexcept {
     if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
     return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
@@ -123,7 +123,7 @@ void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCoun
     for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
         for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
             if (const std::int32_t slot = fixtures.find(idOf(*f));
-                slot != FixtureTable::none && fixtures.isCamera(slot))
+                slot != FixtureTable::none && fixtures.isSource(slot))
                 if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
 }
 
@@ -149,19 +149,19 @@ Attachment::Attachment(b2World& world, const ImpactSettings& settings)
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
         parts_->listener->finder().begin(*contact, false);
     parts_->listener->install(world);
-    parts_->sweeps.makeRoom(static_cast<std::size_t>(world.GetBodyCount()));
+    parts_->sweeps.reserve(static_cast<std::size_t>(world.GetBodyCount()));
 }
 
 Attachment::~Attachment() {
     if (world_ == nullptr) return;
     parts_->listener->deactivate();
-    keepForEver(std::move(parts_->listener));
+    keepUntilExit(std::move(parts_->listener));
 }
 
 void Attachment::detach() {
     if (world_ == nullptr) return;
     parts_->listener->deactivate();
-    if (!parts_->listener->remove(*world_)) keepForEver(std::move(parts_->listener));
+    if (!parts_->listener->remove(*world_)) keepUntilExit(std::move(parts_->listener));
     world_ = nullptr;
 }
 
@@ -172,7 +172,7 @@ SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values,
     if (fixture.GetBody()->GetWorld() != world_)
         return {-1, "fixture: expected one of the world attached to"};
     // a fixture that reuses the address of a destroyed one gets new state
-    parts_->listener->finder().find(fixture);
+    parts_->listener->finder().slotOf(fixture);
     return parts_->events.set(idOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
 
@@ -183,9 +183,9 @@ std::string_view Attachment::setPair(int surface, int other, const PairSound& so
 const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
     const FixtureTable& fixtures = parts_->events.fixtures();
     const std::int32_t slot = fixtures.find(idOf(fixture));
-    const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() &&
-                      fixtures[slot].body.body == idOf(*fixture.GetBody());
-    return isIt ? &fixtures[slot].values : nullptr;
+    const bool hasValues = slot != FixtureTable::none && fixtures[slot].hasHapticValues() &&
+                           fixtures[slot].body.body == idOf(*fixture.GetBody());
+    return hasValues ? &fixtures[slot].values : nullptr;
 }
 
 void Attachment::remove(const b2Fixture& fixture) {
@@ -209,7 +209,7 @@ void Attachment::beginStep(double stepSeconds) {
 
 void Attachment::beginStepUntil(std::int64_t endNs) {
     if (world_ == nullptr) return;
-    if (!parts_->listener->isInstalled(*world_)) releaseUnseen();
+    if (!parts_->listener->isInstalled(*world_)) releaseDestroyedFixtures();
     parts_->listener->install(*world_);
     const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
     parts_->sweeps.beginStep(*world_, stepSeconds);
@@ -225,17 +225,17 @@ void Attachment::endStep() {
 
 void Attachment::finishStep() {
     if (world_ == nullptr) return;
-    if (!parts_->listener->isInstalled(*world_)) releaseUnseen();
+    if (!parts_->listener->isInstalled(*world_)) releaseDestroyedFixtures();
     parts_->events.endStep();
     parts_->listener->finder().endStep();
 }
 
 // Releases fixtures that were destroyed while a listener of the game had replaced ours.
-void Attachment::releaseUnseen() {
-    parts_->listener->finder().forgetContacts();
+void Attachment::releaseDestroyedFixtures() {
+    parts_->listener->finder().clearCache();
     parts_->bodies.invalidate();
     for (std::int32_t slot = 0; slot < parts_->events.fixtures().size(); ++slot)
-        if (const KnownFixture& known = parts_->events.fixtures()[slot];
+        if (const FixtureEntry& known = parts_->events.fixtures()[slot];
             known.isUsed() && !parts_->bodies.has(known.body.body))
             parts_->events.release(slot);
 }
@@ -248,7 +248,7 @@ void Attachment::shiftOrigin(b2Vec2 newOrigin) {
 
 std::int64_t Attachment::timeNs() const noexcept { return parts_->events.timeNs(); }
 std::int64_t Attachment::settledNs() const noexcept { return parts_->events.settledNs(); }
-void Attachment::take(std::vector<CollisionEvent>& events) { parts_->events.drain(events); }
+void Attachment::take(std::vector<CollisionEvent>& events) { parts_->events.appendFinal(events); }
 void Attachment::flush(std::vector<CollisionEvent>& events) { parts_->events.flush(events); }
 std::uint64_t Attachment::drops() const noexcept { return parts_->events.drops(); }
 std::uint64_t Attachment::overBudget() const noexcept { return parts_->events.overBudget(); }
@@ -256,9 +256,9 @@ ContactCounts Attachment::counts() const noexcept { return parts_->events.counts
 
 std::string Attachment::explain(const OutputFacts* output) {
     ContactEvents& events = parts_->events;
-    if (world_ != nullptr) noteSources(*world_, events.fixtures(), events.catcher().tally());
+    if (world_ != nullptr) noteSources(*world_, events.fixtures(), events.recorder().tally());
     const ContactCounts recent = events.takeRecent();
-    return inNames(physvib::explain(recent, events.counts(), output), Names::cpp);
+    return replaceNames(physvib::explain(recent, events.counts(), output), Names::cpp);
 }
 
 const ImpactModel& Attachment::impactModel() const noexcept { return parts_->events.impactModel(); }
@@ -267,10 +267,10 @@ const ImpactModel& Attachment::impactModel() const noexcept { return parts_->eve
 /// processed once.
 class WorldListener::Call {
 public:
-    Call(WorldListener& listener, const void* about) noexcept
+    Call(WorldListener& listener, const void* object) noexcept
         : callFor_(listener.callFor_)
-        , outer_(std::exchange(listener.callFor_, about))
-        , isFirst_(outer_ != about) {}
+        , outer_(std::exchange(listener.callFor_, object))
+        , isFirst_(outer_ != object) {}
     ~Call() { callFor_ = outer_; }
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
@@ -327,27 +327,27 @@ void WorldListener::forward(b2Contact* contact, const b2ContactImpulse* impulse)
 
 void WorldListener::SayGoodbye(b2Joint* joint) {
     const Call call{*this, joint};
-    if (call && chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(joint);
+    if (call && chainedDestruction_ != nullptr) chainedDestruction_->SayGoodbye(joint);
 }
 
 void WorldListener::SayGoodbye(b2Fixture* fixture) {
     const Call call{*this, fixture};
     if (!call) return;
-    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none;
+    if (const std::int32_t slot = finder_ ? finder_->slotOf(*fixture) : FixtureTable::none;
         slot != FixtureTable::none) {
-        finder_->forgetContacts();
+        finder_->clearCache();
         bodies_.invalidate(fixture->GetBody());
-        events_.vanish(slot);
+        events_.handleDestruction(slot);
     }
-    if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
+    if (chainedDestruction_ != nullptr) chainedDestruction_->SayGoodbye(fixture);
 }
 
 // The first listener that is active: skips those of ended attachments.
 template <class Listener>
 Listener* WorldListener::skipInactive(Listener* found, Listener* WorldListener::*next) {
-    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_;
-         deaf = dynamic_cast<WorldListener*>(found))
-        found = deaf->*next;
+    for (auto* inactive = dynamic_cast<WorldListener*>(found); inactive != nullptr && !inactive->finder_;
+         inactive = dynamic_cast<WorldListener*>(found))
+        found = inactive->*next;
     return found;
 }
 
@@ -367,25 +367,25 @@ void WorldListener::install(b2World& world) {
         chained_ = skipInactive(found, &WorldListener::chained_);
         isAlone_ = finder_ && (chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener));
         world.SetContactListener(this);
-        if (finder_) finder_->forgetContacts();
+        if (finder_) finder_->clearCache();
     }
     if (b2DestructionListener* found = destructionListenerOf(world);
-        !isReachedBy(found, &WorldListener::chainedEnds_)) {
-        chainedEnds_ = skipInactive(found, &WorldListener::chainedEnds_);
+        !isReachedBy(found, &WorldListener::chainedDestruction_)) {
+        chainedDestruction_ = skipInactive(found, &WorldListener::chainedDestruction_);
         world.SetDestructionListener(this);
     }
 }
 
 bool WorldListener::isInstalled(b2World& world) const {
-    return isReachedBy(destructionListenerOf(world), &WorldListener::chainedEnds_);
+    return isReachedBy(destructionListenerOf(world), &WorldListener::chainedDestruction_);
 }
 
 bool WorldListener::remove(b2World& world) {
     b2ContactListener* const contacts = world.GetContactManager().m_contactListener;
-    b2DestructionListener* const ends = destructionListenerOf(world);
+    b2DestructionListener* const destructions = destructionListenerOf(world);
     if (contacts == this) world.SetContactListener(chained_);
-    if (ends == this) world.SetDestructionListener(chainedEnds_);
-    return contacts == this && ends == this;
+    if (destructions == this) world.SetDestructionListener(chainedDestruction_);
+    return contacts == this && destructions == this;
 }
 
 } // namespace physvib

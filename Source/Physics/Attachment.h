@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib for a b2World of yours: attach it, set three values per fixture, step, take events.
+// PhysVib for a Box2D world: attach it, set values per fixture, step the world, take events.
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
@@ -58,7 +58,7 @@ public:
     /// it is set.
     std::string_view setPair(int surface, int other, const PairSound& sound);
 
-    /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
+    /// The values of a fixture; nullptr if it has none. Valid until the next call of any method.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
 
     /// Removes a fixture's values, and its events that were not taken yet.
@@ -68,7 +68,7 @@ public:
     /// below 0 does nothing.
     void step(float stepSeconds, int velocityIterations = 8, int positionIterations = 3);
 
-    /// The same around your own b2World::Step. Step lengths may differ; time is the sum of their
+    /// Call it before your own b2World::Step. Step lengths may differ; time is the sum of their
     /// nanoseconds, each rounded. Collisions in steps without these calls become events at the start of the
     /// next step that has them.
     void beginStep(double stepSeconds);
@@ -79,7 +79,7 @@ public:
     /// World time after the steps done, and the time before which all events are final: one step earlier,
     /// since a contact is noticed up to one step after it was made.
     std::int64_t timeNs() const noexcept;
-    /// No event before it is still to come.
+    /// Time before which all events are final, ns.
     std::int64_t settledNs() const noexcept;
 
     /// Appends the events that are final now, in time order.
@@ -91,13 +91,13 @@ public:
     /// Calls b2World::ShiftOrigin and moves PhysVib's places with it: events keep their places in the field.
     void shiftOrigin(b2Vec2 newOrigin);
 
-    /// Contacts and events lost so far because more came than there is room for. The weakest go first.
+    /// Contacts and events lost so far for lack of room. The weakest are dropped first.
     std::uint64_t drops() const noexcept;
 
     /// Impacts left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept;
 
-    /// What became of all contacts so far.
+    /// Counts of all contacts so far.
     ContactCounts counts() const noexcept;
     /// Why nothing, or not everything, is felt of what happened since the last call, in a sentence; see
     /// physvib::explain. It looks at all fixtures of the world. `output`: what plays the events; null:
@@ -108,12 +108,12 @@ public:
     const ImpactModel& impactModel() const noexcept;
 
 private:
-    void releaseUnseen();
+    void releaseDestroyedFixtures();
     void finishStep();
 
     struct Parts;
     b2World* world_;               // nullptr: detached
-    std::unique_ptr<Parts> parts_; // what it is made of, which is not installed
+    std::unique_ptr<Parts> parts_; // the implementation, not installed
 };
 
 } // namespace physvib

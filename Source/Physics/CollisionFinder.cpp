@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Evaluates Box2D's contact callbacks: new contact points that approach fast are collisions, all other
-// impulses are load.
+// Evaluates Box2D's contact callbacks: new contact points that approach fast make a collision, and all other
+// impulses are loads.
 #include "Physics/CollisionFinder.h"
 #include "Physics/WorldBodies.h"
 #include <algorithm>
@@ -28,12 +28,12 @@ std::uint64_t partOf(const b2Contact& contact) noexcept {
 
 bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0; }
 
-/// The larger factor of the two bodies, computed as in KnownFixture.
+/// The larger factor of the two bodies, computed as in FixtureEntry.
 float gravityScaleOf(const b2Contact& contact) noexcept {
-    const auto of = [](const b2Body& body) {
+    const auto scaleOf = [](const b2Body& body) {
         return body.GetType() == b2_dynamicBody ? std::abs(body.GetGravityScale()) : 0.0F;
     };
-    return std::max(of(bodyA(contact)), of(bodyB(contact)));
+    return std::max(scaleOf(bodyA(contact)), scaleOf(bodyB(contact)));
 }
 
 /// Speed at which B approaches A at a point; the normal points from A to B.
@@ -45,126 +45,132 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 
 } // namespace
 
-std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
+std::int32_t CollisionFinder::slotOf(const b2Fixture& fixture) {
     const std::int32_t slot = events_.fixtures().find(idOf(fixture));
     if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == idOf(*fixture.GetBody()))
         return slot;
-    forgetContacts();
+    clearCache();
     events_.release(slot);
     return FixtureTable::none;
 }
 
-CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
-    const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
+CollisionFinder::CachedContact* CollisionFinder::cacheRegistered(const b2Contact& contact) {
+    const std::int32_t a = slotOf(*contact.GetFixtureA()), b = slotOf(*contact.GetFixtureB());
     if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
-    return &remember(contact, {.a = a, .b = b});
+    return &cacheEntry(contact, {.a = a, .b = b});
 }
 
-CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
-    std::int32_t at = knownAt_.find(idOf(contact));
-    if (at == IntegerMap::none) {
-        if (free_.empty()) addPlaces(2 * known_.size());
-        at = free_.back();
+CollisionFinder::CachedContact& CollisionFinder::cacheEntry(const b2Contact& contact, Pair pair) {
+    std::int32_t index = cacheIndexOf_.find(idOf(contact));
+    if (index == IntegerMap::none) {
+        if (free_.empty()) addPlaces(2 * cachedContacts_.size());
+        index = free_.back();
         free_.pop_back();
-        knownAt_.set(idOf(contact), at);
+        cacheIndexOf_.set(idOf(contact), index);
     }
-    Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
-             0,        pairKey(pair.a, pair.b), partOf(contact),       known.after};
-    return known;
+    CachedContact& entry = cachedContacts_[static_cast<std::size_t>(index)];
+    entry = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
+             0,        pairKey(pair.a, pair.b), partOf(contact),       entry.after};
+    return entry;
 }
 
-void CollisionFinder::forget(const b2Contact& contact) noexcept {
-    const std::int32_t at = knownAt_.find(idOf(contact));
-    if (at == IntegerMap::none) return;
-    knownAt_.erase(idOf(contact));
-    known_[static_cast<std::size_t>(at)].contact = nullptr;
-    free_.push_back(at);
+void CollisionFinder::dropEntry(const b2Contact& contact) noexcept {
+    const std::int32_t index = cacheIndexOf_.find(idOf(contact));
+    if (index == IntegerMap::none) return;
+    cacheIndexOf_.erase(idOf(contact));
+    cachedContacts_[static_cast<std::size_t>(index)].contact = nullptr;
+    free_.push_back(index);
 }
 
 // The lowest place is taken first, so that those in use lie together.
 void CollisionFinder::addPlaces(std::size_t all) {
     free_.reserve(all);
-    for (std::size_t at = all; at > known_.size(); --at) free_.push_back(static_cast<std::int32_t>(at - 1));
-    known_.resize(all);
-    begun_ = nullptr; // it may have moved
+    for (std::size_t index = all; index > cachedContacts_.size(); --index)
+        free_.push_back(static_cast<std::int32_t>(index - 1));
+    cachedContacts_.resize(all);
+    justBegun_ = nullptr; // it may have moved
 }
 
-void CollisionFinder::forgetContacts() noexcept {
-    known_.clear();
+void CollisionFinder::clearCache() noexcept {
+    cachedContacts_.clear();
     free_.clear();
-    addPlaces(known_.capacity()); // nothing is allocated
-    knownAt_.clear();
+    addPlaces(cachedContacts_.capacity()); // nothing is allocated
+    cacheIndexOf_.clear();
 }
 
-std::int32_t CollisionFinder::know(const b2Fixture& fixture) {
-    const std::int32_t slot = find(fixture); // a fixture that reuses the address of a destroyed one gets new
-                                             // state
+std::int32_t CollisionFinder::registeredSlot(const b2Fixture& fixture) {
+    const std::int32_t slot = slotOf(fixture); // a fixture that reuses the address of a destroyed one gets
+                                               // new state
     const BodyFacts body = factsOf(*fixture.GetBody());
-    return slot == FixtureTable::none ? events_.know(idOf(fixture), body) : events_.know(slot, body);
+    return slot == FixtureTable::none ? events_.findOrAdd(idOf(fixture), body)
+                                      : events_.updateBody(slot, body);
 }
 
-CollisionFinder::Known& CollisionFinder::know(const b2Contact& contact) {
-    const std::int32_t a = know(*contact.GetFixtureA()), b = know(*contact.GetFixtureB());
-    return remember(contact, {.a = a, .b = b});
+CollisionFinder::CachedContact& CollisionFinder::registeredEntry(const b2Contact& contact) {
+    const std::int32_t a = registeredSlot(*contact.GetFixtureA()), b = registeredSlot(*contact.GetFixtureB());
+    return cacheEntry(contact, {.a = a, .b = b});
 }
 
 void CollisionFinder::begin(const b2Contact& contact, bool isFollowed) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
-    Known& known = know(contact);
-    known.pair.number = events_.catcher().begin(known.pair.a, known.pair.b);
-    begun_ = isFollowed ? &known : nullptr;
+    CachedContact& entry = registeredEntry(contact);
+    entry.pair.number = events_.recorder().begin(entry.pair.a, entry.pair.b);
+    justBegun_ = isFollowed ? &entry : nullptr;
 }
 
 void CollisionFinder::end(const b2Contact& contact) {
-    fresh_.forget(contact);
-    Known* const found = find(contact);
-    const Pair pair = found != nullptr ? pairOf(*found) : Pair{};
-    forget(contact);
-    if (found == nullptr) return;
+    newPoints_.forget(contact);
+    CachedContact* const entry = entryOf(contact);
+    const Pair pair = entry != nullptr ? pairOf(*entry) : Pair{};
+    dropEntry(contact);
+    if (entry == nullptr) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
     if (!bodyA(contact).GetWorld()->IsLocked()) {
-        events_.cut(pair.a, pair.b, motionA, motionB);
-    } else if (ContactEnd* const end = events_.catcher().end(pair)) {
+        events_.endOutsideStep(pair.a, pair.b, motionA, motionB);
+    } else if (ContactEnd* const end = events_.recorder().end(pair)) {
         end->fraction = fractionOf(contact);
         end->motionA = motionA;
         end->motionB = motionB;
     }
 }
 
-void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
-    Known* const begun = std::exchange(begun_, nullptr);
-    if (const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping()); fresh != 0)
-        meet(contact, fresh, begun != nullptr && begun->contact == &contact ? begun : nullptr);
+void CollisionFinder::updateNewPoints(const b2Contact& contact, const b2Manifold& before) {
+    CachedContact* const newEntry = std::exchange(justBegun_, nullptr);
+    if (const unsigned newMask = newPoints_.update(contact, before, events_.recorder().isStepping());
+        newMask != 0)
+        checkApproach(contact, newMask,
+                      newEntry != nullptr && newEntry->contact == &contact ? newEntry : nullptr);
 }
 
-// `begun`: the contact's entry if it began just now; else null.
-void CollisionFinder::meet(const b2Contact& contact, unsigned fresh, Known* begun) {
-    if (!contact.IsEnabled() || !events_.catcher().hasSources()) return;
+// `newEntry`: the contact's entry if it began just now; else null.
+void CollisionFinder::checkApproach(const b2Contact& contact, unsigned newMask, CachedContact* newEntry) {
+    if (!contact.IsEnabled() || !events_.recorder().hasSources()) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     double fastest = 0.0;
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
-        if (isIn(fresh, i))
+        if (isIn(newMask, i))
             fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
-    if (!events_.catcher().isCollision(gravityScaleOf(contact), fastest)) return passOver(contact, fastest);
-    const Pair& pair = pairOf(begun != nullptr ? *begun : know(contact));
-    if (events_.catcher().collision(pair) != nullptr) return;
-    if (Collision* collision = events_.catcher().strike(pair, fastest))
-        describe(contact, manifold, fresh, *collision);
+    if (!events_.recorder().isCollision(gravityScaleOf(contact), fastest))
+        return countBelowThreshold(contact, fastest);
+    const Pair& pair = pairOf(newEntry != nullptr ? *newEntry : registeredEntry(contact));
+    if (events_.recorder().findCollision(pair) != nullptr) return;
+    if (Collision* collision = events_.recorder().addCollision(pair, fastest))
+        describe(contact, manifold, newMask, *collision);
 }
 
-void CollisionFinder::passOver(const b2Contact& contact, double approachMetresPerSecond) {
-    if (!events_.catcher().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    if (const Known* const known = find(contact)) // two thirds of the threshold let it pass
-        events_.catcher().passOver(known->pair.a, known->pair.b, 1.5 * approachMetresPerSecond);
+void CollisionFinder::countBelowThreshold(const b2Contact& contact, double approachMetresPerSecond) {
+    if (!events_.recorder().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    if (const CachedContact* const entry = entryOf(contact)) // collisions need two thirds of it
+        events_.recorder().countBelowThreshold(entry->pair.a, entry->pair.b, 1.5 * approachMetresPerSecond);
 }
 
-void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
+// Fills in place, motions and time of a collision, from the deepest of its new points.
+void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned newMask,
                                Collision& collision) const {
     const int count = contact.GetManifold()->pointCount;
-    int deepest = isIn(fresh, 0) ? 0 : 1;
-    const bool isFlat = count > 1 && isIn(fresh, 0) && isIn(fresh, 1);
+    int deepest = isIn(newMask, 0) ? 0 : 1;
+    const bool isFlat = count > 1 && isIn(newMask, 0) && isIn(newMask, 1);
     if (isFlat && manifold.separations[1] < manifold.separations[0]) deepest = 1;
     const b2Vec2 touch = manifold.points[deepest];
     // A flat impact touches along a line. Its middle is used, because rounding decides which end is deeper.
@@ -177,22 +183,22 @@ void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& 
 
     const double speed = approach(contact, touch, manifold.normal);
     const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));
-    collision.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
+    collision.fraction = touchFractionOf(contact, speed > 0.0 ? depth / speed : 0.0);
 }
 
-// Surfaces sink into each other in the step before, so its length counts. Outside a reported step there is no
-// time.
-double CollisionFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
-    if (!events_.catcher().isStepping()) return 0.0;
+// When surfaces touched, in steps. Below 0 they touched in the step before, whose length counts then. Outside
+// a reported step the time is not known: 0.
+double CollisionFinder::touchFractionOf(const b2Contact& contact, double secondsAgo) const noexcept {
+    if (!events_.recorder().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
-    // deeper: the contact was made at its start
+    // no contact is older than a step
     const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before));
     const double length = seconds < 0.0 ? before : now;
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }
 
 double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
-    if (!events_.catcher().isStepping()) return 0.0;
+    if (!events_.recorder().isStepping()) return 0.0;
     const bool aIsFaster = bodyA(contact).GetLinearVelocity().LengthSquared() >
                            bodyB(contact).GetLinearVelocity().LengthSquared();
     return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
@@ -210,7 +216,7 @@ Frame frameOf(const b2Fixture& fixture) noexcept {
 }
 
 /// Where a contact's bodies touch after the solver: normal and point as b2WorldManifold has them, to the bit,
-/// each when it is asked for.
+/// each computed on demand.
 class SolvedContact {
 public:
     explicit SolvedContact(const b2Contact& contact) noexcept
@@ -223,9 +229,9 @@ public:
             return;
         }
         normal_.Set(1.0F, 0.0F);
-        const b2Vec2 one = centreA(), other = centreB();
-        if (b2DistanceSquared(one, other) <= b2_epsilon * b2_epsilon) return;
-        normal_ = other - one;
+        const b2Vec2 a = centreA(), b = centreB();
+        if (b2DistanceSquared(a, b) <= b2_epsilon * b2_epsilon) return;
+        normal_ = b - a;
         normal_.Normalize();
     }
 
@@ -235,7 +241,7 @@ public:
     const b2Fixture& first() const noexcept { return first_; }
     const b2Fixture& second() const noexcept { return second_; }
 
-    /// Of two discs, or of a disc and a corner; and the point between them.
+    /// Centres of two discs, or of a disc and a corner, world; and the point between them.
     b2Vec2 centreA() const noexcept { return b2Mul(first_.GetBody()->GetTransform(), manifold_.localPoint); }
     b2Vec2 centreB() const noexcept {
         return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[0].localPoint);
@@ -255,13 +261,13 @@ public:
         touch.faceRadius = first_.GetShape()->m_radius;
         touch.otherRadius = second_.GetShape()->m_radius;
     }
-    /// The impulse on B, N s, of all points except those in the mask `without`.
-    [[gnu::always_inline]] Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
+    /// The impulse on B, N s, of all points except those in the mask `excluded`.
+    [[gnu::always_inline]] Vector2 push(const b2ContactImpulse& impulse, unsigned excluded) const noexcept {
         static_assert(b2_maxManifoldPoints == 2);
         const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
         b2Vec2 onB{0.0F, 0.0F};
         const auto add = [&](int i) {
-            if (!isIn(without, i))
+            if (!isIn(excluded, i))
                 onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
         };
         add(0);
@@ -288,151 +294,152 @@ SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSeco
 } // namespace
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known) {
-    CollisionCatcher& catcher = events_.catcher();
-    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    const Pair& pair = pairOf(known);
-    const TouchingPairs::Pair& stored = catcher[pair];
-    known.load = std::max(stored.load, 0);
+void CollisionFinder::record(const b2Contact& contact, const b2ContactImpulse& impulse,
+                             CachedContact& entry) {
+    CollisionRecorder& recorder = events_.recorder();
+    const unsigned newMask = newPoints_.markSolved(contact); // the points are old from the next step on
+    const Pair& pair = pairOf(entry);
+    const TouchingPairs::Pair& stored = recorder[pair];
+    entry.loadIndex = std::max(stored.loadIndex, 0);
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
-    const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
-    Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
+    const bool isRelevant = isOfSource || stored.lastIndex != TouchingPairs::none;
+    Collision* const collision = newMask != 0 ? recorder.findCollision(pair) : nullptr;
     if (!isRelevant && collision == nullptr) return;
-    const unsigned collisions = collision != nullptr ? fresh : 0U;
+    const unsigned collisions = collision != nullptr ? newMask : 0U;
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
         isLoaded = isLoaded || !isIn(collisions, i);
         if (!isIn(collisions, i)) continue;
-        collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-        collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+        collision->normalNewtonSeconds += static_cast<double>(impulse.normalImpulses[i]);
+        collision->tangentialNewtonSeconds += static_cast<double>(impulse.tangentImpulses[i]);
     }
     const SolvedContact solved{contact};
     if (isLoaded && isRelevant)
-        if (auto* place = catcher.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
+        if (auto* place = recorder.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
             if (solved.isDiscs())
                 place->set(toVector(solved.pointOfDiscs()));
             else
                 solved.note(0, place->setFace());
         }
-    if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, impulse, collisions, known);
+    if (LastingContacts::isRelevant(traits)) // a source touches a rough surface
+        reportPoints(contact, impulse, collisions, entry);
 }
 
-/// One point on a face, which touches there.
-inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
-                                      const Known& known, const FaceTouch& touch) {
-    FacePoint& told = events_.lasting().touchFace();
+/// Reports one point on a face to LastingContacts, with the motion of both bodies.
+inline void CollisionFinder::reportFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
+                                        const CachedContact& entry, const FaceTouch& touch) {
+    FacePoint& facePoint = events_.lasting().touchFace();
     const SolvedContact solved{contact};
     const bool isTurned = solved.isTurned();
     const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
-    told.touch = touch;
-    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
-    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
-    told.faceRadiansPerSecond = face.GetAngularVelocity();
-    told.otherRadiansPerSecond = other.GetAngularVelocity();
-    told.normalNewtonSeconds = impulse.normalImpulses[i];
-    told.isTurned = isTurned;
-    told.isDiscRough = events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b) &&
-                       solved.second().GetType() == b2Shape::e_circle;
-    told.a = known.pair.a;
-    told.b = known.pair.b;
-    told.pairsKey = known.key;
-    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
+    facePoint.touch = touch;
+    facePoint.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
+    facePoint.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
+    facePoint.faceRadiansPerSecond = face.GetAngularVelocity();
+    facePoint.otherRadiansPerSecond = other.GetAngularVelocity();
+    facePoint.normalNewtonSeconds = impulse.normalImpulses[i];
+    facePoint.isFaceOfB = isTurned;
+    facePoint.isDiscRough = events_.fixtures().isRough(isTurned ? entry.pair.a : entry.pair.b) &&
+                            solved.second().GetType() == b2Shape::e_circle;
+    facePoint.a = entry.pair.a;
+    facePoint.b = entry.pair.b;
+    facePoint.pairsKey = entry.key;
+    facePoint.feature = entry.part ^ contact.GetManifold()->points[i].id.key;
 }
 
-// Bodies that rest or roll are solved in the order of the last step, so that no search is needed; of a shaken
-// box of a hundred, half of the contacts are searched. What is unusual is left to functions that are called
-// last, so that the usual contact saves no registers.
+// Box2D solves the contacts of resting and rolling bodies in the order of the last step, so that no search is
+// needed; in a shaken box of a hundred bodies, half of the contacts need one. Rare cases are tail calls, so
+// that the common case saves no registers.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    Known& next = known_.data()[next_];
-    if (!next.isOf(contact) || fresh_.mayHave(contact)) [[unlikely]]
-        return solveOutOfTurn(contact, impulse);
+    CachedContact& next = cachedContacts_.data()[next_];
+    if (!next.matches(contact) || newPoints_.mayContain(contact)) [[unlikely]]
+        return recordOutOfOrder(contact, impulse);
     last_ = std::exchange(next_, next.after);
-    solveKnown(contact, impulse, next);
+    recordCached(contact, impulse, next);
 }
 
-void CollisionFinder::solveOutOfTurn(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    if (fresh_.mayHave(contact)) [[unlikely]]
-        return solveNew(contact, impulse);
-    const CollisionCatcher& catcher = events_.catcher();
-    if (!catcher.hasSources() ||
-        !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
+void CollisionFinder::recordOutOfOrder(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    if (newPoints_.mayContain(contact)) [[unlikely]]
+        return recordNew(contact, impulse);
+    const CollisionRecorder& recorder = events_.recorder();
+    if (!recorder.hasSources() ||
+        !recorder.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
         return;
-    const std::int32_t at = knownAt_.find(idOf(contact));
-    if (at == IntegerMap::none || !known_.data()[at].isOf(contact)) [[unlikely]]
-        return solveUnknown(contact, impulse);
-    Known& known = known_.data()[at];
-    known_.data()[last_].after = static_cast<std::uint32_t>(at);
-    last_ = static_cast<std::uint32_t>(at);
-    next_ = known.after;
-    solveKnown(contact, impulse, known);
+    const std::int32_t index = cacheIndexOf_.find(idOf(contact));
+    if (index == IntegerMap::none || !cachedContacts_.data()[index].matches(contact)) [[unlikely]]
+        return recordUncached(contact, impulse);
+    CachedContact& entry = cachedContacts_.data()[index];
+    cachedContacts_.data()[last_].after = static_cast<std::uint32_t>(index);
+    last_ = static_cast<std::uint32_t>(index);
+    next_ = entry.after;
+    recordCached(contact, impulse, entry);
 }
 
-void CollisionFinder::solveNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    Known* const known = events_.catcher().hasSources() ? find(contact) : nullptr;
-    if (known == nullptr) {
-        fresh_.solved(contact);
+void CollisionFinder::recordNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    CachedContact* const entry = events_.recorder().hasSources() ? entryOf(contact) : nullptr;
+    if (entry == nullptr) {
+        newPoints_.markSolved(contact);
         return;
     }
-    const auto at = static_cast<std::uint32_t>(known - known_.data());
-    known->after = std::exchange(known_[last_].after, at); // it comes between two others
-    next_ = known->after;
-    last_ = at;
-    solve(contact, impulse, *known);
+    const auto index = static_cast<std::uint32_t>(entry - cachedContacts_.data());
+    entry->after = std::exchange(cachedContacts_[last_].after, index); // inserts it between two others
+    next_ = entry->after;
+    last_ = index;
+    record(contact, impulse, *entry);
 }
 
-void CollisionFinder::solveUnknown(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    if (Known* const known = search(contact)) solve(contact, impulse, *known);
+void CollisionFinder::recordUncached(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    if (CachedContact* const entry = cacheRegistered(contact)) record(contact, impulse, *entry);
 }
 
-// The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
-inline void CollisionFinder::solveKnown(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                        Known& known) {
-    CollisionCatcher& catcher = events_.catcher();
-    ChainLoads::Contact* const usual = catcher.loads().usual(known.pair, known.load);
-    const unsigned traits = events_.fixtures().traits(known.pair.a) | events_.fixtures().traits(known.pair.b);
-    if (usual == nullptr || (traits & FixtureTable::source) == 0) return solve(contact, impulse, known);
+// The common contact, without a call: its points are old, one of its fixtures is a source, a face touches.
+inline void CollisionFinder::recordCached(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                          CachedContact& entry) {
+    CollisionRecorder& recorder = events_.recorder();
+    TransmittedImpulses::Contact* const steady = recorder.loads().findSteady(entry.pair, entry.loadIndex);
+    const unsigned traits = events_.fixtures().traits(entry.pair.a) | events_.fixtures().traits(entry.pair.b);
+    if (steady == nullptr || (traits & FixtureTable::source) == 0) return record(contact, impulse, entry);
     if (contact.GetManifold()->type == b2Manifold::e_circles)
-        return solveDiscs(contact, impulse, known, *usual);
+        return recordDiscs(contact, impulse, entry, *steady);
     const SolvedContact solved{contact};
-    FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
+    FaceTouch& touch = recorder.push(*steady, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
-    if (LastingContacts::isRelevant(traits)) tellUsual(contact, impulse, known, touch);
+    if (LastingContacts::isRelevant(traits)) reportSteadyPoints(contact, impulse, entry, touch);
 }
 
-// The same of two discs, or a disc and a corner.
-void CollisionFinder::solveDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                 const Known& known, ChainLoads::Contact& usual) {
+// The same for two discs, or for a disc and a corner.
+void CollisionFinder::recordDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                  const CachedContact& entry, TransmittedImpulses::Contact& steady) {
     const SolvedContact solved{contact};
-    events_.catcher().push(usual, solved.push(impulse, 0U)).set(toVector(solved.pointOfDiscs()));
-    if (events_.lasting().isRelevant(known.pair.a, known.pair.b)) tellDiscs(contact, impulse, known);
+    events_.recorder().push(steady, solved.push(impulse, 0U)).set(toVector(solved.pointOfDiscs()));
+    if (events_.lasting().isRelevant(entry.pair.a, entry.pair.b)) reportDiscs(contact, impulse, entry);
 }
 
-void CollisionFinder::tellUsual(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,
-                                const FaceTouch& touch) {
-    tellFace(contact, impulse, 0, known, touch);
+void CollisionFinder::reportSteadyPoints(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                         const CachedContact& entry, const FaceTouch& touch) {
+    reportFace(contact, impulse, 0, entry, touch);
     if (impulse.count > 1) [[unlikely]]
-        tell(contact, impulse, 1U, known);
+        reportPoints(contact, impulse, 1U, entry);
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
 /// collision.
-void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned collisions,
-                           const Known& known) {
+void CollisionFinder::reportPoints(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                   unsigned collisions, const CachedContact& entry) {
     const SolvedContact solved{contact};
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
-        if (solved.isDiscs()) return tellDiscs(contact, impulse, known);
+        if (solved.isDiscs()) return reportDiscs(contact, impulse, entry);
         FaceTouch touch;
         solved.note(i, touch);
-        tellFace(contact, impulse, i, known, touch);
+        reportFace(contact, impulse, i, entry, touch);
     }
 }
 
 /// The point between two discs, or a disc and a corner, lies on the line between the centres.
-void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                const Known& known) {
+void CollisionFinder::reportDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                  const CachedContact& entry) {
     LastingContacts& lasting = events_.lasting();
     const SolvedContact solved{contact};
     const b2Fixture &discA = solved.first(), &discB = solved.second();
@@ -444,12 +451,12 @@ void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse
     const float distance = b2Distance(centreA, centreB);
     const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
     const b2Vec2 moved = velocityA + discA.GetShape()->m_radius * b2Cross(turn, normal);
-    lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[0].id.key,
+    lasting.touch({entry.pair.a, entry.pair.b, entry.part ^ contact.GetManifold()->points[0].id.key,
                    static_cast<double>(impulse.normalImpulses[0]),
                    static_cast<double>(b2Dot(slip, b2Cross(normal, 1.0F))), toVector(point), toVector(moved),
-                   lasting.isRough(known.pair.a) ? around(discA, normal, turn) : SurfacePath{},
-                   lasting.isRough(known.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
-                  known.key);
+                   lasting.isRough(entry.pair.a) ? around(discA, normal, turn) : SurfacePath{},
+                   lasting.isRough(entry.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
+                  entry.key);
 }
 
 } // namespace physvib

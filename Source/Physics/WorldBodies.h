@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Implements BodyReader for a b2World, and records where its bodies are at the beginning of a step.
+// Reads a b2World's bodies (WorldBodies), and keeps their state at the start of a step (BodySweeps).
 #pragma once
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
@@ -16,7 +16,7 @@ namespace physvib {
 // Access to private members of Box2D 2.4 that have no getter: how far a step has advanced a body, and a
 // world's destruction listener.
 
-namespace boxPrivates {
+namespace box2dPrivates {
 
 struct Sweep {
     using Member = b2Sweep b2Body::*;
@@ -35,25 +35,26 @@ struct Reveal {
 template struct Reveal<Sweep, &b2Body::m_sweep>;
 template struct Reveal<Listener, &b2World::m_destructionListener>;
 
-} // namespace boxPrivates
+} // namespace box2dPrivates
 
 /// 0 to 1: how far Box2D's time-of-impact solver last advanced the body; valid until that solver starts
 /// again. World thread (M).
-inline float advancedPartOf(const b2Body& body) noexcept {
-    return (body.*member(boxPrivates::Sweep{})).alpha0;
+inline float advancedFractionOf(const b2Body& body) noexcept {
+    return (body.*member(box2dPrivates::Sweep{})).alpha0;
 }
 
 /// nullptr if there is none. World thread (M).
 inline b2DestructionListener* destructionListenerOf(b2World& world) noexcept {
-    return world.*member(boxPrivates::Listener{});
+    return world.*member(box2dPrivates::Listener{});
 }
 
+/// The address of a body, fixture or contact, as the number by which later stages identify it.
 template <class T>
 std::uint64_t idOf(const T& thing) noexcept {
     return reinterpret_cast<std::uintptr_t>(&thing);
 }
-inline const b2Body& bodyOf(std::uint64_t name) noexcept {
-    return *reinterpret_cast<const b2Body*>(static_cast<std::uintptr_t>(name));
+inline const b2Body& bodyOf(std::uint64_t id) noexcept {
+    return *reinterpret_cast<const b2Body*>(static_cast<std::uintptr_t>(id));
 }
 
 inline Vector2 toVector(b2Vec2 v) noexcept { return {v.x, v.y}; }
@@ -87,7 +88,7 @@ public:
         sweeps_.resize(static_cast<std::size_t>(world.GetBodyCount()) + 1);
         Sweep* next = sweeps_.data();
         float largestKg = 0.0F;
-        bool isKnown = true; // usually the bodies and their order are those of the last step
+        bool isKnown = true; // usually bodies and order are those of the last step
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
             if (body->GetType() == b2_staticBody) {
                 isKnown &= next->key == (idOf(*body) | isStatic);
@@ -103,22 +104,21 @@ public:
         largestMassKg_ = static_cast<double>(largestKg);
         if (isKnown && next->key == 0) return;
         for (; next != sweeps_.data() + sweeps_.size(); ++next) next->key = 0;
-        ++census_;
+        ++listVersion_;
         index();
     }
 
-    /// Changes whenever beginStep() has found other bodies, or another order.
-    std::uint64_t census() const noexcept { return census_; }
+    /// A number that changes whenever beginStep() has found other bodies, or another order.
+    std::uint64_t listVersion() const noexcept { return listVersion_; }
 
     /// Reserves memory, so that steps with that many bodies and a few more do not allocate.
-    void makeRoom(std::size_t bodies) {
+    void reserve(std::size_t bodies) {
         sweeps_.reserve(bodies + bodies / 4 + 3);
         indices_ = IntegerMap{sweeps_.capacity()};
     }
 
     double stepSeconds() const noexcept { return stepSeconds_; }
-    /// of the last step; 0: there was none
-    double lastStepSeconds() const noexcept { return lastStepSeconds_; }
+    double lastStepSeconds() const noexcept { return lastStepSeconds_; } ///< before it; 0: none
 
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }
@@ -129,12 +129,12 @@ public:
         const Sweep* sweep = find(body);
         // otherwise Box2D's value is from an earlier step
         const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre;
-        return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
+        return hasMoved ? static_cast<double>(advancedFractionOf(body)) : 0.0;
     }
 
     /// Hash of a world's list of bodies and their order (different lists collide with a probability of
     /// 2^-64).
-    static std::uint64_t censusOf(const b2World& world) noexcept {
+    static std::uint64_t listHashOf(const b2World& world) noexcept {
         std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
             sum = (sum ^ idOf(*body)) * 0x9E3779B97F4A7C15U;
@@ -166,9 +166,9 @@ private:
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;
-    std::vector<Sweep> sweeps_; // of all bodies, static ones without a state, then without a body
+    std::vector<Sweep> sweeps_; // of all bodies (static ones without a state), then unused
     IntegerMap indices_;        // indices into sweeps_, by body that is not static
-    std::uint64_t census_ = 1;
+    std::uint64_t listVersion_ = 1;
 };
 
 /// Bodies are identified by their addresses. Box2D has no callback for a body whose fixtures were destroyed
@@ -181,23 +181,23 @@ public:
         : world_(world)
         , sweeps_(sweeps) {}
 
-    /// The world's owner may have destroyed bodies since, except the two given. The next access to another
-    /// one costs one pass over the world's list.
-    void invalidate(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
-        isOfStep_ = isCertain_ = false;
-        present_ = {one, other};
+    /// Call it when the world's owner may have destroyed bodies, except the two given. The next access to
+    /// another one costs one pass over the world's list.
+    void invalidate(const b2Body* a = nullptr, const b2Body* b = nullptr) noexcept {
+        isListUnchanged_ = isIndexCurrent_ = false;
+        existing_ = {a, b};
     }
-    /// The same right after BodySweeps::beginStep(), which has noticed whether the list has changed.
+    /// invalidate() right after BodySweeps::beginStep(), which has noticed whether the list has changed.
     void beginStep() noexcept {
         invalidate();
-        isOfStep_ = true;
-        isCertain_ = indexed_ == sweeps_.census();
+        isListUnchanged_ = true;
+        isIndexCurrent_ = indexedVersion_ == sweeps_.listVersion();
     }
     bool has(std::uint64_t body) const {
-        if (!isCertain_) {
-            for (const b2Body* const present : present_)
+        if (!isIndexCurrent_) {
+            for (const b2Body* const present : existing_)
                 if (present != nullptr && idOf(*present) == body) return true;
-            look();
+            refreshIndex();
         }
         return bodies_.find(body) != IntegerMap::none;
     }
@@ -226,12 +226,12 @@ public:
 private:
     // If the list has the same addresses in the same order, the index is still valid, even if a body was
     // replaced by another at its address.
-    [[gnu::noinline]] void look() const {
-        isCertain_ = true;
-        indexed_ = isOfStep_ ? sweeps_.census() : 0;
-        const std::uint64_t census = BodySweeps::censusOf(world_);
-        if (census == census_) return;
-        census_ = census;
+    [[gnu::noinline]] void refreshIndex() const {
+        isIndexCurrent_ = true;
+        indexedVersion_ = isListUnchanged_ ? sweeps_.listVersion() : 0;
+        const std::uint64_t hash = BodySweeps::listHashOf(world_);
+        if (hash == listHash_) return;
+        listHash_ = hash;
         bodies_.clear();
         for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
             bodies_.set(idOf(*body), 0);
@@ -239,12 +239,12 @@ private:
 
     const b2World& world_;
     const BodySweeps& sweeps_;
-    std::array<const b2Body*, 2> present_{};
-    mutable bool isCertain_ = false;
-    bool isOfStep_ = false;             // nothing has been destroyed since the sweeps' beginStep()
-    mutable std::uint64_t indexed_ = 0; // the sweeps' census of the list that was indexed; 0: not known
-    mutable std::uint64_t census_ = 0;  // hash of that list
-    mutable IntegerMap bodies_;         // bodies that exist
+    std::array<const b2Body*, 2> existing_{};
+    mutable bool isIndexCurrent_ = false;
+    bool isListUnchanged_ = false;             // nothing has been destroyed since the sweeps' beginStep()
+    mutable std::uint64_t indexedVersion_ = 0; // the sweeps' version of the indexed list; 0: not known
+    mutable std::uint64_t listHash_ = 0;       // hash of that list
+    mutable IntegerMap bodies_;                // bodies that exist
 };
 
 } // namespace physvib

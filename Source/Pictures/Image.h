@@ -24,7 +24,7 @@ struct Spot {
     float distanceTo(Spot other) const noexcept { return std::hypot(other.x - x, other.y - y); }
 };
 
-/// Its sides are parallel to those of the picture; width and height are never below 0. Any thread, all of it.
+/// A rectangle with sides parallel to the picture's; width and height are 0 or more. Any thread.
 template <class T>
 struct Rectangle {
     T x{}, y{}, width{}, height{};
@@ -65,32 +65,32 @@ struct Rectangle {
         return {left, top, std::max(T{}, std::min(right(), other.right()) - left),
                 std::max(T{}, std::min(bottom(), other.bottom()) - top)};
     }
-    /// Moved, and made smaller if need be, so that `whole` holds it.
-    Rectangle constrainedWithin(const Rectangle& whole) const noexcept {
-        const T w = std::min(width, whole.width), h = std::min(height, whole.height);
-        return {std::clamp(x, whole.x, whole.right() - w), std::clamp(y, whole.y, whole.bottom() - h), w, h};
+    /// Moved, and made smaller if need be, so that `area` contains it.
+    Rectangle constrainedWithin(const Rectangle& area) const noexcept {
+        const T w = std::min(width, area.width), h = std::min(height, area.height);
+        return {std::clamp(x, area.x, area.right() - w), std::clamp(y, area.y, area.bottom() - h), w, h};
     }
 
-    /// Cuts a piece off, at most all of it, and returns that.
+    /// Cuts off a strip of at most the whole size, and returns it.
     Rectangle removeFromTop(T amount) noexcept {
-        const Rectangle piece{x, y, width, std::min(amount, height)};
-        y += piece.height, height -= piece.height;
-        return piece;
+        const Rectangle removed{x, y, width, std::min(amount, height)};
+        y += removed.height, height -= removed.height;
+        return removed;
     }
     Rectangle removeFromBottom(T amount) noexcept {
-        const T taken = std::min(amount, height);
-        height -= taken;
-        return {x, y + height, width, taken};
+        const T removed = std::min(amount, height);
+        height -= removed;
+        return {x, y + height, width, removed};
     }
     Rectangle removeFromLeft(T amount) noexcept {
-        const Rectangle piece{x, y, std::min(amount, width), height};
-        x += piece.width, width -= piece.width;
-        return piece;
+        const Rectangle removed{x, y, std::min(amount, width), height};
+        x += removed.width, width -= removed.width;
+        return removed;
     }
     Rectangle removeFromRight(T amount) noexcept {
-        const T taken = std::min(amount, width);
-        width -= taken;
-        return {x + width, y, taken, height};
+        const T removed = std::min(amount, width);
+        width -= removed;
+        return {x + width, y, removed, height};
     }
 
     Rectangle<float> toFloat() const noexcept {
@@ -103,7 +103,7 @@ struct Rectangle {
         return {left, top, roundToInt(right()) - left, roundToInt(bottom()) - top};
     }
     /// The whole pixels that it touches.
-    Rectangle<int> touched() const noexcept {
+    Rectangle<int> outerPixels() const noexcept {
         const auto left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
         return {left, top, static_cast<int>(std::ceil(right())) - left,
                 static_cast<int>(std::ceil(bottom())) - top};
@@ -135,7 +135,7 @@ struct Transform {
         return {n.xx * xx + n.xy * yx, n.xx * xy + n.xy * yy,        n.yx * xx + n.yy * yx,
                 n.yx * xy + n.yy * yy, n.xx * dx + n.xy * dy + n.dx, n.yx * dx + n.yy * dy + n.dy};
     }
-    Spot at(Spot p) const noexcept { return {xx * p.x + xy * p.y + dx, yx * p.x + yy * p.y + dy}; }
+    Spot apply(Spot p) const noexcept { return {xx * p.x + xy * p.y + dx, yx * p.x + yy * p.y + dy}; }
 };
 
 /// Filled, all of its parts are closed; overlaps count once. One thread at a time.
@@ -163,12 +163,12 @@ public:
     }
     Path& addRectangle(float x, float y, float width, float height);
     Path& addEllipse(float x, float y, float width, float height);
-    Path& addRounded(Box box, float radius); ///< a rectangle with round corners
+    Path& addRoundedRectangle(Box box, float radius); ///< a rectangle with round corners
 
     bool empty() const noexcept { return parts_.empty(); }
     const std::vector<Part>& parts() const noexcept { return parts_; }
     void append(const Path& other) { parts_.insert(parts_.end(), other.parts_.begin(), other.parts_.end()); }
-    void move(const Transform& by);
+    void move(const Transform& transform);
 
 private:
     Path& add(Kind kind, std::initializer_list<Spot> points) {
@@ -245,7 +245,7 @@ public:
         const std::uint8_t* p = rgb_.data() + index(x, y);
         return {255, p[0], p[1], p[2]};
     }
-    /// Lays `colour` over a pixel, which `coverage` (0 to 255) of it reaches.
+    /// Blends `colour` over a pixel, of which `coverage` (0 to 255) is covered.
     void blend(int x, int y, Colour colour, unsigned coverage = 255) noexcept {
         const int share = static_cast<int>(colour.alpha * coverage);
         std::uint8_t* p = rgb_.data() + index(x, y);

@@ -11,7 +11,7 @@ namespace physvib::picture {
 namespace {
 
 /// A font's plain and bold file. The first that a machine has is used, the others for letters that it lacks.
-constexpr std::array<std::array<const char*, 2>, 5> known{
+constexpr std::array<std::array<const char*, 2>, 5> fontFiles{
     {{"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"},
      {"LiberationSans-Regular.ttf", "LiberationSans-Bold.ttf"},
      {"NotoSans-Regular.ttf", "NotoSans-Bold.ttf"},
@@ -49,7 +49,7 @@ struct Letters::Fonts {
     std::array<std::vector<FT_Face>, 2> faces; // plain, bold
 
     explicit Fonts(const std::vector<std::filesystem::path>& folders) {
-        std::array<std::array<std::filesystem::path, 2>, known.size()> found;
+        std::array<std::array<std::filesystem::path, 2>, fontFiles.size()> found;
         for (const auto& folder : folders) find(folder, found);
         for (const auto& font : found)
             for (std::size_t bold = 0; bold < 2; ++bold) {
@@ -64,47 +64,47 @@ struct Letters::Fonts {
     }
 
     static void find(const std::filesystem::path& folder,
-                     std::array<std::array<std::filesystem::path, 2>, known.size()>& found) {
+                     std::array<std::array<std::filesystem::path, 2>, fontFiles.size()>& found) {
         std::error_code none;
         for (std::filesystem::recursive_directory_iterator file{folder, none}, end; !none && file != end;
              file.increment(none))
-            for (std::size_t font = 0; font < known.size(); ++font)
+            for (std::size_t font = 0; font < fontFiles.size(); ++font)
                 for (std::size_t bold = 0; bold < 2; ++bold)
-                    if (found[font][bold].empty() && file->path().filename() == known[font][bold])
+                    if (found[font][bold].empty() && file->path().filename() == fontFiles[font][bold])
                         found[font][bold] = file->path();
     }
 
-    const std::vector<FT_Face>& of(bool bold) const { return faces[bold && !faces[1].empty()]; }
+    const std::vector<FT_Face>& facesOf(bool bold) const { return faces[bold && !faces[1].empty()]; }
 
-    /// Calls `take(face, x)` for each letter, which is loaded then; returns where the line ends.
-    template <class Take>
-    float walk(std::string_view words, float height, bool bold, Take take) const {
+    /// Calls `visit(face, x)` for each letter, which is loaded then; returns where the line ends.
+    template <class Visit>
+    float forEachLetter(std::string_view words, float height, bool bold, Visit visit) const {
         float x = 0.0f;
         FT_Face before = nullptr;
         FT_UInt last = 0;
-        while (!words.empty() && !of(bold).empty()) {
+        while (!words.empty() && !facesOf(bold).empty()) {
             const auto letter = firstCharacter(words);
             words.remove_prefix(std::max<std::size_t>(letter.bytes, 1));
-            FT_Face face = of(bold).front();
-            for (FT_Face one : of(bold))
+            FT_Face face = facesOf(bold).front();
+            for (FT_Face one : facesOf(bold))
                 if (FT_Get_Char_Index(one, letter.code) != 0) {
                     face = one;
                     break;
                 }
             const FT_UInt glyph = FT_Get_Char_Index(face, letter.code);
-            FT_Set_Char_Size(face, 0, std::lround(64.0f * emOf(face, height)), 72, 72);
+            FT_Set_Char_Size(face, 0, std::lround(64.0f * emSize(face, height)), 72, 72);
             FT_Vector kerning{};
             if (face == before) FT_Get_Kerning(face, last, glyph, FT_KERNING_UNFITTED, &kerning);
             if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
             x += static_cast<float>(kerning.x) / 64.0f;
-            take(face, x);
+            visit(face, x);
             x += static_cast<float>(face->glyph->linearHoriAdvance) / 65536.0f;
             before = face, last = glyph;
         }
         return x;
     }
 
-    static float emOf(FT_Face face, float height) {
+    static float emSize(FT_Face face, float height) {
         return height * static_cast<float>(face->units_per_EM) /
                static_cast<float>(std::max(face->ascender - face->descender, 1));
     }
@@ -118,12 +118,12 @@ Letters::~Letters() = default;
 bool Letters::empty() const noexcept { return fonts_->faces[0].empty() && fonts_->faces[1].empty(); }
 
 float Letters::width(std::string_view words, float height, bool bold) const {
-    return fonts_->walk(words, height, bold, [](FT_Face, float) {});
+    return fonts_->forEachLetter(words, height, bold, [](FT_Face, float) {});
 }
 
 Path Letters::outline(std::string_view words, float height, bool bold) const {
     Path line;
-    fonts_->walk(words, height, bold, [&](FT_Face face, float x) {
+    fonts_->forEachLetter(words, height, bold, [&](FT_Face face, float x) {
         Path letter;
         if (face->glyph->format == FT_GLYPH_FORMAT_OUTLINE)
             FT_Outline_Decompose(&face->glyph->outline, &intoPath, &letter);
@@ -134,8 +134,8 @@ Path Letters::outline(std::string_view words, float height, bool bold) const {
 }
 
 float Letters::ascent(float height, bool bold) const {
-    if (empty() || fonts_->of(bold).empty()) return height;
-    const FT_Face face = fonts_->of(bold).front();
+    if (empty() || fonts_->facesOf(bold).empty()) return height;
+    const FT_Face face = fonts_->facesOf(bold).front();
     return height * static_cast<float>(face->ascender) /
            static_cast<float>(std::max(face->ascender - face->descender, 1));
 }

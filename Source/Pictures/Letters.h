@@ -22,9 +22,9 @@ public:
 
     /// `height` is that of a line, from the highest to the lowest letter. In pixels.
     float width(std::string_view words, float height, bool bold) const;
-    /// The line begins at (0, 0), its baseline.
+    /// Outline of a line of text whose baseline begins at (0, 0).
     Path outline(std::string_view words, float height, bool bold) const;
-    /// From the top of a line to its baseline, in pixels.
+    /// Distance from the top of a line to its baseline, in pixels.
     float ascent(float height, bool bold) const;
     bool empty() const noexcept; ///< no font was found
 

@@ -14,10 +14,10 @@ inline constexpr Colour line = Colour::of(0xff2b2e38);
 inline constexpr Colour text = Colour::of(0xffe6e8ee);
 inline constexpr Colour muted = Colour::of(0xff959bab);
 inline constexpr Colour white = Colour::of(0xffffffff);
-inline constexpr Colour now = Colour::of(0xfff6c667);    ///< amber: what happens at this moment
-inline constexpr Colour limit = Colour::of(0xfff56565);  ///< red: stop and limit, nothing else
-inline constexpr Colour camera = Colour::of(0xffd8c69a); ///< outline of what is felt
-inline constexpr Colour other = Colour::of(0xff6b7180);  ///< what has no material
+inline constexpr Colour highlight = Colour::of(0xfff6c667); ///< amber: what happens at this moment
+inline constexpr Colour limit = Colour::of(0xfff56565);     ///< red: stop and limit, nothing else
+inline constexpr Colour camera = Colour::of(0xffd8c69a);    ///< outline of what is felt
+inline constexpr Colour grey = Colour::of(0xff6b7180);      ///< what has no material
 
 /// Colour of an enchanter: eight chosen by eye, then hues a golden angle apart. Any thread.
 inline Colour enchanter(int index) {
@@ -37,11 +37,11 @@ inline Colour material(int index) {
     return Colour::of(chosen[static_cast<std::size_t>(index) % chosen.size()]);
 }
 
-/// Of a material of a list: its own, or by its place; of what is in none, by that number. Any thread.
+/// Colour of material `index` of `list`: its own if set, else by the index, also outside it. Any thread.
 Colour materialOf(const auto& list, int index) {
-    const bool isIn = index >= 0 && index < static_cast<int>(list.size());
-    const int own = isIn ? list[static_cast<std::size_t>(index)].colour : 0;
-    return material(own > 0 ? own - 1 : index);
+    const bool isListed = index >= 0 && index < static_cast<int>(list.size());
+    const int assigned = isListed ? list[static_cast<std::size_t>(index)].colour : 0;
+    return material(assigned > 0 ? assigned - 1 : index);
 }
 
 constexpr int rampCount = 6;

@@ -13,16 +13,17 @@ namespace physvib::picture {
 
 namespace {
 
-constexpr float furthest = 100000.0f; // pixels; FreeType refuses outlines that reach further
-constexpr int mostCorners = 1000,
-              widestPart = 128;             // of an outline that FreeType is not asked for in one piece
-constexpr std::size_t longestStroke = 1000; // steps at once: an outline has at most 32767 points
+constexpr float maxCoordinatePixels = 100000.0f; // pixels; FreeType refuses outlines that reach further
+constexpr int maxCorners = 1000,
+              maxPartPixels = 128;           // of an outline that FreeType is not asked for in one piece
+constexpr std::size_t maxStrokeSteps = 1000; // steps at once: an outline has at most 32767 points
 
 FT_Vector fixed(Spot p) {
     const auto part = [](float value) {
-        return static_cast<FT_Pos>(std::lround(64.0f * (value > furthest    ? furthest
-                                                        : value > -furthest ? value
-                                                                            : -furthest)));
+        return static_cast<FT_Pos>(
+            std::lround(64.0f * (value > maxCoordinatePixels    ? maxCoordinatePixels
+                                 : value > -maxCoordinatePixels ? value
+                                                                : -maxCoordinatePixels)));
     };
     return {part(p.x), part(p.y)};
 }
@@ -35,13 +36,13 @@ struct Outline {
     std::vector<std::remove_pointer_t<decltype(FT_Outline::tags)>> tags;
     std::vector<End> ends;
 
-    void add(const Path& path, const Transform& move) {
+    void add(const Path& path, const Transform& transform) {
         for (const Path::Part& part : path.parts()) {
             std::size_t at = 0;
             for (const Path::Kind kind : part.steps) {
                 const auto count = std::max<std::size_t>(static_cast<std::size_t>(kind), 1);
                 for (std::size_t i = 0; i < count; ++i) {
-                    points.push_back(fixed(move.at(part.points[at++])));
+                    points.push_back(fixed(transform.apply(part.points[at++])));
                     tags.push_back(i + 1 == count              ? FT_CURVE_TAG_ON
                                    : kind == Path::Kind::cubic ? FT_CURVE_TAG_CUBIC
                                                                : FT_CURVE_TAG_CONIC);
@@ -74,11 +75,11 @@ struct Painter::Raster {
 
     struct Span {
         int y;
-        FT_Span of;
+        FT_Span pixels;
     };
     std::vector<Span> spans; // of one outline, until it is known that there are no more
 
-    static void take(int y, int count, const FT_Span* found, void* user) {
+    static void addSpans(int y, int count, const FT_Span* found, void* user) {
         for (int i = 0; i < count; ++i) static_cast<Raster*>(user)->spans.push_back({y, found[i]});
     }
 
@@ -97,7 +98,7 @@ struct Painter::Raster {
     }
 
     /// What may be painted of an outline.
-    static Area reach(const FT_Outline& outline, Area clip) {
+    static Area paintedArea(const FT_Outline& outline, Area clip) {
         FT_BBox box;
         FT_Outline_Get_CBox(&outline, &box);
         const auto left = static_cast<int>(box.xMin >> 6), top = static_cast<int>(box.yMin >> 6);
@@ -110,11 +111,11 @@ struct Painter::Raster {
         if (outline.n_points == 0 || part.empty()) return;
         FT_Raster_Params params{};
         params.flags = FT_RASTER_FLAG_AA | FT_RASTER_FLAG_DIRECT | FT_RASTER_FLAG_CLIP;
-        params.gray_spans = take;
+        params.gray_spans = addSpans;
         params.user = this;
         params.clip_box = {part.x, part.y, part.right(), part.bottom()};
         spans.clear();
-        const bool isTried = outline.n_points < mostCorners || part.width <= widestPart;
+        const bool isTried = outline.n_points < maxCorners || part.width <= maxPartPixels;
         if (isTried && FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
         if (part.width == 1) return;
         const Area left = part.removeFromLeft(part.width / 2);
@@ -126,27 +127,27 @@ struct Painter::Raster {
     void fillStroke(Painter& painter) {
         FT_UInt points = 0, ends = 0;
         FT_Stroker_GetCounts(stroker, &points, &ends);
-        Outline made;
-        made.points.resize(points), made.tags.resize(points), made.ends.resize(ends);
-        FT_Outline outline{0, 0, made.points.data(), made.tags.data(), made.ends.data(), FT_OUTLINE_NONE};
+        Outline data;
+        data.points.resize(points), data.tags.resize(points), data.ends.resize(ends);
+        FT_Outline outline{0, 0, data.points.data(), data.tags.data(), data.ends.data(), FT_OUTLINE_NONE};
         FT_Stroker_Export(stroker, &outline);
         FT_Stroker_Rewind(stroker);
-        fill(painter, outline, reach(outline, painter.clip_));
+        fill(painter, outline, paintedArea(outline, painter.clip_));
     }
 
     // A long part is stroked in pieces.
-    void stroke(Painter& painter, const Path::Part& part, const Transform& move) {
-        const bool isLong = part.steps.size() > longestStroke, closes = part.isClosed && !isLong;
-        FT_Vector p[3]{fixed(move.at(part.points[0]))}; // the last is where the line is
+    void stroke(Painter& painter, const Path::Part& part, const Transform& transform) {
+        const bool isLong = part.steps.size() > maxStrokeSteps, closes = part.isClosed && !isLong;
+        FT_Vector p[3]{fixed(transform.apply(part.points[0]))}; // the last is where the line is
         const FT_Vector start = p[0];
         FT_Vector at = start;
         begin(at, !closes);
         for (std::size_t step = 1, next = 1; step < part.steps.size(); ++step) {
             const auto count = static_cast<std::size_t>(part.steps[step]); // of points: see Kind
-            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(move.at(part.points[next++]));
+            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(transform.apply(part.points[next++]));
             add(at, p, count);
             at = p[count - 1];
-            if (step % longestStroke != 0) continue;
+            if (step % maxStrokeSteps != 0) continue;
             end(painter);
             begin(at, true);
         }
@@ -177,8 +178,8 @@ private:
         fillStroke(painter);
     }
     static bool isApart(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
-        const FT_Pos least = count == 1 ? 1 : 2; // of 64ths of a pixel, in curves
-        return std::abs(a.x - b.x) >= least || std::abs(a.y - b.y) >= least;
+        const FT_Pos minDistance = count == 1 ? 1 : 2; // of 64ths of a pixel, in curves
+        return std::abs(a.x - b.x) >= minDistance || std::abs(a.y - b.y) >= minDistance;
     }
     bool isBegun_ = false;
 };
@@ -195,18 +196,18 @@ void Painter::fillAll(Colour colour) {
         for (int x = 0; x < image_.width(); ++x) image_.blend(x, y, colour);
 }
 
-void Painter::fillPath(const Path& path, const Transform& move) {
+void Painter::fillPath(const Path& path, const Transform& transform) {
     Outline outline;
-    outline.add(path, move);
+    outline.add(path, transform);
     if (!outline.fits()) return; // no shape of ours has so many corners
     auto view = outline.view();
-    raster_->fill(*this, view, Raster::reach(view, clip_));
+    raster_->fill(*this, view, Raster::paintedArea(view, clip_));
 }
 
-void Painter::strokePath(const Path& path, float width, const Transform& move) {
+void Painter::strokePath(const Path& path, float width, const Transform& transform) {
     FT_Stroker_Set(raster_->stroker, std::lround(32.0f * width), FT_STROKER_LINECAP_BUTT,
                    FT_STROKER_LINEJOIN_MITER_FIXED, 4 << 16);
-    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, move);
+    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, transform);
 }
 
 void Painter::blend(int x, int y, Colour colour) {
@@ -215,7 +216,8 @@ void Painter::blend(int x, int y, Colour colour) {
 }
 
 namespace {
-constexpr float quarter = 0.5522848f; // of a circle by a cubic: its handles, as a share of the radius
+constexpr float quarterCircleHandle = 0.5522848f; // of a circle by a cubic: its handles, as a share of the
+                                                  // radius
 }
 
 Path& Path::addRectangle(float x, float y, float width, float height) {
@@ -229,15 +231,16 @@ Path& Path::addRectangle(float x, float y, float width, float height) {
 Path& Path::addEllipse(float x, float y, float width, float height) {
     const float a = 0.5f * width, b = 0.5f * height, cx = x + a, cy = y + b;
     return startNewSubPath(cx + a, cy)
-        .cubicTo({cx + a, cy + quarter * b}, {cx + quarter * a, cy + b}, {cx, cy + b})
-        .cubicTo({cx - quarter * a, cy + b}, {cx - a, cy + quarter * b}, {cx - a, cy})
-        .cubicTo({cx - a, cy - quarter * b}, {cx - quarter * a, cy - b}, {cx, cy - b})
-        .cubicTo({cx + quarter * a, cy - b}, {cx + a, cy - quarter * b}, {cx + a, cy})
+        .cubicTo({cx + a, cy + quarterCircleHandle * b}, {cx + quarterCircleHandle * a, cy + b}, {cx, cy + b})
+        .cubicTo({cx - quarterCircleHandle * a, cy + b}, {cx - a, cy + quarterCircleHandle * b}, {cx - a, cy})
+        .cubicTo({cx - a, cy - quarterCircleHandle * b}, {cx - quarterCircleHandle * a, cy - b}, {cx, cy - b})
+        .cubicTo({cx + quarterCircleHandle * a, cy - b}, {cx + a, cy - quarterCircleHandle * b}, {cx + a, cy})
         .closeSubPath();
 }
 
-Path& Path::addRounded(Box box, float radius) {
-    const float r = std::min({radius, 0.5f * box.width, 0.5f * box.height}), k = (1.0f - quarter) * r;
+Path& Path::addRoundedRectangle(Box box, float radius) {
+    const float r = std::min({radius, 0.5f * box.width, 0.5f * box.height}),
+                k = (1.0f - quarterCircleHandle) * r;
     const float left = box.x, top = box.y, right = box.right(), bottom = box.bottom();
     return startNewSubPath(left + r, top)
         .lineTo(right - r, top)
@@ -251,15 +254,15 @@ Path& Path::addRounded(Box box, float radius) {
         .closeSubPath();
 }
 
-void Path::move(const Transform& by) {
+void Path::move(const Transform& transform) {
     for (Part& part : parts_)
-        for (Spot& p : part.points) p = by.at(p);
+        for (Spot& p : part.points) p = transform.apply(p);
 }
 
 namespace {
 
 /// As many letters of `words` as there is room for, and three dots.
-std::string cut(const Letters& letters, std::string_view words, float height, bool bold, float room) {
+std::string truncated(const Letters& letters, std::string_view words, float height, bool bold, float room) {
     const auto start = [words](std::size_t bytes) { return std::string{words.substr(0, bytes)} + "..."; };
     std::size_t fits = 0, tooMany = words.size();
     while (tooMany - fits > 1) {
@@ -272,14 +275,14 @@ std::string cut(const Letters& letters, std::string_view words, float height, bo
 
 } // namespace
 
-void Canvas::text(std::string_view words, Area area, Align where, Colour colour, float height,
+void Canvas::text(std::string_view words, Area area, Align align, Colour colour, float height,
                   bool bold) const {
     std::string shown{words};
     const auto room = static_cast<float>(area.width);
     float width = letters.width(shown, height, bold);
     if (width > room)
-        shown = cut(letters, words, height, bold, room), width = letters.width(shown, height, bold);
-    const float share = where == Align::left ? 0.0f : where == Align::centre ? 0.5f : 1.0f;
+        shown = truncated(letters, words, height, bold, room), width = letters.width(shown, height, bold);
+    const float share = align == Align::left ? 0.0f : align == Align::centre ? 0.5f : 1.0f;
     const float left = static_cast<float>(area.x) + share * (room - width),
                 top = area.centre().y - 0.5f * height;
     graphics.setColour(colour);
@@ -287,11 +290,11 @@ void Canvas::text(std::string_view words, Area area, Align where, Colour colour,
                       Transform{}.translated(left, std::round(top + letters.ascent(height, bold))));
 }
 
-std::vector<double> ticks(double from, double to, int most) {
-    if (!(to > from) || most < 1) return {from};
-    double step = std::pow(10.0, std::floor(std::log10((to - from) / most)));
+std::vector<double> ticks(double from, double to, int maxCount) {
+    if (!(to > from) || maxCount < 1) return {from};
+    double step = std::pow(10.0, std::floor(std::log10((to - from) / maxCount)));
     for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0})
-        if ((to - from) / (step * factor) <= most) {
+        if ((to - from) / (step * factor) <= maxCount) {
             step *= factor;
             break;
         }

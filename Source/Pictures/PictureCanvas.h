@@ -34,35 +34,35 @@ public:
     void setGradient(const RadialGradient& gradient) noexcept { gradient_ = gradient; }
 
     void fillAll(Colour colour);
-    void fillPath(const Path& path, const Transform& move = {});
+    void fillPath(const Path& path, const Transform& transform = {});
     /// A line of that width along the path, with mitred corners and flat ends.
-    void strokePath(const Path& path, float width, const Transform& move = {});
+    void strokePath(const Path& path, float width, const Transform& transform = {});
     void fillRect(Box b) { fillPath(Path{}.addRectangle(b.x, b.y, b.width, b.height)); }
     void fillEllipse(Box b) { fillPath(Path{}.addEllipse(b.x, b.y, b.width, b.height)); }
-    void fillRounded(Box box, float radius) { fillPath(Path{}.addRounded(box, radius)); }
+    void fillRounded(Box box, float radius) { fillPath(Path{}.addRoundedRectangle(box, radius)); }
     void drawEllipse(Box b, float width) {
         strokePath(Path{}.addEllipse(b.x, b.y, b.width, b.height), width);
     }
     void drawRounded(Box box, float radius, float width) {
-        strokePath(Path{}.addRounded(box, radius), width);
+        strokePath(Path{}.addRoundedRectangle(box, radius), width);
     }
     void drawLine(Spot from, Spot to, float width) {
         strokePath(Path{}.startNewSubPath(from).lineTo(to), width);
     }
     void blend(int x, int y, Colour colour); ///< one pixel, whatever has been added as a transform
 
-    /// Nothing is painted outside of it as well.
+    /// Restricts painting to `area` within the present clip.
     void reduceClip(Area area) noexcept { clip_ = clip_.intersection(area); }
 
-    /// The clip as it was, at the end of the block.
-    class Saved {
+    /// Restores the painter's clip at the end of its scope.
+    class ClipScope {
     public:
-        explicit Saved(Painter& painter) noexcept
+        explicit ClipScope(Painter& painter) noexcept
             : painter_{painter}
             , clip_{painter.clip_} {}
-        ~Saved() { painter_.clip_ = clip_; }
-        Saved(const Saved&) = delete;
-        Saved& operator=(const Saved&) = delete;
+        ~ClipScope() { painter_.clip_ = clip_; }
+        ClipScope(const ClipScope&) = delete;
+        ClipScope& operator=(const ClipScope&) = delete;
 
     private:
         Painter& painter_;
@@ -90,7 +90,7 @@ struct Canvas {
     const Letters& letters;
 
     /// One line, cut with an ellipsis if it is wider than `area`. Words are clean: cleanLine().
-    void text(std::string_view words, Area area, Align where, Colour colour, float height = smallText,
+    void text(std::string_view words, Area area, Align align, Colour colour, float height = smallText,
               bool bold = false) const;
     int textWidth(std::string_view words, float height, bool bold = false) const {
         return roundToInt(std::ceil(letters.width(words, height, bold))) + 1;
@@ -111,8 +111,8 @@ struct Canvas {
     }
 };
 
-/// Round values (1, 2 or 5 times a power of ten) between `from` and `to`, at most `most` of them.
-std::vector<double> ticks(double from, double to, int most);
+/// Round values (1, 2 or 5 times a power of ten) between `from` and `to`, at most `maxCount` of them.
+std::vector<double> ticks(double from, double to, int maxCount);
 
 /// A horizontal axis and the lane above it.
 struct Axis {

@@ -19,17 +19,17 @@ public:
         Colour colour;
     };
     explicit HitColours(const PictureInput& input);
-    Colour of(const CollisionEvent& event) const;
+    Colour colourOf(const CollisionEvent& event) const;
     const std::vector<Class>& classes() const noexcept { return classes_; } ///< those that occur
     const char* meaning() const noexcept { return meaning_; }
 
 private:
-    void takeMaterials(const PictureInput& input);
-    bool takeParts(const PictureInput& input); ///< false: a hit is on no known part
-    void takeFrequencies(const PictureInput& input);
+    void classifyByMaterial(const PictureInput& input);
+    bool classifyByBodyPart(const PictureInput& input); ///< false: a hit is on no known part
+    void classifyByFrequency(const PictureInput& input);
 
-    struct Rule {                                   // first match wins
-        double lowestHz, highestHz, decayPerSecond; // decay < 0: any
+    struct Rule {                            // first match wins
+        double minHz, maxHz, decayPerSecond; // decay < 0: any
         Colour colour;
         PartNumber part = 0; // 0: any
     };
@@ -57,9 +57,9 @@ Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);
 int lanesHeight(int channels) noexcept;
 
 /// The amplitude scale that all lanes of a window share, as text.
-std::string fullHeight(const WaveformEnvelope& wave);
+std::string fullScaleText(const WaveformEnvelope& wave);
 
-std::vector<int> everyChannelOf(const WaveformEnvelope& wave);
+std::vector<int> allChannelsOf(const WaveformEnvelope& wave);
 
 /// Lanes of `channels` from top to bottom in `axis.lane`, labels and peaks beside them; above 16 strips whose
 /// brightness is the level, labelled in groups.
@@ -93,9 +93,9 @@ public:
     void add(Spot centre, float radius, float strength, Colour colour) {
         if (!area_.toFloat().expanded(radius).contains(centre))
             return; // also what is too far away for whole numbers
-        const Area seen = boxAround(centre, 2.0f * radius, 2.0f * radius).touched().intersection(area_);
-        for (int y = seen.y; y < seen.bottom(); ++y)
-            for (int x = seen.x; x < seen.right(); ++x) {
+        const Area box = boxAround(centre, 2.0f * radius, 2.0f * radius).outerPixels().intersection(area_);
+        for (int y = box.y; y < box.bottom(); ++y)
+            for (int x = box.x; x < box.right(); ++x) {
                 const float dx = static_cast<float>(x) + 0.5f - centre.x,
                             dy = static_cast<float>(y) + 0.5f - centre.y;
                 const float inside = 1.0f - (dx * dx + dy * dy) / (radius * radius);
@@ -109,7 +109,7 @@ public:
         const float exposure = brightest > 2.0f ? 2.0f / brightest : 1.0f;
         if (area_.empty() || brightest <= 0.0f) return;
         for (int y = 0; y < area_.height; ++y)
-            for (int x = 0; x < area_.width; ++x) g.blend(area_.x + x, area_.y + y, seen(x, y, exposure));
+            for (int x = 0; x < area_.width; ++x) g.blend(area_.x + x, area_.y + y, colourAt(x, y, exposure));
     }
 
 private:
@@ -123,12 +123,12 @@ private:
         pixel[1] += light * static_cast<float>(colour.green) / 255.0f;
         pixel[2] += light * static_cast<float>(colour.blue) / 255.0f;
     }
-    Colour seen(int x, int y, float exposure) const {
+    Colour colourAt(int x, int y, float exposure) const {
         const float* pixel = rgb_.data() + index(x, y);
-        const float most = std::max({pixel[0], pixel[1], pixel[2]});
-        if (most <= 0.0f) return {};
-        return Colour::of(pixel[0] / most, pixel[1] / most, pixel[2] / most,
-                          1.0f - std::exp(-exposure * most));
+        const float brightest = std::max({pixel[0], pixel[1], pixel[2]});
+        if (brightest <= 0.0f) return {};
+        return Colour::of(pixel[0] / brightest, pixel[1] / brightest, pixel[2] / brightest,
+                          1.0f - std::exp(-exposure * brightest));
     }
 
     Area area_;
@@ -141,14 +141,14 @@ private:
 struct FieldMap {
     Box field;
     double pixelsPerMetre;
-    Spot at(double xMetres, double yMetres) const {
-        return {field.x + length(xMetres), field.bottom() - length(yMetres)};
+    Spot spotAt(double xMetres, double yMetres) const {
+        return {field.x + pixels(xMetres), field.bottom() - pixels(yMetres)};
     }
-    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
+    float pixels(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
 };
 
 /// The field to scale, in the middle of `room`.
-FieldMap fitField(const PictureInput& input, Area room);
+FieldMap fittedFieldMap(const PictureInput& input, Area room);
 
 /// A place of the field. A layout in space is seen obliquely: what is nearer is further down and to the left.
 Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);

@@ -2,7 +2,7 @@
 // Draws the signal panels: all channels over time, and a close-up of the strongest impact.
 #include "Core/EnchanterLayout.h"
 #include "Pictures/PictureParts.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -12,12 +12,12 @@
 namespace physvib::picture {
 namespace {
 
-constexpr std::size_t mostZoomLanes = 8;
+constexpr std::size_t maxZoomLanes = 8;
 
 std::vector<int> loudestChannels(const WaveformEnvelope& wave) {
-    auto channels = everyChannelOf(wave);
+    auto channels = allChannelsOf(wave);
     std::ranges::stable_sort(channels, std::greater{}, [&](int c) { return wave.peak(c); });
-    channels.resize(std::min(channels.size(), mostZoomLanes));
+    channels.resize(std::min(channels.size(), maxZoomLanes));
     std::ranges::sort(channels);
     return channels;
 }
@@ -27,8 +27,8 @@ void drawChannels(const Canvas& canvas, const PictureInput& input, const std::ve
     const auto heading = area.removeFromTop(headingHeight);
     area.removeFromTop(6);
     if (input.waveform == nullptr) return canvas.heading("CHANNELS", "no sound", heading);
-    canvas.heading("CHANNELS", fullHeight(*input.waveform), heading);
-    drawLanes(canvas, input, *input.waveform, everyChannelOf(*input.waveform),
+    canvas.heading("CHANNELS", fullScaleText(*input.waveform), heading);
+    drawLanes(canvas, input, *input.waveform, allChannelsOf(*input.waveform),
               {0.0, input.durationSeconds, laneOf(canvas, input, area)}, grid);
 }
 
@@ -48,7 +48,7 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel) {
     const auto part = zoom.channels() > static_cast<int>(shown.size())
                           ? ", 8 LOUDEST OF " + std::to_string(zoom.channels()) + " CHANNELS"
                           : std::string();
-    canvas.heading("STRONGEST HIT, 100 MS" + part, fullHeight(zoom), heading);
+    canvas.heading("STRONGEST HIT, 100 MS" + part, fullScaleText(zoom), heading);
     const auto axisRow = panel.removeFromBottom(axisHeight);
     const double rate = input.sampleRateHz;
     const double onset = static_cast<double>(strongest->timeNs) * 1e-9;
@@ -57,7 +57,7 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel) {
                     laneOf(canvas, input, panel.withTrimmedTop(6))};
     const auto grid = ticks(axis.from, axis.to, 10);
     drawLanes(canvas, input, zoom, shown, axis, grid);
-    axis.drawGrid(canvas, {0.0}, palette::now.withAlpha(0.6f));
+    axis.drawGrid(canvas, {0.0}, palette::highlight.withAlpha(0.6f));
     axis.drawLabels(canvas, grid, "ms", axisRow);
 }
 
@@ -86,8 +86,8 @@ void drawSignals(const Canvas& canvas, const PictureInput& input, const HitColou
 
 namespace {
 
-constexpr int mostWaves = 16; // above, a lane is too low for a waveform and becomes a strip of brightness
-constexpr double stripFloorDecibels = -60.0; // of the loudest
+constexpr int maxWaveLanes = 16; // above, a lane is too low for a waveform and becomes a strip of brightness
+constexpr double stripFloorDb = -60.0; // of the loudest
 
 // The filled outline between the highest and lowest samples, at least a line thick and without gaps.
 void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, Area lane) {
@@ -116,7 +116,7 @@ void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, A
 }
 
 // Rows `from` to `to` of `count` that share the height without gaps.
-Area part(Area whole, int from, int to, int count) {
+Area rowsOf(Area whole, int from, int to, int count) {
     const int top = whole.height * from / count, bottom = whole.height * to / count;
     return whole.withY(whole.y + top).withHeight(bottom - top);
 }
@@ -128,7 +128,7 @@ void drawStrip(const Canvas& canvas, const WaveformEnvelope& wave, int channel, 
         const auto range = wave.column(channel, i);
         const double level =
             decibels(std::max(std::abs(range.lowest), std::abs(range.highest)) / wave.peak());
-        const auto alpha = static_cast<float>(std::pow(std::max(0.0, 1.0 - level / stripFloorDecibels), 1.5));
+        const auto alpha = static_cast<float>(std::pow(std::max(0.0, 1.0 - level / stripFloorDb), 1.5));
         canvas.graphics.setColour(palette::enchanter(channel).withAlpha(std::min(alpha, 1.0f)));
         canvas.graphics.fillRect({static_cast<float>(lane.x) + static_cast<float>(i) * step,
                                   static_cast<float>(lane.y), step, static_cast<float>(lane.height)});
@@ -143,7 +143,7 @@ void drawLabelAndPeak(const Canvas& canvas, std::string_view label, Colour colou
                 peak > 1.0f ? palette::limit : palette::muted);
 }
 
-Area besides(const Canvas& canvas, const PictureInput& input, Area lane) {
+Area panelRowOf(const Canvas& canvas, const PictureInput& input, Area lane) {
     return {lane.x - laneOf(canvas, input, {}).x, lane.y,
             laneOf(canvas, input, {}).x + lane.width + peakWidth, lane.height};
 }
@@ -153,13 +153,13 @@ void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEn
     const int count = static_cast<int>(channels.size());
     for (int i = 0; i < count; ++i) {
         const int channel = channels[static_cast<std::size_t>(i)];
-        const Area row = part(axis.lane, i, i + 1, count);
+        const Area row = rowsOf(axis.lane, i, i + 1, count);
         const Area lane = row.reduced(0, row.height >= 20 ? 2 : 1);
         canvas.well(lane);
         Axis{axis.from, axis.to, lane}.drawGrid(canvas, grid, palette::line);
         drawWave(canvas, wave, channel, lane);
         drawLabelAndPeak(canvas, laneLabelOf(input, channel), palette::enchanter(channel), true,
-                         wave.peak(channel), besides(canvas, input, row), lane);
+                         wave.peak(channel), panelRowOf(canvas, input, row), lane);
     }
 }
 
@@ -171,7 +171,7 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
     canvas.well(axis.lane);
     for (int i = 0; i < count; ++i)
         drawStrip(canvas, wave, channels[static_cast<std::size_t>(i)],
-                  part(axis.lane, i, i + 1, count).withTrimmedBottom(1));
+                  rowsOf(axis.lane, i, i + 1, count).withTrimmedBottom(1));
     for (int i = 0; i < count; i += group) {
         const int end = std::min(i + group, count);
         float peak = 0.0f;
@@ -179,13 +179,13 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
         const auto first = labelOf(input, channels[static_cast<std::size_t>(i)]);
         const auto last = labelOf(input, channels[static_cast<std::size_t>(end) - 1]);
         drawLabelAndPeak(canvas, end - i > 1 ? first + "\xe2\x80\x93" + last : first, palette::muted, false,
-                         peak, besides(canvas, input, part(axis.lane, i, end, count)), axis.lane);
+                         peak, panelRowOf(canvas, input, rowsOf(axis.lane, i, end, count)), axis.lane);
     }
 }
 
 } // namespace
 
-std::vector<int> everyChannelOf(const WaveformEnvelope& wave) {
+std::vector<int> allChannelsOf(const WaveformEnvelope& wave) {
     std::vector<int> channels(static_cast<std::size_t>(wave.channels()));
     std::iota(channels.begin(), channels.end(), 0);
     return channels;
@@ -193,12 +193,12 @@ std::vector<int> everyChannelOf(const WaveformEnvelope& wave) {
 
 void drawLanes(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
                const std::vector<int>& channels, const Axis& axis, const std::vector<double>& grid) {
-    if (static_cast<int>(channels.size()) <= mostWaves)
+    if (static_cast<int>(channels.size()) <= maxWaveLanes)
         return drawWaves(canvas, input, wave, channels, axis, grid);
     drawStrips(canvas, input, wave, channels, axis);
 }
 
-std::string fullHeight(const WaveformEnvelope& wave) {
+std::string fullScaleText(const WaveformEnvelope& wave) {
     if (wave.peak() == 0.0f) return "silence";
     return "full height \xc2\xb1" + number(wave.peak(), 3) + " = " + decibelText(wave.peak());
 }
@@ -236,16 +236,16 @@ int lanesHeight(int channels) noexcept {
 
 namespace {
 
-constexpr double floorDecibels = -60.0;
-constexpr std::ptrdiff_t mostDots = 600; // more heads of stems hide each other
+constexpr double floorDb = -60.0;
+constexpr std::ptrdiff_t maxDots = 600; // more heads of stems hide each other
 constexpr int headRoom = 6;
 
-/// Amplitude to height: floorDecibels at the bottom, 0 dBFS or the next ten above the strongest at the top.
+/// Amplitude to height: floorDb at the bottom, 0 dBFS or the next ten above the strongest at the top.
 struct LevelAxis {
     double ceiling;
     Area lane;
     float height(double level) const {
-        const double share = (level - floorDecibels) / (ceiling - floorDecibels);
+        const double share = (level - floorDb) / (ceiling - floorDb);
         return static_cast<float>(std::max(share * (lane.height - headRoom), 2.0)); // the quietest shows
     }
 };
@@ -292,10 +292,10 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
         drawStem(canvas, axis.x(seconds), static_cast<float>(axis.lane.bottom()),
                  levels.height(decibels(event.amplitude)), colour, dot);
     };
-    const bool hasDots = std::ranges::count_if(input.events, isHit) <= mostDots;
+    const bool hasDots = std::ranges::count_if(input.events, isHit) <= maxDots;
     for (const auto* event : order)
-        draw(*event, colours.of(*event), hasDots && isHit(*event)); // grains are a lawn
-    draw(*order.front(), palette::now, true);
+        draw(*event, colours.colourOf(*event), hasDots && isHit(*event)); // grains are too dense for dots
+    draw(*order.front(), palette::highlight, true);
 }
 
 void drawLegend(const Canvas& canvas, const HitColours& colours, Area row) {
@@ -321,27 +321,27 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 HitColours::HitColours(const PictureInput& input) {
     if (input.scene != nullptr && input.scene->materials.size() <= palette::materialCount)
-        takeMaterials(input);
-    else if (!takeParts(input))
-        takeFrequencies(input);
-    if (!input.events.empty()) classes_.push_back({"strongest", palette::now});
+        classifyByMaterial(input);
+    else if (!classifyByBodyPart(input))
+        classifyByFrequency(input);
+    if (!input.events.empty()) classes_.push_back({"strongest", palette::highlight});
 }
 
-Colour HitColours::of(const CollisionEvent& event) const {
+Colour HitColours::colourOf(const CollisionEvent& event) const {
     for (const auto& rule : rules_)
-        if ((rule.part == 0 || rule.part == event.source.part) && event.frequencyHz >= rule.lowestHz &&
-            event.frequencyHz <= rule.highestHz &&
+        if ((rule.part == 0 || rule.part == event.source.part) && event.frequencyHz >= rule.minHz &&
+            event.frequencyHz <= rule.maxHz &&
             (rule.decayPerSecond == anyDecay || rule.decayPerSecond == event.decayPerSecond))
             return rule.colour;
-    return palette::other;
+    return palette::grey;
 }
 
 // (f, tau) tells the material, whichever of the two bodies gave its voice to the hit.
-void HitColours::takeMaterials(const PictureInput& input) {
+void HitColours::classifyByMaterial(const PictureInput& input) {
     meaning_ = "material";
     const auto& materials = input.scene->materials;
     std::set<std::size_t> used;
-    for (const auto& body : sceneCast(*input.scene))
+    for (const auto& body : allBodies(*input.scene))
         for (const auto& fixture : body.fixtures) used.insert(static_cast<std::size_t>(fixture.material));
     bool unknown = false;
     for (const auto& event : input.events) {
@@ -360,10 +360,10 @@ void HitColours::takeMaterials(const PictureInput& input) {
         classes_.push_back(
             {m.frequencyHz > 0.0 ? name + " " + shortNumber(m.frequencyHz) + " Hz" : name, colour});
     }
-    if (unknown) classes_.push_back({"other", palette::other});
+    if (unknown) classes_.push_back({"other", palette::grey});
 }
 
-bool HitColours::takeParts(const PictureInput& input) {
+bool HitColours::classifyByBodyPart(const PictureInput& input) {
     const std::span places{input.layout.places.data(), static_cast<std::size_t>(input.layout.count)};
     const auto channelOf = [&](PartNumber part) {
         return static_cast<int>(std::ranges::find(places, part, &ActuatorPlace::part) - places.begin());
@@ -385,14 +385,14 @@ bool HitColours::takeParts(const PictureInput& input) {
     return !channels.empty();
 }
 
-void HitColours::takeFrequencies(const PictureInput& input) {
-    std::set<double> heard;
+void HitColours::classifyByFrequency(const PictureInput& input) {
+    std::set<double> frequenciesHz;
     for (const auto& event : input.events) {
-        heard.insert(event.frequencyHz);
-        if (heard.size() > palette::rampCount) break;
+        frequenciesHz.insert(event.frequencyHz);
+        if (frequenciesHz.size() > palette::rampCount) break;
     }
-    if (heard.size() <= palette::rampCount) {
-        for (int i = 0; const double f : heard) {
+    if (frequenciesHz.size() <= palette::rampCount) {
+        for (int i = 0; const double f : frequenciesHz) {
             rules_.push_back({f, f, anyDecay, palette::ramp(i)});
             classes_.push_back({shortNumber(f) + " Hz", palette::ramp(i++)});
         }

@@ -2,11 +2,11 @@
 // Draws the world panel: field, bodies, impacts as light, actuators.
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 
 namespace physvib::picture {
 
-FieldMap fitField(const PictureInput& input, Area room) {
+FieldMap fittedFieldMap(const PictureInput& input, Area room) {
     const double width = std::max(input.fieldWidthMetres, 1e-9),
                  height = std::max(input.fieldHeightMetres, 1e-9);
     const double scale = std::min(room.width / width, room.height / height);
@@ -15,9 +15,9 @@ FieldMap fitField(const PictureInput& input, Area room) {
 }
 
 Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z) {
-    constexpr double foreshortened = 0.35;
-    const double aside = isFlat(input.layout) ? 0.0 : foreshortened * z;
-    return map.at(x - aside, y - aside);
+    constexpr double obliqueFactor = 0.35;
+    const double obliqueShift = isFlat(input.layout) ? 0.0 : obliqueFactor * z;
+    return map.spotAt(x - obliqueShift, y - obliqueShift);
 }
 
 Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
@@ -36,39 +36,42 @@ constexpr float wallPixels = 12.0f;
 // A chain is a line: it is stroked, the others are filled.
 void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, Colour colour,
                  const Transform& body, const FieldMap& map) {
-    const auto move = Transform::rotation(static_cast<float>(-fixture.angleRadians))
-                          .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
-                          .followedBy(body);
+    const auto transform =
+        Transform::rotation(static_cast<float>(-fixture.angleRadians))
+            .translated(map.pixels(fixture.offsetMetres.x), -map.pixels(fixture.offsetMetres.y))
+            .followedBy(body);
     const auto outline = shapeOutline<Path>(fixture.shape, map.pixelsPerMetre);
     const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
     canvas.graphics.setColour(colour);
-    isLine ? canvas.graphics.strokePath(outline, 3.0f, move) : canvas.graphics.fillPath(outline, move);
+    isLine ? canvas.graphics.strokePath(outline, 3.0f, transform)
+           : canvas.graphics.fillPath(outline, transform);
     if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
         // a spoke shows the rotation
         canvas.graphics.setColour(palette::well.withAlpha(0.5f));
-        canvas.graphics.strokePath(Path{}.startNewSubPath({}).lineTo(map.length(circle->radiusMetres), 0.0f),
-                                   1.5f, move);
+        canvas.graphics.strokePath(Path{}.startNewSubPath({}).lineTo(map.pixels(circle->radiusMetres), 0.0f),
+                                   1.5f, transform);
     }
     if (!fixture.isCamera) return;
     canvas.graphics.setColour(palette::camera);
-    canvas.graphics.strokePath(outline, isLine ? 1.0f : 2.0f, move);
+    canvas.graphics.strokePath(outline, isLine ? 1.0f : 2.0f, transform);
 }
 
-void drawBody(const Canvas& canvas, const Scene& scene, const BodyDescription& body, const BodyPose& mark,
+void drawBody(const Canvas& canvas, const Scene& scene, const BodyDescription& body, const BodyPose& pose,
               const FieldMap& map) {
-    const float bright = body.type == BodyType::dynamicBody ? 0.9f : 0.6f;
-    const auto move = Transform::rotation(static_cast<float>(-mark.angleRadians))
-                          .translated(map.at(mark.xMetres, mark.yMetres));
+    const float brightness = body.type == BodyType::dynamicBody ? 0.9f : 0.6f;
+    const auto transform = Transform::rotation(static_cast<float>(-pose.angleRadians))
+                               .translated(map.spotAt(pose.xMetres, pose.yMetres));
     for (const auto& fixture : body.fixtures)
-        drawFixture(canvas, fixture,
-                    palette::materialOf(scene.materials, fixture.material).withMultipliedBrightness(bright),
-                    move, map);
+        drawFixture(
+            canvas, fixture,
+            palette::materialOf(scene.materials, fixture.material).withMultipliedBrightness(brightness),
+            transform, map);
 }
 
 void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map) {
     canvas.graphics.setColour(palette::text.withAlpha(0.6f));
-    canvas.graphics.strokePath(jointOutline<Path>(joint.joint, map.at(joint.aMetres.x, joint.aMetres.y),
-                                                  map.at(joint.bMetres.x, joint.bMetres.y)),
+    canvas.graphics.strokePath(jointOutline<Path>(joint.joint, map.spotAt(joint.aMetres.x, joint.aMetres.y),
+                                                  map.spotAt(joint.bMetres.x, joint.bMetres.y)),
                                jointPixels);
 }
 
@@ -76,38 +79,40 @@ void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map
 
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     if (input.scene == nullptr) return;
-    const Painter::Saved whole(canvas.graphics);
+    const Painter::ClipScope whole(canvas.graphics);
     canvas.graphics.reduceClip(map.field.expanded(wallPixels).rounded());
-    const auto cast = sceneCast(*input.scene);
+    const auto bodies = allBodies(*input.scene);
     const auto& poses = input.poses.bodies;
-    for (std::size_t i = 0; i < cast.size(); ++i) {
-        const auto& at = cast[i].positionMetres;
-        const BodyPose start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
-        const BodyPose& mark = i < poses.size() ? poses[i] : start;
-        if (mark.isPresent) drawBody(canvas, *input.scene, cast[i], mark, map);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const auto& position = bodies[i].positionMetres;
+        const BodyPose start{position.x, position.y, bodies[i].angleRadians, i < input.scene->bodies.size()};
+        const BodyPose& pose = i < poses.size() ? poses[i] : start;
+        if (pose.isPresent) drawBody(canvas, *input.scene, bodies[i], pose, map);
     }
     for (const JointPose& joint : input.poses.joints) drawJoint(canvas, joint, map);
     if (poses.empty())
-        for (const auto& joint : input.scene->joints) drawJoint(canvas, describedPose(joint), map);
+        for (const auto& joint : input.scene->joints) drawJoint(canvas, jointPose(joint), map);
 }
 
 namespace {
 
 void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours& colours,
-               const FieldMap& map, Area spill) {
+               const FieldMap& map, Area clipArea) {
     const auto* const strongest = strongestEvent(input.events);
     if (!strongest) return;
-    const double loudest = decibels(strongest->amplitude);
-    Light hits(spill), traces(spill); // each exposed for itself: thousands of grains would outshine any hit
+    const double loudestDb = decibels(strongest->amplitude);
+    Light hits(clipArea), traces(clipArea); // each exposed for itself: thousands of grains would outshine any
+                                            // hit
     for (const auto& event : input.events) {
-        const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
+        const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudestDb) / 40.0);
         if (level <= 0.0f) continue;
-        const auto at = spotOf(input, map, event.x, event.y, event.z);
+        const auto spot = spotOf(input, map, event.x, event.y, event.z);
         if (isHit(event))
-            hits.add(at, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level, colours.of(event));
+            hits.add(spot, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level,
+                     colours.colourOf(event));
         else
-            traces.add(at, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
-                       colours.of(event)); // they join to a line
+            traces.add(spot, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
+                       colours.colourOf(event)); // they join to a line
     }
     traces.draw(canvas.graphics);
     hits.draw(canvas.graphics);
@@ -115,8 +120,9 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
 
 /// What a channel plays of the strongest hit, 1 for the loudest; 0 if the picture has no sound of it.
 float shareOf(const PictureInput& input, int channel) {
-    const bool known = input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
-    return known ? input.zoom->peak(channel) / input.zoom->peak() : 0.0f;
+    const bool hasSound =
+        input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
+    return hasSound ? input.zoom->peak(channel) / input.zoom->peak() : 0.0f;
 }
 
 void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
@@ -142,14 +148,14 @@ void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldM
     }
     for (int ring = 1; ring <= 3; ++ring) {
         const auto r = 9.0f * static_cast<float>(ring);
-        canvas.graphics.setColour(palette::now.withAlpha(1.0f - 0.27f * static_cast<float>(ring)));
+        canvas.graphics.setColour(palette::highlight.withAlpha(1.0f - 0.27f * static_cast<float>(ring)));
         canvas.graphics.drawEllipse(boxAround(centre, 2.0f * r, 2.0f * r), 1.6f);
     }
     canvas.graphics.setColour(palette::white);
     canvas.graphics.fillEllipse(boxAround(centre, 8.0f, 8.0f));
 }
 
-std::string sentenceOn(const CollisionEvent& hit) {
+std::string describeStrongest(const CollisionEvent& hit) {
     return (isHit(hit) ? "Strongest hit at " : "Strongest grain at ") +
            number(static_cast<double>(hit.timeNs) * 1e-9, 3) + " s: " + shortNumber(hit.frequencyHz) +
            " Hz, " + "\xcf\x84" + " " + shortNumber(hit.decayPerSecond) + " /s, " +
@@ -157,20 +163,20 @@ std::string sentenceOn(const CollisionEvent& hit) {
 }
 
 // "wall right, struck by ball 3", as far as the event and the scene know.
-std::string whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
-    const auto cast = input.scene != nullptr ? sceneCast(*input.scene) : std::vector<BodyDescription>{};
+std::string describeBodies(const PictureInput& input, const CollisionEvent& hit) {
+    const auto bodies = input.scene != nullptr ? allBodies(*input.scene) : std::vector<BodyDescription>{};
     const auto name = [&](std::int32_t fixture) {
-        const auto body = bodyOfFixture(cast, fixture);
-        return body < cast.size() ? cleanLine(cast[body].name) : std::string();
+        const auto body = bodyOfFixture(bodies, fixture);
+        return body < bodies.size() ? cleanLine(bodies[body].name) : std::string();
     };
-    const auto felt = name(hit.source.fixture), by = name(hit.source.other);
-    const auto how = isHit(hit)                             ? ", struck by "
-                     : hit.source.kind == ContactKind::roll ? ", rolled over by "
-                                                            : ", slid over by ";
-    return felt.empty() || by.empty() ? felt : felt + how + by;
+    const auto feltBody = name(hit.source.fixture), otherBody = name(hit.source.other);
+    const auto verb = isHit(hit)                             ? ", struck by "
+                      : hit.source.kind == ContactKind::roll ? ", rolled over by "
+                                                             : ", slid over by ";
+    return feltBody.empty() || otherBody.empty() ? feltBody : feltBody + verb + otherBody;
 }
 
-float closestPair(const PictureInput& input, const FieldMap& map) {
+float closestPairPixels(const PictureInput& input, const FieldMap& map) {
     float closest = 400.0f; // alone
     for (int a = 0; a < input.layout.count; ++a)
         for (int b = a + 1; b < input.layout.count; ++b)
@@ -190,7 +196,7 @@ void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour c
 
 // As large as the closest pair allows; too close for a label, it is a dot.
 void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
-    const float closest = closestPair(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
+    const float closest = closestPairPixels(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
     for (int c = 0; c < input.layout.count; ++c) {
         const auto centre = placeOf(input, map, c);
         const auto label = labelOf(input, c);
@@ -209,31 +215,31 @@ void drawEnchanters(const Canvas& canvas, const PictureInput& input, const Field
 
 void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel) {
     canvas.panel(panel);
-    const Area spill = panel;
+    const Area clipArea = panel;
     panel = panel.reduced(20, 12);
     const auto heading = panel.removeFromTop(24), second = panel.removeFromBottom(20),
                first = panel.removeFromBottom(26);
-    const auto map = fitField(input, panel.reduced(22, 22));
+    const auto map = fittedFieldMap(input, panel.reduced(22, 22));
     const auto* const strongest = strongestEvent(input.events);
     {
-        const Painter::Saved whole(canvas.graphics);
-        canvas.graphics.reduceClip(spill);
+        const Painter::ClipScope whole(canvas.graphics);
+        canvas.graphics.reduceClip(clipArea);
         canvas.well(map.field.rounded());
         canvas.graphics.setColour(palette::line);
         canvas.graphics.drawRounded(map.field, 3.0f, 1.0f);
         drawHalos(canvas, input, map);
         drawBodies(canvas, input, map);
-        drawGlows(canvas, input, colours, map, spill);
+        drawGlows(canvas, input, colours, map, clipArea);
         if (strongest) drawStrongest(canvas, input, map, *strongest);
-        drawEnchanters(canvas, input, map, spill);
+        drawEnchanters(canvas, input, map, clipArea);
     }
     auto remark =
         shortNumber(input.fieldWidthMetres) + " \xc3\x97 " + shortNumber(input.fieldHeightMetres) + " m";
     if (input.scene != nullptr && strongest) remark += ", bodies as at the strongest hit";
     canvas.heading("WORLD", remark, heading);
     if (!strongest) return canvas.text("Nothing was struck.", first, Align::left, palette::muted, mediumText);
-    canvas.text(sentenceOn(*strongest), first, Align::left, palette::now, mediumText);
-    canvas.text(whoHitWhom(input, *strongest), second, Align::left, palette::muted);
+    canvas.text(describeStrongest(*strongest), first, Align::left, palette::highlight, mediumText);
+    canvas.text(describeBodies(input, *strongest), second, Align::left, palette::muted);
 }
 
 } // namespace physvib::picture

@@ -15,9 +15,9 @@ namespace {
 constexpr int margin = 16, headerHeight = 40, lanesHeightPixels = 150;
 constexpr double glowSeconds = 0.5; // after which an impact's light is gone
 constexpr double fadePerSecond = 7.0;
-constexpr float floorDecibels = 40.0f; // below the loudest: no light
+constexpr float floorDb = 40.0f; // below the loudest: no light
 
-std::string clock(double seconds) { return number(seconds, 2) + " s"; }
+std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
 } // namespace
 
@@ -53,9 +53,9 @@ struct RenderMovie::Parts {
         const Area heading = area.removeFromTop(headingHeight), axisRow = area.removeFromBottom(axisHeight);
         time = {0.0, input.durationSeconds, laneOf(canvas, input, area)};
         const auto grid = ticks(0.0, input.durationSeconds, 10);
-        canvas.heading("ACTUATORS", input.waveform != nullptr ? fullHeight(*input.waveform) : "", heading);
+        canvas.heading("ACTUATORS", input.waveform != nullptr ? fullScaleText(*input.waveform) : "", heading);
         if (input.waveform != nullptr)
-            drawLanes(canvas, input, *input.waveform, everyChannelOf(*input.waveform), time, grid);
+            drawLanes(canvas, input, *input.waveform, allChannelsOf(*input.waveform), time, grid);
         time.drawLabels(canvas, grid, "s", axisRow);
     }
 
@@ -66,13 +66,13 @@ struct RenderMovie::Parts {
         const double from = seconds / std::max(input.durationSeconds, 1e-9) * WaveformEnvelope::columns,
                      columns = WaveformEnvelope::columns / std::max(input.durationSeconds, 1e-9) /
                                picturesPerSecond;
-        float most = 0.0f;
+        float peak = 0.0f;
         for (int i = static_cast<int>(from - columns); i <= static_cast<int>(from); ++i) {
             if (i < 0 || i >= WaveformEnvelope::columns) continue;
             const SampleRange range = input.waveform->column(c, i);
-            most = std::max({most, std::abs(range.lowest), std::abs(range.highest)});
+            peak = std::max({peak, std::abs(range.lowest), std::abs(range.highest)});
         }
-        return std::min(1.0f, most / input.waveform->peak());
+        return std::min(1.0f, peak / input.waveform->peak());
     }
 
     void drawHalos(const Canvas& canvas, const FieldMap& map, double seconds) const {
@@ -91,22 +91,21 @@ struct RenderMovie::Parts {
         for (const CollisionEvent& event : input.events) {
             const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
             if (age < 0.0 || age > glowSeconds) continue;
-            const float level =
-                1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDecibels;
+            const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDb;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));
             light.add(spotOf(input, map, event.x, event.y, event.z),
                       (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade,
-                      1.8f * level * level * fade, colours.of(event));
+                      1.8f * level * level * fade, colours.colourOf(event));
         }
         light.draw(canvas.graphics);
     }
 
     void drawMoment(const Canvas& canvas, const PictureInput& moving, std::int64_t momentNs) const {
         const double seconds = static_cast<double>(momentNs) * 1e-9;
-        const FieldMap map = fitField(moving, world.reduced(14, 14));
+        const FieldMap map = fittedFieldMap(moving, world.reduced(14, 14));
         {
-            const Painter::Saved whole(canvas.graphics);
+            const Painter::ClipScope whole(canvas.graphics);
             canvas.graphics.reduceClip(world);
             canvas.well(map.field.rounded());
             drawHalos(canvas, map, seconds);
@@ -114,12 +113,12 @@ struct RenderMovie::Parts {
             drawImpacts(canvas, map, momentNs);
             drawEnchanters(canvas, moving, map, world);
         }
-        canvas.text(clock(seconds), header, Align::right, palette::now, mediumText, true);
+        canvas.text(clockText(seconds), header, Align::right, palette::highlight, mediumText, true);
         const float x = time.x(std::min(seconds, time.to));
         const Box lane = time.lane.toFloat();
         canvas.graphics.setColour(palette::ground.withAlpha(0.72f)); // what is still to come
         canvas.graphics.fillRect({x, lane.y, std::max(0.0f, lane.right() - x), lane.height});
-        canvas.graphics.setColour(palette::now);
+        canvas.graphics.setColour(palette::highlight);
         canvas.graphics.fillRect({x - 1.0f, lane.y, 2.0f, lane.height});
     }
 };
@@ -133,7 +132,7 @@ std::int64_t RenderMovie::count() const noexcept {
                                   std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
 }
 
-Image RenderMovie::at(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene) const {
+Image RenderMovie::draw(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene) const {
     Image image = parts_->still;
     Painter painter{image};
     PictureInput moving = parts_->input;

@@ -12,9 +12,9 @@ namespace physvib {
 class RenderMovie {
 public:
     static constexpr int picturesPerSecond = 20;
-    static constexpr int width = 960, height = 640; ///< pixels; even, as video formats want
+    static constexpr int width = 960, height = 640; ///< pixels; even, as video formats require
 
-    /// `input` and what it names outlive this object. Its bodies and its zoom are not looked at.
+    /// `input` and what it names outlive this object. Its bodies and its zoom are not used.
     explicit RenderMovie(const PictureInput& input);
     ~RenderMovie();
     RenderMovie(const RenderMovie&) = delete;
@@ -27,8 +27,8 @@ public:
         return index * (1'000'000'000 / picturesPerSecond);
     }
 
-    /// The picture of that moment, with bodies and joints where they are; of `scene` if it is given.
-    picture::Image at(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene = nullptr) const;
+    /// The picture of that moment with these poses; `scene`, if not null, replaces the input's scene.
+    picture::Image draw(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene = nullptr) const;
 
 private:
     struct Parts;

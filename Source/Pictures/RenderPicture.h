@@ -23,7 +23,7 @@ struct PictureInput {
     const Scene* scene = nullptr;               ///< null: events without a world
     WorldPoses poses;                           ///< at the strongest event; without bodies: as it began
     std::span<const CollisionEvent> events;     ///< in any order
-    EnchanterLayout layout;                     ///< channel j of the waveforms is place j
+    ActuatorLayout layout;                      ///< channel j of the waveforms is place j
     std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers
     const WaveformEnvelope* waveform = nullptr; ///< of the whole render
     const WaveformEnvelope* zoom = nullptr;     ///< of zoomWindow()

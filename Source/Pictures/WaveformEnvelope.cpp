@@ -6,25 +6,25 @@
 
 namespace physvib {
 namespace {
-constexpr SampleRange nothing{1.0f, -1.0f};
-constexpr bool isNothing(const SampleRange& r) { return r.lowest > r.highest; }
+constexpr SampleRange emptyRange{1.0f, -1.0f};
+constexpr bool isEmpty(const SampleRange& r) { return r.lowest > r.highest; }
 } // namespace
 
 WaveformEnvelope::WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount)
-    : first_(firstFrame)
-    , count_(std::max<std::int64_t>(frameCount, 0))
-    , ranges_(static_cast<std::size_t>(channels) * columns, nothing)
+    : firstFrame_(firstFrame)
+    , frameCount_(std::max<std::int64_t>(frameCount, 0))
+    , ranges_(static_cast<std::size_t>(channels) * columns, emptyRange)
     , peaks_(static_cast<std::size_t>(channels), 0.0f) {}
 
 void WaveformEnvelope::add(const float* const* block, int frames) {
-    const std::int64_t blockStart = now_ - first_;
-    now_ += frames;
+    const std::int64_t blockStart = processedFrames_ - firstFrame_;
+    processedFrames_ += frames;
     std::int64_t at = std::max<std::int64_t>(blockStart, 0);
-    const std::int64_t end = std::min(blockStart + frames, count_);
+    const std::int64_t end = std::min(blockStart + frames, frameCount_);
     while (at < end) {
-        const std::int64_t column = at * columns / count_;
+        const std::int64_t column = at * columns / frameCount_;
         // the next column begins at a frame that is rounded up, so every frame has one column
-        const std::int64_t runEnd = std::min(end, ((column + 1) * count_ + columns - 1) / columns);
+        const std::int64_t runEnd = std::min(end, ((column + 1) * frameCount_ + columns - 1) / columns);
         for (int c = 0; c < channels(); ++c) addRun(c, column, block[c] + (at - blockStart), runEnd - at);
         at = runEnd;
     }
@@ -33,17 +33,17 @@ void WaveformEnvelope::add(const float* const* block, int frames) {
 void WaveformEnvelope::addRun(int channel, std::int64_t column, const float* samples, std::int64_t frames) {
     const auto [low, high] = std::minmax_element(samples, samples + frames);
     auto& range = ranges_[static_cast<std::size_t>(channel * std::int64_t{columns} + column)];
-    range = isNothing(range) ? SampleRange{*low, *high}
-                             : SampleRange{std::min(range.lowest, *low), std::max(range.highest, *high)};
+    range = isEmpty(range) ? SampleRange{*low, *high}
+                           : SampleRange{std::min(range.lowest, *low), std::max(range.highest, *high)};
     auto& peak = peaks_[static_cast<std::size_t>(channel)];
     peak = std::max({peak, std::abs(*low), std::abs(*high)});
 }
 
 SampleRange WaveformEnvelope::column(int channel, int index) const noexcept {
-    if (index * count_ / columns >= now_ - first_) return {};
+    if (index * frameCount_ / columns >= processedFrames_ - firstFrame_) return {};
     const auto lane = static_cast<std::size_t>(channel) * columns;
     for (auto i = static_cast<std::size_t>(index) + 1; i-- > 0;)
-        if (!isNothing(ranges_[lane + i])) return ranges_[lane + i];
+        if (!isEmpty(ranges_[lane + i])) return ranges_[lane + i];
     return {};
 }
 

@@ -20,12 +20,12 @@ public:
     /// `firstFrame` may be negative: what lies before the render is silence.
     WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount);
 
-    /// Takes the next block of the render, from frame 0 on without gaps; looks at the window only.
+    /// Adds the next block of the render, from frame 0 on without gaps; only the window is kept.
     void add(const float* const* block, int frames);
 
     int channels() const noexcept { return static_cast<int>(peaks_.size()); }
-    std::int64_t firstFrame() const noexcept { return first_; }
-    std::int64_t frameCount() const noexcept { return count_; }
+    std::int64_t firstFrame() const noexcept { return firstFrame_; }
+    std::int64_t frameCount() const noexcept { return frameCount_; }
     /// One column; where the window has fewer frames than columns, the frame before. Outside: silence.
     SampleRange column(int channel, int index) const noexcept;
     /// Largest magnitude of a channel inside the window.
@@ -36,10 +36,10 @@ public:
 private:
     void addRun(int channel, std::int64_t column, const float* samples, std::int64_t frames);
 
-    std::int64_t first_;
-    std::int64_t count_;
-    std::int64_t now_ = 0;            // frames taken so far
-    std::vector<SampleRange> ranges_; // channel by channel; lowest > highest: nothing there yet
+    std::int64_t firstFrame_;
+    std::int64_t frameCount_;
+    std::int64_t processedFrames_ = 0; // frames taken so far
+    std::vector<SampleRange> ranges_;  // channel by channel; lowest > highest: nothing there yet
     std::vector<float> peaks_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of an actuator profile's fields, and the profiles that are built in.
+// The table of an actuator profile's fields, reading and writing by it, and the built-in profiles.
 #include "Scene/ActuatorFile.h"
 #include "Core/Limits.h"
 #include "Io/Disk/Embedded.h"
@@ -20,30 +20,30 @@ namespace {
 constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
 constexpr std::string_view resonanceField = "resonance_hz", qualityField = "q", bandField = "band_hz";
 
-// Kinds of fields; null: not known.
+// Kinds of fields that may be null, which means that the value is not known.
 struct BandOrNull {};
 struct FigureOrNull {
-    double least, most;
+    double min, max;
 };
 
-std::optional<double> readKind(const JsonField& json, const FigureOrNull& kind) {
-    return json.isNull() ? std::nullopt : std::optional{json.numberWithin(kind.least, kind.most)};
+std::optional<double> readCustom(const JsonField& json, const FigureOrNull& kind) {
+    return json.isNull() ? std::nullopt : std::optional{json.numberWithin(kind.min, kind.max)};
 }
-OrderedJson writeKind(const FigureOrNull&, const std::optional<double>& figure) {
+OrderedJson writeCustom(const FigureOrNull&, const std::optional<double>& figure) {
     return figure ? OrderedJson(*figure) : OrderedJson();
 }
 
-std::optional<FrequencyBand> readKind(const JsonField& json, const BandOrNull&) {
+std::optional<FrequencyBand> readCustom(const JsonField& json, const BandOrNull&) {
     if (json.isNull()) return std::nullopt;
     if (const std::size_t size = json.arraySize(); size != 2)
         json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
-    const FrequencyBand band{json.item(0).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz),
-                             json.item(1).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz)};
+    const FrequencyBand band{json.item(0).numberWithin(limits::minMeasuredHz, limits::maxFrequencyHz),
+                             json.item(1).numberWithin(limits::minMeasuredHz, limits::maxFrequencyHz)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
 }
 
-OrderedJson writeKind(const BandOrNull&, const std::optional<FrequencyBand>& band) {
+OrderedJson writeCustom(const BandOrNull&, const std::optional<FrequencyBand>& band) {
     return band ? OrderedJson{band->lowHz, band->highHz} : OrderedJson();
 }
 
@@ -51,16 +51,16 @@ OrderedJson writeKind(const BandOrNull&, const std::optional<FrequencyBand>& ban
 
 void visitFields(auto& v, FieldsOf<ActuatorProfile>) {
     using P = ActuatorProfile;
-    const auto figure = [&v](std::string_view name, auto member, double least, double most) {
-        v.field(name, member, FigureOrNull{least, most});
+    const auto figure = [&v](std::string_view name, auto member, double min, double max) {
+        v.field(name, member, FigureOrNull{min, max});
     };
     v.version("physvib_actuator", actuatorFormatVersion);
     v.field("name", &P::name, kinds::name);
     v.field("description", &P::description, kinds::text);
     v.field("source", &P::source, kinds::text);
     v.field("kind", &P::kind, kinds::OneOf{kindNames});
-    figure(resonanceField, &P::resonanceHz, limits::leastMeasuredHz, limits::maxFrequencyHz);
-    figure(qualityField, &P::q, limits::leastQ, limits::mostQ);
+    figure(resonanceField, &P::resonanceHz, limits::minMeasuredHz, limits::maxFrequencyHz);
+    figure(qualityField, &P::q, limits::minQ, limits::maxQ);
     v.field(bandField, &P::band, BandOrNull{});
     figure("drive_limit_v", &P::driveLimitVolts, 0.001, 1000.0);
     figure("rise_time_s", &P::riseSeconds, 1e-5, 10.0);
@@ -68,15 +68,15 @@ void visitFields(auto& v, FieldsOf<ActuatorProfile>) {
     figure("delay_s", &P::delaySeconds, 0.0, 10.0);
 }
 
-std::string equaliserFault(const ActuatorProfile& profile) {
-    const auto unknown = [](std::string_view field) {
+std::string equaliserError(const ActuatorProfile& profile) {
+    const auto unknownError = [](std::string_view field) {
         return std::string(field) + " is not known (measure it with physvib calibrate)";
     };
     if (profile.kind == ActuatorKind::rotating)
         return "a rotating mass has the frequency of its speed: nothing can be equalised";
-    if (!profile.resonanceHz) return unknown(resonanceField);
-    if (!profile.q) return unknown(qualityField);
-    return profile.band ? std::string{} : unknown(bandField);
+    if (!profile.resonanceHz) return unknownError(resonanceField);
+    if (!profile.q) return unknownError(qualityField);
+    return profile.band ? std::string{} : unknownError(bandField);
 }
 
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {

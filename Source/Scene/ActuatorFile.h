@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Actuator profiles as JSON: measured properties of an actuator and their source; unknown values are null.
+// Actuator profiles as JSON files: measured properties and their source; unknown values are null.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Result.h"
@@ -20,7 +20,7 @@ enum class ActuatorKind {
     rotating ///< a rotating mass: it is on or off, and its frequency depends on its speed
 };
 
-/// No value: not known. SI units, as the names say.
+/// Properties of a type of actuator, in the units of their names; nullopt: not known.
 struct ActuatorProfile {
     std::string name;
     std::string description;
@@ -28,27 +28,28 @@ struct ActuatorProfile {
     ActuatorKind kind = ActuatorKind::linear;
     std::optional<double> resonanceHz, q;
     std::optional<FrequencyBand> band;     ///< band that it is specified for
-    std::optional<double> driveLimitVolts; ///< largest voltage, either polarity: the voltage of a sample of 1
+    std::optional<double> driveLimitVolts; ///< largest voltage of either polarity, that of a sample of 1
     std::optional<double> riseSeconds;     ///< from 10 to 90 % of the level
     std::optional<double> fullScaleG;      ///< peak acceleration at the resonance, driven at its limit
     std::optional<double> delaySeconds;    ///< from sample to acceleration, of the whole measured set-up
     bool operator==(const ActuatorProfile&) const = default;
 
-    /// Not known (Resonator::isKnown) if either figure is missing. Any thread.
+    /// Unknown (see Resonator::isKnown) if resonance or q is not known. Any thread.
     Resonator resonator() const noexcept {
         return resonanceHz && q ? Resonator{*resonanceHz, *q} : Resonator{};
     }
-    FrequencyBand bandOrNone() const noexcept { return band.value_or(FrequencyBand{}); }
+    FrequencyBand bandOrUnknown() const noexcept { return band.value_or(FrequencyBand{}); }
 };
 
-/// Why it cannot be equalised: "q is not known (measure it with physvib calibrate)"; or empty. Any thread.
-std::string equaliserFault(const ActuatorProfile& profile);
+/// Why the actuator cannot be equalised, e.g. "q is not known (measure it with physvib calibrate)"; or empty.
+/// Any thread.
+std::string equaliserError(const ActuatorProfile& profile);
 
 /// The profile in `text`; or, for the first error, one line `name: band_hz[1]: expected a number from ...`.
 /// Every field is required, null if not known; unknown and repeated fields are errors. Any thread.
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name);
 
-/// The same for a file. Message thread (M) only.
+/// The same for a file. Message thread only.
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path);
 
 /// `profile` as JSON; readActuator restores it bit for bit. Any thread.
@@ -57,7 +58,7 @@ std::string actuatorJson(const ActuatorProfile& profile);
 /// The profiles that come with PhysVib, in listing order. Built on first use; any thread.
 const std::vector<ActuatorProfile>& builtInActuators();
 
-/// A built-in profile by its name, else that of the file (NAME.json, or a path). M only.
+/// A built-in profile by its name, else that of the file (NAME.json, or a path). Message thread only.
 Result<ActuatorProfile> findActuator(const std::string& nameOrPath);
 
 } // namespace physvib

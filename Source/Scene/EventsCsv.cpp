@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes event lists: header, rows and their order; EventColumns.h has the cells.
+// Reads and writes event lists: comments, header, rows and their order; cells by EventColumns.h.
 #include "Scene/EventsCsv.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvText.h"
@@ -14,14 +14,16 @@ namespace {
 constexpr std::string_view fieldKey = "field_m=";
 
 template <class Cell>
-bool is(const EventColumn& column) {
+bool isKind(const EventColumn& column) {
     return std::holds_alternative<Cell>(column.cell);
 }
 
-bool isIn(OptionalColumns columns, const EventColumn& column) {
-    if (is<DepthColumn>(column)) return columns.depths;
-    if (is<PartColumn>(column)) return columns.parts;
-    return is<KindColumn>(column) ? columns.kinds : is<MaterialColumn>(column) ? columns.materials : true;
+bool isIncluded(OptionalColumns columns, const EventColumn& column) {
+    if (isKind<DepthColumn>(column)) return columns.depths;
+    if (isKind<PartColumn>(column)) return columns.parts;
+    return isKind<KindColumn>(column)       ? columns.kinds
+           : isKind<MaterialColumn>(column) ? columns.materials
+                                            : true;
 }
 
 constexpr OptionalColumns everyColumn{true, true, true, true};
@@ -29,7 +31,7 @@ constexpr OptionalColumns everyColumn{true, true, true, true};
 std::string columnNames(OptionalColumns columns) {
     std::string names;
     for (const EventColumn& column : eventColumns) {
-        if (!isIn(columns, column)) continue;
+        if (!isIncluded(columns, column)) continue;
         if (!names.empty()) names += ',';
         names += column.name;
     }
@@ -47,16 +49,16 @@ std::size_t cellsIn(std::string_view line) {
 
 class Reader {
 public:
-    /// `from`: a text, or a file.
-    template <class From>
-    Reader(From from, std::string_view name, std::size_t maxRows)
-        : lines_(from)
+    /// `input`: a std::string_view or std::FILE*; `name`: for error lines.
+    template <class Input>
+    Reader(Input input, std::string_view name, std::size_t maxRows)
+        : lines_(input)
         , name_(name)
         , maxRows_(maxRows) {}
 
     /// Counts the events without storing them.
     Result<std::size_t> count() {
-        isKept_ = false;
+        storesEvents_ = false;
         if (!readAll()) return Failure{std::move(error_)};
         return count_;
     }
@@ -79,8 +81,8 @@ private:
                 return failEnd("expected a header line " + columnNames(everyColumn) +
                                ", found the end of the file");
         }
-        for (std::size_t left = cellsIn(header); left > 0; --left)
-            if (!readName(unquoted(trimmed(takeUntil(',', header))))) return false;
+        for (std::size_t remaining = cellsIn(header); remaining > 0; --remaining)
+            if (!readColumnName(unquoted(trimmed(takeUntil(',', header))))) return false;
         for (std::size_t i = 0; i < requiredEventColumns; ++i)
             if (!has(eventColumns[i]))
                 return fail("column " + std::string(eventColumns[i].name) + " is missing");
@@ -97,36 +99,38 @@ private:
         while (word.ends_with(',')) word.remove_suffix(1);
         const auto field = parseField(word);
         if (field) list_.field = *field;
-        return field || fail("field_m: " + std::string(expectedField) + inQuotes(word));
+        return field || fail("field_m: " + std::string(expectedFieldText) + inQuotes(word));
     }
 
-    bool readName(std::string_view name) {
+    bool readColumnName(std::string_view name) {
         for (const EventColumn& column : eventColumns) {
             if (column.name != name) continue;
             if (has(column)) return fail("column " + std::string(name) + " appears twice");
-            order_.push_back(&column);
-            hasMaterials_ = hasMaterials_ || is<MaterialColumn>(column);
+            columns_.push_back(&column);
+            hasMaterials_ = hasMaterials_ || isKind<MaterialColumn>(column);
             return true;
         }
         return fail("unknown column " + inQuotes(name) + ", expected a header line " +
                     columnNames(everyColumn));
     }
 
-    bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }
+    bool has(const EventColumn& column) const {
+        return std::ranges::find(columns_, &column) != columns_.end();
+    }
 
     // Blank lines are allowed at the end only.
     bool readRows() {
         std::string_view line;
-        std::size_t blank = 0;
+        std::size_t blankLines = 0;
         while (nextLine(line)) {
-            if (!line.empty() && blank > 0) break;
+            if (!line.empty() && blankLines > 0) break;
             if (line.empty())
-                ++blank;
+                ++blankLines;
             else if (!readRow(line))
                 return false;
         }
-        line_ -= blank;
-        if (!line.empty() && blank > 0) return readRow({});
+        lineNumber_ -= blankLines;
+        if (!line.empty() && blankLines > 0) return readRow({});
         return count_ == 0 ? failEnd("expected events after the header, found none")
                            : !lines_.isTooLong() || failEnd({});
     }
@@ -134,34 +138,35 @@ private:
     bool readRow(std::string_view line) {
         if (count_ == maxRows_) return fail("expected at most " + std::to_string(maxRows_) + " events");
         const std::size_t cells = cellsIn(line);
-        if (cells != order_.size())
-            return fail("expected " + std::to_string(order_.size()) + " cells, found " +
+        if (cells != columns_.size())
+            return fail("expected " + std::to_string(columns_.size()) + " cells, found " +
                         std::to_string(cells));
         CollisionEvent event;
-        std::string_view rest = line;
-        for (const EventColumn* column : order_)
-            if (!readCellOf(*column, unquoted(trimmed(takeUntil(',', rest))), event)) return false;
-        if (!hasMaterials_) takeFormerClip(event);
-        return accept(event);
+        std::string_view unread = line;
+        for (const EventColumn* column : columns_)
+            if (!readColumnCell(*column, unquoted(trimmed(takeUntil(',', unread))), event)) return false;
+        if (!hasMaterials_) convertLegacyClip(event);
+        return addEvent(event);
     }
 
-    bool readCellOf(const EventColumn& column, std::string_view cell, CollisionEvent& event) {
+    bool readColumnCell(const EventColumn& column, std::string_view cell, CollisionEvent& event) {
         const std::string expected =
             std::visit([&](const auto& kind) { return readCell(kind, cell, event); }, column.cell);
-        if (is<MaterialColumn>(column) && isKept_ && !list_.names.has(event.sound)) list_.names.add(cell);
-        if (is<PartColumn>(column) && isKept_) list_.names.parts.add(cell);
+        if (isKind<MaterialColumn>(column) && storesEvents_ && !list_.names.has(event.sound))
+            list_.names.add(cell);
+        if (isKind<PartColumn>(column) && storesEvents_) list_.names.parts.add(cell);
         return expected.empty() || fail("column " + std::string(column.name) + ": expected " + expected +
                                         ", found " + inQuotes(cell));
     }
 
-    bool accept(const CollisionEvent& event) {
+    bool addEvent(const CollisionEvent& event) {
         if (event.decayPerSecond == 0.0 && event.durationNs == 0)
             return fail("column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
-        if (isTooSlow(event)) return fail("column frequency_hz: " + tooSlowFault(event));
+        if (isTooSlow(event)) return fail("column frequency_hz: " + tooSlowError(event));
         if (count_ > 0 && event.timeNs < lastNs_) return failOrder(event.timeNs);
         ++count_;
         lastNs_ = event.timeNs;
-        if (isKept_) list_.events.push_back(event);
+        if (storesEvents_) list_.events.push_back(event);
         return true;
     }
 
@@ -175,20 +180,20 @@ private:
 
     bool nextLine(std::string_view& line) {
         if (!lines_.next(line)) return false;
-        if (++line_ == 1) dropByteOrderMark(line);
+        if (++lineNumber_ == 1) dropByteOrderMark(line);
         line = trimmed(line);
         return true;
     }
 
     bool failEnd(std::string_view message) {
         if (!lines_.isTooLong()) return fail(message);
-        ++line_;
-        return fail("expected lines of at most " + std::to_string(TextLines::mostBytes) + " bytes");
+        ++lineNumber_;
+        return fail("expected lines of at most " + std::to_string(TextLines::maxLineBytes) + " bytes");
     }
 
     /// Always false.
     bool fail(std::string_view message) {
-        const std::size_t line = std::max<std::size_t>(line_, 1); // also for an empty file
+        const std::size_t line = std::max<std::size_t>(lineNumber_, 1); // also for an empty file
         error_.assign(name_).append(":").append(std::to_string(line)).append(": ").append(message);
         return false;
     }
@@ -196,11 +201,11 @@ private:
     TextLines lines_;
     std::string_view name_;
     std::size_t maxRows_;
-    std::size_t line_ = 0; // of the line last taken, from 1
+    std::size_t lineNumber_ = 0; // of the last line read, from 1
     std::size_t count_ = 0;
-    std::int64_t lastNs_ = 0; // of the event last accepted
-    bool isKept_ = true, hasMaterials_ = false;
-    std::vector<const EventColumn*> order_;
+    std::int64_t lastNs_ = 0; // time of the last event
+    bool storesEvents_ = true, hasMaterials_ = false;
+    std::vector<const EventColumn*> columns_;
     EventList list_;
     std::string error_;
 };
@@ -212,7 +217,7 @@ std::optional<FieldSize> parseField(std::string_view word) {
     const auto width = parseNumber<double>(word.substr(0, comma));
     const auto height = parseNumber<double>(word.substr(std::min(comma + 1, word.size())));
     const FieldSize field{width.value_or(0.0), height.value_or(0.0)};
-    return isField(field) ? std::optional{field} : std::nullopt;
+    return isValidField(field) ? std::optional{field} : std::nullopt;
 }
 
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name, std::size_t maxRows) {
@@ -234,13 +239,13 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     std::FILE* const stream = file.value.stream.get();
     const auto reader = [&] { return Reader(stream, name, limits::maxEventRows); };
     const auto found = reader().count();
-    if (std::ferror(stream)) return unreadable(path, errno);
+    if (std::ferror(stream)) return readFailure(path, errno);
     if (!found) return Failure{found.error};
     std::rewind(stream);
     return reader().read(found.value);
 }
 
-OptionalColumns columnsOf(std::span<const CollisionEvent> events) {
+OptionalColumns neededColumns(std::span<const CollisionEvent> events) {
     const auto hasKind = [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; };
     const auto hasSound = [](const CollisionEvent& e) { return e.sound != 0; };
     const auto hasDepth = [](const CollisionEvent& e) { return e.z != 0.0; };
@@ -250,14 +255,14 @@ OptionalColumns columnsOf(std::span<const CollisionEvent> events) {
 }
 
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns) {
-    if (isField(field)) provenance.entries.emplace_back("field_m", fieldText(field));
+    if (isValidField(field)) provenance.entries.emplace_back("field_m", fieldText(field));
     return provenanceComment(provenance) + columnNames(columns) + "\n";
 }
 
 void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
                     const SoundNames& names) {
     for (const EventColumn& column : eventColumns) {
-        if (!isIn(columns, column)) continue;
+        if (!isIncluded(columns, column)) continue;
         std::visit([&](const auto& cell) { writeCell(cell, event, names, text); }, column.cell);
         text += ',';
     }
@@ -266,10 +271,10 @@ void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns col
 
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
                       const SoundNames& names) {
-    const OptionalColumns columns = columnsOf(events);
+    const OptionalColumns columns = neededColumns(events);
     std::string text = eventsCsvHead(provenance, field, columns);
-    constexpr std::size_t usualRowBytes = 160;
-    text.reserve(text.size() + events.size() * usualRowBytes);
+    constexpr std::size_t typicalRowBytes = 160;
+    text.reserve(text.size() + events.size() * typicalRowBytes);
     for (const CollisionEvent& event : events) appendEventRow(text, event, columns, names);
     return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Event lists as CSV, which preserve events to the bit.
+// Reads and writes event lists as CSV, which preserve events to the bit.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Provenance.h"
@@ -27,30 +27,29 @@ struct EventList {
 /// decay_per_s: expected a number >= 0, found "-3"`. No event, or more than `maxRows`, is an error too. The
 /// header line names the columns, in any order; those after y_m may be missing. Cells are plain numbers (no
 /// quotes; spaces around them are allowed), lines end in LF or CR LF. Comments (#) and blank lines may
-/// precede the header, blank lines may also end the file. A comment with a word `field_m=W,H` sets the field.
+/// precede the header, blank lines may also end the file. A word `field_m=W,H` in a comment sets the field.
 /// Any thread.
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
                                 std::size_t maxRows = limits::maxEventRows);
 
-/// The same for a file, of at most limits::maxEventsFileBytes and lines of a million bytes. M only.
+/// The same for a file, of at most limits::maxEventsFileBytes with lines of at most 1 MB. Message thread.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
-/// Columns that only some lists need: a list of impacts alone has no kinds.
+/// Which optional columns a list has (see EventColumns.h).
 struct OptionalColumns {
     bool kinds = false, materials = false, depths = false, parts = false;
 };
 
 /// The optional columns that these events need. Any thread.
-OptionalColumns columnsOf(std::span<const CollisionEvent> events);
+OptionalColumns neededColumns(std::span<const CollisionEvent> events);
 
-/// The provenance comment (with `field` if known) and header line, and one event's line: the parts of
-/// eventsCsv. Any thread.
+/// The first two lines of a list: provenance comment (with `field` if known) and header. Any thread.
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns);
 void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
                     const SoundNames& names);
 
-/// The events with every column that they need. readEventsCsv restores them bit for bit if they are playable
-/// and in time order, and refuses them otherwise. Any thread.
+/// A complete list of the events with the columns that they need. If they are playable and in time order,
+/// readEventsCsv restores them bit for bit; else it refuses the list. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, FieldSize field, const Provenance& provenance,
                       const SoundNames& names = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Size of the field that x and y of events refer to: its text format, a warning about events outside, and the
-// reason why a render would be silent, so that programs do not report success.
+// Size of the field that x and y of events refer to: its text format, a warning about events outside, and why
+// a render would be silent, which programs must report.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -22,9 +22,9 @@ struct FieldSize {
     bool operator==(const FieldSize&) const = default;
 };
 
-inline constexpr std::string_view expectedField = "expected W,H in metres (0.001 to 1e6), found ";
+inline constexpr std::string_view expectedFieldText = "expected W,H in metres (0.001 to 1e6), found ";
 
-inline bool isField(FieldSize field) noexcept {
+inline bool isValidField(FieldSize field) noexcept {
     const auto isLength = [](double metres) { return metres >= 1e-3 && metres <= 1e6; };
     return isLength(field.widthMetres) && isLength(field.heightMetres);
 }
@@ -37,7 +37,7 @@ inline std::string fieldText(FieldSize field) {
     return numberText(field.widthMetres) + ',' + numberText(field.heightMetres);
 }
 
-inline FieldSize extentOf(const EnchanterLayout& layout) noexcept {
+inline FieldSize extentOf(const ActuatorLayout& layout) noexcept {
     return {layout.extentWidthMetres, layout.extentHeightMetres};
 }
 inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
@@ -47,12 +47,13 @@ inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
 /// A warning such as `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty.
 /// `isGuessed`: the list has no field, so the layout's extent is used. Up to a twentieth beyond the field
 /// counts as inside, because bodies sink into walls at the edge. Any thread.
-inline std::string outsideWarning(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
-    const auto isBeside = [](double at, double length) {
-        return !(std::abs(at - 0.5 * length) <= 0.55 * length);
+inline std::string outsideFieldWarning(std::span<const CollisionEvent> events, FieldSize field,
+                                       bool isGuessed) {
+    const auto isOutside = [](double position, double length) {
+        return !(std::abs(position - 0.5 * length) <= 0.55 * length);
     };
     const auto outside = std::ranges::count_if(events, [&](const CollisionEvent& e) {
-        return isBeside(e.x, field.widthMetres) || isBeside(e.y, field.heightMetres);
+        return isOutside(e.x, field.widthMetres) || isOutside(e.y, field.heightMetres);
     });
     if (outside == 0) return {};
     return std::to_string(outside) + " of " + std::to_string(events.size()) +
@@ -61,26 +62,27 @@ inline std::string outsideWarning(std::span<const CollisionEvent> events, FieldS
            (isGuessed ? ", the layout's, as the list says none (see --field)" : " (see --field)");
 }
 
-/// Empty if an event that begins before `endNs` exceeds `least`, of full scale, at one actuator; else the
-/// reason. Any thread.
-inline std::string silentWords(std::span<const CollisionEvent> events, const PhantomPanner& panner,
-                               bool isGuessed, std::int64_t endNs, double least = 0.0) {
+/// Why no event before `endNs` reaches any actuator with more than `minLevel` (a share of full scale); empty
+/// if one does. Any thread.
+inline std::string silenceReason(std::span<const CollisionEvent> events, const PhantomPanner& panner,
+                                 bool isGuessed, std::int64_t endNs, double minLevel = 0.0) {
     PhantomPanner::Gains gains{};
-    bool begins = false;
-    double strongest = 0.0, most = 0.0; // as struck; at the actuators
+    bool hasEvent = false;
+    double maxAmplitude = 0.0, maxLevel = 0.0; // of events; at the actuators
     for (const CollisionEvent& e : events) {
         if (e.timeNs >= endNs) continue;
-        begins = true;
-        strongest = std::max(strongest, std::abs(e.amplitude));
+        hasEvent = true;
+        maxAmplitude = std::max(maxAmplitude, std::abs(e.amplitude));
         panner.gainsAt(e, gains);
         for (std::size_t j = 0; j < static_cast<std::size_t>(panner.channels()); ++j)
-            most = std::max(most, std::abs(e.amplitude * gains[j]));
+            maxLevel = std::max(maxLevel, std::abs(e.amplitude * gains[j]));
     }
-    if (most > least) return {};
+    if (maxLevel > minLevel) return {};
     if (events.empty()) return "there are no hits";
-    if (!begins) return "all hits begin after the end";
-    if (!(strongest > least)) return "the strongest hit is " + fixedNumber(strongest, 6) + " of full scale";
-    const std::string outside = outsideWarning(events, fieldOf(panner), isGuessed);
+    if (!hasEvent) return "all hits begin after the end";
+    if (!(maxAmplitude > minLevel))
+        return "the strongest hit is " + fixedNumber(maxAmplitude, 6) + " of full scale";
+    const std::string outside = outsideFieldWarning(events, fieldOf(panner), isGuessed);
     return outside.empty() ? "all hits lie where they reach no actuator" : outside;
 }
 

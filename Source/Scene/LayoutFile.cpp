@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads layout files with checks of every field, and writes them in a fixed order.
+// Reads layout files with checks of every field, and writes them; layouts of presets, and their labels.
 #include "Scene/LayoutFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
@@ -11,82 +11,82 @@
 namespace physvib {
 namespace {
 
-/// A ... Z, AA, AB, ... like the columns of a spreadsheet.
-std::string letters(std::size_t index) {
+/// The label of actuator `index`: A to Z, AA, AB..., like the columns of a spreadsheet.
+std::string letterLabel(std::size_t index) {
     constexpr std::size_t alphabet = 26;
-    const std::string last(1, static_cast<char>('A' + index % alphabet));
-    return index < alphabet ? last : letters(index / alphabet - 1) + last;
+    const std::string lastLetter(1, static_cast<char>('A' + index % alphabet));
+    return index < alphabet ? lastLetter : letterLabel(index / alphabet - 1) + lastLetter;
 }
 
-bool isTaken(const std::vector<EnchanterDescription>& enchanters, std::string_view label) {
-    return std::ranges::find(enchanters, label, &EnchanterDescription::label) != enchanters.end();
+bool isLabelUsed(const std::vector<ActuatorDescription>& actuators, std::string_view label) {
+    return std::ranges::find(actuators, label, &ActuatorDescription::label) != actuators.end();
 }
 
-void fillLabels(std::vector<EnchanterDescription>& enchanters) {
-    std::size_t next = 0;
-    for (EnchanterDescription& enchanter : enchanters) {
-        if (!enchanter.label.empty()) continue;
-        while (isTaken(enchanters, letters(next))) ++next;
-        enchanter.label = letters(next);
+void fillMissingLabels(std::vector<ActuatorDescription>& actuators) {
+    std::size_t nextIndex = 0;
+    for (ActuatorDescription& actuator : actuators) {
+        if (!actuator.label.empty()) continue;
+        while (isLabelUsed(actuators, letterLabel(nextIndex))) ++nextIndex;
+        actuator.label = letterLabel(nextIndex);
     }
 }
 
 /// One actuator of a file, within the extent of its layout.
-struct PlacedEnchanter {
-    EnchanterDescription described;
-    EnchanterPlace place;
+struct PlacedActuator {
+    ActuatorDescription description;
+    ActuatorPlace place;
     double extentWidthMetres = 0.0, extentHeightMetres = 0.0;
 };
 
-void visitFields(auto& v, FieldsOf<PlacedEnchanter>) {
-    constexpr auto described = &PlacedEnchanter::described;
-    constexpr auto place = &PlacedEnchanter::place;
-    v.field("label", in(described, &EnchanterDescription::label), kinds::text, Need::filled);
-    v.field("x_m", in(place, &EnchanterPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
-    v.field("y_m", in(place, &EnchanterPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
-    v.field("z_m", in(place, &EnchanterPlace::zMetres),
-            kinds::within(-limits::mostExtentMetres, limits::mostExtentMetres), Need::optional);
-    v.field("part", in(described, &EnchanterDescription::part), kinds::name, Need::optional);
-    v.field("actuator", in(described, &EnchanterDescription::actuator), kinds::text, Need::filled);
-    v.field("full_scale_g", in(described, &EnchanterDescription::fullScaleG),
-            kinds::within(limits::leastFullScaleG, limits::mostFullScaleG), Need::filled);
+void visitFields(auto& v, FieldsOf<PlacedActuator>) {
+    constexpr auto description = &PlacedActuator::description;
+    constexpr auto place = &PlacedActuator::place;
+    v.field("label", in(description, &ActuatorDescription::label), kinds::text, Need::filled);
+    v.field("x_m", in(place, &ActuatorPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
+    v.field("y_m", in(place, &ActuatorPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
+    v.field("z_m", in(place, &ActuatorPlace::zMetres),
+            kinds::within(-limits::maxExtentMetres, limits::maxExtentMetres), Need::optional);
+    v.field("part", in(description, &ActuatorDescription::part), kinds::name, Need::optional);
+    v.field("actuator", in(description, &ActuatorDescription::actuator), kinds::text, Need::filled);
+    v.field("full_scale_g", in(description, &ActuatorDescription::fullScaleG),
+            kinds::within(limits::minFullScaleG, limits::maxFullScaleG), Need::filled);
 }
 
-EnchanterDescription readEnchanter(const JsonField& json, const LayoutDescription& layout,
-                                   EnchanterPlace& place) {
-    PlacedEnchanter one{{}, {}, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
-    readTable(json, one);
-    const std::string& label = one.described.label;
+ActuatorDescription readPlacedActuator(const JsonField& json, const LayoutDescription& layout,
+                                       ActuatorPlace& place) {
+    PlacedActuator placed{{}, {}, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
+    readTable(json, placed);
+    const std::string& label = placed.description.label;
     if (json.has("label") && label.empty()) json["label"].fail("expected a label, found an empty string");
-    if (!label.empty() && isTaken(layout.enchanters, label))
+    if (!label.empty() && isLabelUsed(layout.actuators, label))
         json["label"].fail("expected a label of its own, found " + inQuotes(label) + " again");
-    place = one.place;
-    place.part = partOf(one.described.part);
-    return one.described;
+    place = placed.place;
+    place.part = partNumberOf(placed.description.part);
+    return placed.description;
 }
 
-void readEnchanters(const JsonField& list, LayoutDescription& layout) {
-    EnchanterLayout& geometry = layout.geometry;
+void readActuators(const JsonField& list, LayoutDescription& layout) {
+    ActuatorLayout& geometry = layout.geometry;
     const std::size_t count = list.arraySize();
     if (count == 0) list.fail("expected at least 1 actuator, found none");
     if (count > geometry.places.size())
         list.fail("expected at most " + std::to_string(geometry.places.size()) + " actuators, found " +
                   std::to_string(count));
     for (std::size_t j = 0; j < count; ++j)
-        layout.enchanters.push_back(readEnchanter(list.item(j), layout, geometry.places[j]));
+        layout.actuators.push_back(readPlacedActuator(list.item(j), layout, geometry.places[j]));
     geometry.count = static_cast<int>(count);
-    fillLabels(layout.enchanters);
+    fillMissingLabels(layout.actuators);
 }
 
-struct Extent {}; // a kind
+struct Extent {}; // kind of the field extent_m
 
-std::pair<double, double> readKind(const JsonField& json, const Extent&) {
+std::pair<double, double> readCustom(const JsonField& json, const Extent&) {
     if (const std::size_t size = json.arraySize(); size != 2)
         json.fail("expected [width, height], found " + std::to_string(size) + " items");
-    constexpr auto range = kinds::within(limits::leastExtentMetres, limits::mostExtentMetres);
+    constexpr auto range = kinds::within(limits::minExtentMetres, limits::maxExtentMetres);
     return {range(json.item(0)), range(json.item(1))};
 }
-OrderedJson writeKind(const Extent&, const auto& lengths) { return lengths; }
+OrderedJson writeCustom(const Extent&, const auto& lengths) { return lengths; }
 
 } // namespace
 
@@ -94,52 +94,53 @@ void visitFields(auto& v, FieldsOf<LayoutDescription>) {
     constexpr auto geometry = &LayoutDescription::geometry;
     v.field("name", &LayoutDescription::name, kinds::text, Need::filled);
     v.field("extent_m",
-            both(in(geometry, &EnchanterLayout::extentWidthMetres),
-                 in(geometry, &EnchanterLayout::extentHeightMetres)),
+            both(in(geometry, &ActuatorLayout::extentWidthMetres),
+                 in(geometry, &ActuatorLayout::extentHeightMetres)),
             Extent{});
     v.part("enchanters");
 }
 
-LayoutDescription readKind(const JsonField& json, const Own<LayoutDescription>&) {
+LayoutDescription readCustom(const JsonField& json, const Custom<LayoutDescription>&) {
     LayoutDescription layout;
     readTable(json, layout);
-    readEnchanters(json["enchanters"], layout);
+    readActuators(json["enchanters"], layout);
     return layout;
 }
 
-OrderedJson writeKind(const Own<LayoutDescription>&, const LayoutDescription& layout) {
+OrderedJson writeCustom(const Custom<LayoutDescription>&, const LayoutDescription& layout) {
     OrderedJson json = writeTable(layout);
-    for (std::size_t j = 0; j < layout.enchanters.size(); ++j)
+    for (std::size_t j = 0; j < layout.actuators.size(); ++j)
         json["enchanters"].push_back(
-            writeTable(PlacedEnchanter{layout.enchanters[j], layout.geometry.places[j]}));
+            writeTable(PlacedActuator{layout.actuators[j], layout.geometry.places[j]}));
     return json;
 }
 
-LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry) {
+LayoutDescription describeLayout(std::string name, const ActuatorLayout& geometry) {
     LayoutDescription layout{std::move(name), geometry, {}};
-    layout.enchanters.resize(static_cast<std::size_t>(geometry.count));
-    for (std::size_t j = 0; j < layout.enchanters.size(); ++j)
-        layout.enchanters[j].part = PartNames{}.of(geometry.places[j].part);
-    fillLabels(layout.enchanters);
+    layout.actuators.resize(static_cast<std::size_t>(geometry.count));
+    for (std::size_t j = 0; j < layout.actuators.size(); ++j)
+        layout.actuators[j].part = PartNames{}.nameOf(geometry.places[j].part);
+    fillMissingLabels(layout.actuators);
     return layout;
 }
 
-LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before) {
-    EnchanterLayout geometry;
+LayoutDescription presetLayout(std::string_view name, const std::vector<ActuatorDescription>& previous) {
+    ActuatorLayout geometry;
     layoutPreset(name, geometry);
     LayoutDescription layout = describeLayout(std::string{name}, geometry);
-    keepActuators(layout, before);
+    copyActuatorProperties(layout, previous);
     return layout;
 }
 
 Result<LayoutDescription> findLayout(const std::string& nameOrPath) {
-    EnchanterLayout preset;
+    ActuatorLayout preset;
     return layoutPreset(nameOrPath, preset) ? describeLayout(nameOrPath, preset) : loadLayout(nameOrPath);
 }
 
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxLayoutFileBytes,
-                    [](const Json& root) { return readKind(JsonField(root, {}), Own<LayoutDescription>{}); });
+    return readJson(text, name, limits::maxLayoutFileBytes, [](const Json& root) {
+        return readCustom(JsonField(root, {}), Custom<LayoutDescription>{});
+    });
 }
 
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
@@ -147,7 +148,7 @@ Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
 }
 
 std::string layoutJson(const LayoutDescription& layout) {
-    const OrderedJson json = writeKind(Own<LayoutDescription>{}, layout);
+    const OrderedJson json = writeCustom(Custom<LayoutDescription>{}, layout);
     std::string text = "{";
     for (const auto& [name, value] : json.items()) {
         text += (text.size() > 1 ? ",\n  \"" : "\n  \"") + name + "\": ";
@@ -163,11 +164,11 @@ std::string layoutJson(const LayoutDescription& layout) {
     return text + "\n}\n";
 }
 
-void keepActuators(LayoutDescription& layout, const std::vector<EnchanterDescription>& before) {
-    const std::size_t kept = std::min(layout.enchanters.size(), before.size());
-    for (std::size_t j = 0; j < kept; ++j) {
-        layout.enchanters[j].actuator = before[j].actuator;
-        layout.enchanters[j].fullScaleG = before[j].fullScaleG;
+void copyActuatorProperties(LayoutDescription& layout, const std::vector<ActuatorDescription>& previous) {
+    const std::size_t count = std::min(layout.actuators.size(), previous.size());
+    for (std::size_t j = 0; j < count; ++j) {
+        layout.actuators[j].actuator = previous[j].actuator;
+        layout.actuators[j].fullScaleG = previous[j].fullScaleG;
     }
 }
 

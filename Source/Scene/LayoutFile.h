@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Actuator layouts as JSON: places, labels, actuator profiles and full scales.
+// Actuator layouts as JSON: places, labels, actuator profiles and full scales; and the layout that --layout
+// names: a preset, a special layout or a file. Files call an actuator "enchanter", as the thesis does.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include "Core/EventShaping.h"
@@ -11,55 +12,52 @@
 
 namespace physvib {
 /// Properties of one actuator besides its place.
-struct EnchanterDescription {
+struct ActuatorDescription {
     std::string label;             ///< unique in its layout, not empty
     std::string actuator = "none"; ///< name of an actuator profile
     double fullScaleG = 1.0;       ///< acceleration, in g, at an amplitude of 1
     std::string part{};            ///< name of the part of the body that it is on; empty: none
-    bool operator==(const EnchanterDescription&) const = default;
+    bool operator==(const ActuatorDescription&) const = default;
 };
 
-/// A named layout; enchanters[j] is at geometry.places[j], for j below geometry.count.
+/// A named layout; actuators[j] describes the actuator at geometry.places[j], j < geometry.count.
 struct LayoutDescription {
     std::string name;
-    EnchanterLayout geometry;
-    std::vector<EnchanterDescription> enchanters;
+    ActuatorLayout geometry;
+    std::vector<ActuatorDescription> actuators;
 };
 
-/// A layout without a file, e.g. a preset: labels A, B, C..., parts by the numbers of the places, all else
-/// default. Any thread.
-LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry);
+/// A layout without a file, e.g. a preset: labels A, B, C..., parts as numbered, else default. Any thread.
+LayoutDescription describeLayout(std::string name, const ActuatorLayout& geometry);
 
-/// The preset of that name, which must exist, with profile and full scale of `before`. Any thread.
-LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
+/// The preset of that name, which must exist, with profile and full scale of `previous`. Any thread.
+LayoutDescription presetLayout(std::string_view name, const std::vector<ActuatorDescription>& previous = {});
 
-/// Copies profile and full scale from `before` to the actuators of the same number. Any thread.
-void keepActuators(LayoutDescription& layout, const std::vector<EnchanterDescription>& before);
+/// Copies profile and full scale from `previous` to the actuators of the same number. Any thread.
+void copyActuatorProperties(LayoutDescription& layout, const std::vector<ActuatorDescription>& previous);
 
-/// A preset by name, else the layout of the file. Message thread (M) only.
+/// A preset by name, else the layout of the file. Message thread only.
 Result<LayoutDescription> findLayout(const std::string& nameOrPath);
 
 /// The layout in `text`; or, for the first error, one line `name: enchanters[3].x_m: expected a number, found
-/// a string`. Required: extent_m (both > 0), enchanters (1 to limits::maxEnchanters), and x_m and y_m of each
+/// a string`. Required: extent_m (both > 0), enchanters (1 to limits::maxActuators), and x_m and y_m of each
 /// within the extent. z_m and part may be missing. A missing label becomes the first unused one of A, B, C...
 /// Unknown and repeated fields are errors. Any thread.
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name);
 
-/// The same for a file. M only.
+/// The same for a file. Message thread only.
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path);
 
 /// `layout` as JSON, one actuator per line; readLayout restores it bit for bit. Any thread.
 std::string layoutJson(const LayoutDescription& layout);
 
-// Resolves the value of --layout: presets, special layouts, or a file.
+/// Minimum full scale of an actuator for the studies: their fixed level, and 1 dB for the limiter.
+constexpr double minStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
 
-/// Minimum full scale of an actuator for the studies: their fixed level plus 1 dB below the limiter.
-constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
-
-/// A preset, or the layout file at that path. study1 is phone1 with actuators of 2 g: an assumption, to be
-/// replaced by a layout of the real set-up. dualsense is its two coils, left and right grip; their distance
-/// and full scale of 1 g are assumed (Docs/pads.md).
-inline Result<LayoutDescription> layoutNamed(const std::string& name) {
+/// The layout that --layout names: a preset, study1, dualsense, or the file at that path. study1 is phone1
+/// with actuators of 2 g: an assumption, to be replaced by a layout of the real set-up. dualsense: the coils
+/// in its left and right grip; distance and full scale are assumed (Docs/pads.md). Message thread.
+inline Result<LayoutDescription> resolveLayout(const std::string& name) {
     constexpr double studyFullScaleG = 2.0;
     if (name == "dualsense") {
         LayoutDescription grips = presetLayout("phone2");
@@ -71,7 +69,7 @@ inline Result<LayoutDescription> layoutNamed(const std::string& name) {
     if (name != "study1") return findLayout(name);
     LayoutDescription layout = presetLayout("phone1");
     layout.name = name;
-    for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = studyFullScaleG;
+    for (ActuatorDescription& actuator : layout.actuators) actuator.fullScaleG = studyFullScaleG;
     return layout;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A layout as part of another file. For the .cpp files of modules with files.
+// Reads and writes a layout as part of another JSON file. Included by .cpp files only.
 #pragma once
 #include "Io/Json/FieldJson.h"
 #include "Scene/LayoutFile.h"
@@ -7,7 +7,7 @@
 namespace physvib {
 
 /// The layout in a JSON object. Throws JsonError.
-LayoutDescription readKind(const JsonField& json, const Own<LayoutDescription>&);
-OrderedJson writeKind(const Own<LayoutDescription>&, const LayoutDescription& layout);
+LayoutDescription readCustom(const JsonField& json, const Custom<LayoutDescription>&);
+OrderedJson writeCustom(const Custom<LayoutDescription>&, const LayoutDescription& layout);
 
 } // namespace physvib

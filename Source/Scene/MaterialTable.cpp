@@ -26,8 +26,8 @@ MaterialTable readMaterialsRoot(Json& root) {
     checkVersion(JsonField(root, {}), materialsVersionField, materialsFormatVersion);
     root.erase(materialsVersionField);
     auto table = readFields<MaterialTable>(JsonField(root, {}));
-    if (const std::string fault = validateMaterials(table.materials); !fault.empty())
-        throw JsonError({}, fault);
+    if (const std::string error = validateMaterials(table.materials); !error.empty())
+        throw JsonError({}, error);
     return table;
 }
 

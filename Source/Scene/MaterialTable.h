@@ -28,18 +28,17 @@ struct MaterialTable {
 /// 0 to 100, found -1`. Any thread.
 Result<MaterialTable> readMaterials(std::string_view text, std::string_view name);
 
-/// The same for a file. Message thread (M) only.
+/// The same for a file. Message thread only.
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
 
 /// `table` as JSON, a material per line; readMaterials restores it bit for bit. Any thread.
 std::string materialsJson(const MaterialTable& table);
 
-/// Table 5.1 of the thesis, then the other tables. Read on first use; any thread.
+/// The tables that come with PhysVib, Table 5.1 of the thesis first. Read on first use; any thread.
 const std::vector<MaterialTable>& builtInMaterials();
 
-// Checks that no two items of a list have the same name.
-
-/// Empty, or one line that names the second item of that name. Any thread.
+/// Checks that names are unique: empty, or one line for the first item whose name occurs earlier; `list` is
+/// the list's name in files. Any thread.
 template <class T>
 std::string checkUnique(const std::string& list, const std::vector<T>& all) {
     std::set<std::string_view> names;
@@ -50,29 +49,27 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
     return {};
 }
 
-// Validates materials alone, for scenes and for material tables, which need no shapes and no Box2D.
-
-/// Empty if all names are unique, and so are their numbers, which events carry. Else one line that names the
-/// field, as files spell it, and what was expected. Any thread.
+/// Checks that names are unique, and also their hash numbers, which events carry: empty, or one line with the
+/// field as files spell it and what was expected. Any thread.
 inline std::string checkMaterialNames(const std::vector<Material>& all) {
-    if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
+    if (std::string error = checkUnique("materials", all); !error.empty()) return error;
     std::vector<SoundNumber> sounds;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const SoundNumber sound = soundOfMaterial(all[i].name);
-        const auto same = static_cast<std::size_t>(std::ranges::find(sounds, sound) - sounds.begin());
-        if (same < i)
+        const auto firstIndex = static_cast<std::size_t>(std::ranges::find(sounds, sound) - sounds.begin());
+        if (firstIndex < i)
             return detail::itemPath("materials", i) + ".name: expected another name: \"" + all[i].name +
-                   "\" and \"" + all[same].name + "\" have the same number by chance";
+                   "\" and \"" + all[firstIndex].name + "\" have the same number by chance";
         sounds.push_back(sound);
     }
     return {};
 }
 
-/// Checks ranges and names: empty, or one such line. Any thread.
+/// Checks ranges and names of materials, of a scene or a table: empty, or one such line. Any thread.
 inline std::string validateMaterials(const std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i)
-        if (std::string fault = checkRanges(materials[i], detail::itemPath("materials", i)); !fault.empty())
-            return fault;
+        if (std::string error = checkRanges(materials[i], detail::itemPath("materials", i)); !error.empty())
+            return error;
     return checkMaterialNames(materials);
 }
 

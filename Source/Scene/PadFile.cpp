@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of a controller profile's fields, and the profiles that are built in.
+// The tables of a controller profile's fields, the built-in profiles, and the motor commands of a render.
 #include "Scene/PadFile.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
@@ -80,40 +80,41 @@ Result<PadProfile> findPad(const std::string& nameOrPath) {
 
 namespace {
 
+/// Computes the commands of a controller's motors without real time; input in time order.
 class OfflinePad {
 public:
     OfflinePad(const PadLaw& law, const PhantomPanner& panner)
         : motors_{law}
-        , grips_{PadMotors::gripsOf(panner)}
+        , gripPanner_{PadMotors::gripsOf(panner)}
         , leadNs_{static_cast<std::int64_t>(1e9 * law.leadSeconds)} {}
 
-    void take(const CollisionEvent& event) {
+    void process(const CollisionEvent& event) {
         runUntil(event.timeNs - leadNs_);
-        motors_.strike(event, grips_);
+        motors_.strike(event, gripPanner_);
     }
-    void take(const RenderControl& control) {
-        if (control.panner != nullptr) grips_ = PadMotors::gripsOf(*control.panner);
+    void process(const RenderControl& control) {
+        if (control.panner != nullptr) gripPanner_ = PadMotors::gripsOf(*control.panner);
         if (control.kind != RenderControl::Kind::stopAll) return;
         runUntil(control.timeNs);
         motors_.stop(control.timeNs);
     }
     std::vector<PadCommand> finish(std::int64_t endNs) {
         runUntil(endNs);
-        keep({endNs, 0.0, 0.0});
+        addIfChanged({endNs, 0.0, 0.0});
         return std::move(commands_);
     }
     std::uint64_t lost() const { return motors_.lost(); }
 
 private:
     void runUntil(std::int64_t ns) {
-        while (motors_.dueNs() < ns) keep(motors_.next(1.0));
+        while (motors_.dueNs() < ns) addIfChanged(motors_.next(1.0));
     }
-    void keep(const PadCommand& command) {
+    void addIfChanged(const PadCommand& command) {
         if (!commands_.back().isSame(command)) commands_.push_back(command);
     }
 
     PadMotors motors_;
-    PhantomPanner grips_;
+    PhantomPanner gripPanner_;
     std::int64_t leadNs_;
     std::vector<PadCommand> commands_{PadCommand{}};
 };
@@ -127,10 +128,10 @@ std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const Collision
     auto control = controls.begin();
     for (const CollisionEvent& event : events) {
         if (event.timeNs >= endNs) break;
-        for (; control != controls.end() && control->timeNs <= event.timeNs; ++control) pad.take(*control);
-        pad.take(event);
+        for (; control != controls.end() && control->timeNs <= event.timeNs; ++control) pad.process(*control);
+        pad.process(event);
     }
-    for (; control != controls.end() && control->timeNs <= endNs; ++control) pad.take(*control);
+    for (; control != controls.end() && control->timeNs <= endNs; ++control) pad.process(*control);
     auto commands = pad.finish(endNs);
     if (lost) *lost = pad.lost();
     return commands;

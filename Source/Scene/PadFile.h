@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Profiles of game controllers as JSON: properties of their rumble motors; and motor commands of a render.
+// Profiles of game controllers as JSON: properties of their rumble motors; and the commands that the motors
+// would get for a render, as a table.
 #pragma once
 #include "Core/Pads/PadMotors.h"
 #include "Core/RenderControl.h"
@@ -32,19 +33,17 @@ std::string padJson(const PadProfile& profile);
 /// The profiles that come with PhysVib, in listing order. Built on first use; any thread.
 const std::vector<PadProfile>& builtInPads();
 
-/// A built-in profile by its name, else that of the file (NAME.json, or a path). M only.
+/// A built-in profile by its name, else that of the file (NAME.json, or a path). Message thread only.
 Result<PadProfile> findPad(const std::string& nameOrPath);
 
-// Computes the motor commands that a game controller would get for a render, as a table.
-
-/// All commands that differ from the one before, from 0 to `endNs`, where motors are at rest. `events` use
-/// `panner` and its changes in `controls`; of other controls only stopAll matters. `lost`: events for which
-/// there was no room. Any thread.
+/// The motor commands from 0 to `endNs`, where the motors stop, without repetitions. `events` are panned by
+/// `panner` and its changes in `controls`; of other controls only stopAll has an effect. `lost` gets the
+/// number of events that were dropped because too many sounded at once. Any thread.
 std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
                                     std::span<const RenderControl> controls, const PhantomPanner& panner,
                                     std::int64_t endNs, std::uint64_t* lost = nullptr);
 
-/// `time_s,low,high`, a line per command; times as in event lists, commands from 0 to 1.
+/// The commands as CSV `time_s,low,high`; times as in event lists, commands from 0 to 1. Any thread.
 std::string motorsCsv(const std::vector<PadCommand>& commands, const Provenance& provenance);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of sounds and of parts of a body, which events and actuators carry as numbers and files as text.
+// Names of sounds and of parts of the user's body: text in files, numbers (hashes of the names) in events.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -25,7 +25,7 @@ public:
     /// Ignores names that an event list cannot store, because its cells have no quotes.
     void add(int number, std::string_view name) {
         const auto next = placeOf(number);
-        if (names_.size() < mostNames && !isAt(next, number) && isPlain(name))
+        if (names_.size() < maxNames && !isAt(next, number) && isPlain(name))
             names_.insert(next, {number, std::string{name}});
     }
 
@@ -33,10 +33,10 @@ public:
 
 private:
     static bool isPlain(std::string_view name) {
-        const auto breaks = [](char c) {
+        const auto isForbidden = [](char c) {
             return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' ';
         };
-        return !name.empty() && std::ranges::none_of(name, breaks) && name.front() != ' ' &&
+        return !name.empty() && std::ranges::none_of(name, isForbidden) && name.front() != ' ' &&
                name.back() != ' ';
     }
 
@@ -49,14 +49,14 @@ private:
     Place placeOf(int number) const { return std::ranges::lower_bound(names_, number, {}, &Entry::number); }
     bool isAt(Place place, int number) const { return place != names_.end() && place->number == number; }
 
-    static constexpr std::size_t mostNames = 4096; // so that an untrusted list is still read quickly
-    std::vector<Entry> names_;                     // sorted by number
+    static constexpr std::size_t maxNames = 4096; // so that an untrusted list is still read quickly
+    std::vector<Entry> names_;                    // sorted by number
 };
 
-inline constexpr std::string_view partNamePrefix = "part-"; // and the number of a part without a name
+inline constexpr std::string_view partNamePrefix = "part-"; // before the number of a part without a name
 
 /// The number of the part that a file calls `name`; 0 if it has none. Any thread.
-inline PartNumber partOf(std::string_view name) noexcept {
+inline PartNumber partNumberOf(std::string_view name) noexcept {
     if (name.starts_with(partNamePrefix))
         if (const auto number = parseNumber<PartNumber>(name.substr(partNamePrefix.size())).value_or(0);
             number > 0)
@@ -67,13 +67,14 @@ inline PartNumber partOf(std::string_view name) noexcept {
 /// The names of parts by their numbers. One thread at a time.
 class PartNames {
 public:
+    /// Ignores a name that would be read as another part.
     void add(std::string_view name) {
-        if (const PartNumber part = partOf(name); part == partNamed(name)) names_.add(part, name);
+        if (const PartNumber part = partNumberOf(name); part == partNamed(name)) names_.add(part, name);
     }
 
-    /// What files write: a name that was added, a built-in name (chest), or else the number (part-923368111).
-    /// Nothing for 0.
-    std::string of(PartNumber part) const {
+    /// The part's text in files: a name that was added, a built-in name (chest), or else its number
+    /// (part-923368111); empty for 0.
+    std::string nameOf(PartNumber part) const {
         if (part == 0) return {};
         if (const std::string* const known = names_.find(part)) return *known;
         for (const std::string_view name : bodyParts)
@@ -87,38 +88,37 @@ private:
     NumberedNames names_;
 };
 
-// Names of the sounds that events carry as numbers, as event lists write and read them.
-
-inline constexpr std::string_view clipNamePrefix = "clip-";   // and its number, from 1 on
-inline constexpr std::string_view soundNamePrefix = "sound-"; // and the number of a material without a name
+inline constexpr std::string_view clipNamePrefix = "clip-";   // before its number, from 1 on
+inline constexpr std::string_view soundNamePrefix = "sound-"; // before the number of a material without a
+                                                              // name
 
 /// The number of the sound that a list calls `name`; 0 if it has none. Any thread.
-inline SoundNumber soundNamed(std::string_view name) noexcept {
+inline SoundNumber soundNumberOf(std::string_view name) noexcept {
     if (name.empty()) return 0;
-    const auto after = [name](std::string_view prefix) {
+    const auto numberAfter = [name](std::string_view prefix) {
         return name.starts_with(prefix) ? parseNumber<SoundNumber>(name.substr(prefix.size())).value_or(0)
                                         : SoundNumber{0};
     };
-    if (const SoundNumber clip = after(clipNamePrefix); isClip(clip)) return clip;
-    if (const SoundNumber material = after(soundNamePrefix); material > mostClips) return material;
+    if (const SoundNumber clip = numberAfter(clipNamePrefix); isClip(clip)) return clip;
+    if (const SoundNumber material = numberAfter(soundNamePrefix); material > maxClips) return material;
     return soundOfMaterial(name);
 }
 
-/// Sets the number of the clip that an event of an old file plays: there, clip `k`, from 0 on, was the
-/// frequency (k + 1) / 1024 Hz. Any thread.
-inline void takeFormerClip(CollisionEvent& event) noexcept {
+/// Converts a clip of an old file, which had no material column: there clip `k`, from 0 on, was the frequency
+/// (k + 1) / 1024 Hz. Other events stay. Any thread.
+inline void convertLegacyClip(CollisionEvent& event) noexcept {
     const double number = event.frequencyHz * 1024.0;
-    if (!(number >= 1.0 && number <= mostClips) || number != std::floor(number)) return;
+    if (!(number >= 1.0 && number <= maxClips) || number != std::floor(number)) return;
     event.sound = static_cast<SoundNumber>(number);
     event.frequencyHz = clipFrequencyHz;
 }
 
-/// The names of materials by their numbers. One thread at a time.
+/// The names of materials by the numbers of their sounds, and those of parts. One thread at a time.
 class SoundNames {
 public:
     SoundNames() = default;
 
-    /// Those of a scene's materials.
+    /// Has the names of a scene's materials.
     template <class Materials>
     explicit SoundNames(const Materials& materials) {
         addAll(materials);
@@ -139,13 +139,13 @@ public:
 
     /// Ignores the name of a material that would be read as another sound.
     void add(std::string_view name) {
-        if (const SoundNumber sound = soundOfMaterial(name); soundNamed(name) == sound)
+        if (const SoundNumber sound = soundOfMaterial(name); soundNumberOf(name) == sound)
             names_.add(sound, name);
     }
     bool has(SoundNumber sound) const { return names_.find(sound) != nullptr; }
 
-    /// What a list writes: the material's name or its number (sound-923368111), clip-1 ..., or nothing for 0.
-    std::string of(SoundNumber sound) const {
+    /// The sound's text in lists: the material's name or number (sound-923368111), clip-1...; empty for 0.
+    std::string nameOf(SoundNumber sound) const {
         if (sound == 0) return {};
         if (const std::string* const known = names_.find(sound)) return *known;
         return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);

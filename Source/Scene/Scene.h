@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Description of a physics scene as plain data: the simulation is built from it and pictures are drawn from
-// it. Independent of Box2D.
+// A physics scene as plain data, without Box2D: materials, shapes, bodies, joints, and actions of scripts,
+// users and editors. Simulations, pictures and files are made from it.
 #pragma once
 #include "Contacts/Grains.h"
 #include "Contacts/HapticFixture.h"
@@ -13,7 +13,7 @@
 
 namespace physvib {
 
-/// Two components, along x (right) and y (up), in the unit that its field's name says.
+/// Components along x (right) and y (up), in the unit that the member's name says.
 struct Vector {
     double x = 0.0;
     double y = 0.0;
@@ -28,11 +28,11 @@ struct Material {
     double restitution = 0.0;
     double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no haptic source needs it)
     double decayPerSecond = 0.0;
-    double grainMetres = 0.0; ///< these four: surface texture, see Texture
+    double grainMetres = 0.0; ///< this and the next three: surface texture, see Texture
     double roughness = 1.0;
     GrainPattern grainPattern = GrainPattern::random;
     double rolling = 0.2;
-    int colour = 0; ///< in pictures: one of eight, from 1; 0: by its place among the materials
+    int colour = 0; ///< in pictures: 1 to 8; 0: by index
     bool operator==(const Material&) const = default;
 
     void setTexture(const Texture& t) noexcept {
@@ -44,7 +44,7 @@ struct Material {
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
 
-inline bool isAnyRough(const std::vector<Material>& materials) {
+inline bool hasRoughMaterial(const std::vector<Material>& materials) {
     return std::ranges::any_of(materials, [](const Material& m) { return m.texture().isRough(); });
 }
 
@@ -62,9 +62,8 @@ struct PolygonShape {
     std::vector<Vector> verticesMetres;
     bool operator==(const PolygonShape&) const = default;
 };
-/// A line of edges without thickness or mass, for bodies that are not dynamic. It collides on the right of
-/// its direction only: ground that carries runs from right to left, a loop that contains runs clockwise, one
-/// that keeps things out counter-clockwise.
+/// A line of edges without thickness or mass, for bodies that are not dynamic. Bodies collide only with its
+/// right side as seen along it: draw ground right to left, containers clockwise, obstacles counter-clockwise.
 struct ChainShape {
     std::vector<Vector> verticesMetres;
     bool isLoop = false; ///< the last vertex is joined to the first
@@ -80,16 +79,16 @@ struct FixtureDescription {
     int material = 0;      ///< index into Scene::materials
     bool isCamera = false; ///< haptic source: collisions of this fixture are felt (thesis 5.1.1)
     Voice voice = Voice::own;
-    std::optional<double> restitution{}; ///< of this fixture alone; none: the material's
-    std::string part{}; ///< part of the user's body on whose actuators it is felt (Core/NameNumbers.h);
-                        ///< empty: on all, by place
+    std::optional<double> restitution{}; ///< of this fixture; nullopt: the material's
+    std::string part{}; ///< part of the user's body whose actuators play it (Core/NameNumbers.h); empty:
+                        ///< all actuators, by place
     bool operator==(const FixtureDescription&) const = default;
 };
 
-/// static: never moves; kinematic: moves at its set velocity, whatever it hits; dynamic: moves by forces.
+/// A static body never moves, a kinematic one moves at its set velocity, a dynamic one by forces.
 enum class BodyType { staticBody, kinematicBody, dynamicBody };
 
-/// One rigid body as it starts.
+/// One rigid body in its start state.
 struct BodyDescription {
     std::string name; ///< unique in the scene
     BodyType type = BodyType::dynamicBody;
@@ -100,8 +99,8 @@ struct BodyDescription {
     double spinRadiansPerSecond = 0.0;
     double linearDampingPerSecond = 0.0;
     double angularDampingPerSecond = 0.0;
-    /// Dynamic: replaces the mass by density and area, 0 keeps that. Others have no mass in Box2D; Eq. 5.4
-    /// needs one above 0 if a fixture is a haptic source.
+    /// 0: from density and area. Bodies that are not dynamic have no mass in Box2D, but Eq. 5.4 needs one if
+    /// a fixture is a haptic source.
     double massKg = 0.0;
     bool operator==(const BodyDescription&) const = default;
 };
@@ -112,9 +111,9 @@ struct Interval {
     bool operator==(const Interval&) const = default;
 };
 
-/// A hinge. Angles are those of body B against body A since the start; a torque of 0 is no motor.
+/// A hinge. Limits are angles of body B relative to body A, 0 at the start; without torque it has no motor.
 struct RevoluteJoint {
-    Vector anchorMetres; ///< of the world, at the start
+    Vector anchorMetres; ///< in the world, at the start
     std::optional<Interval> limitsRadians;
     double motorRadiansPerSecond = 0.0;
     double maxTorqueNewtonMetres = 0.0;
@@ -124,7 +123,7 @@ struct RevoluteJoint {
 struct WheelJoint {
     Vector anchorMetres;
     Vector axis{0.0, 1.0};     ///< any length above 0
-    double suspensionHz = 0.0; ///< 0: stiff only by limits
+    double suspensionHz = 0.0; ///< 0: no spring, only limits
     double dampingRatio = 0.0;
     std::optional<Interval> travelMetres;
     double motorRadiansPerSecond = 0.0;
@@ -137,17 +136,17 @@ struct DistanceJoint {
     Vector anchorBMetres;
     double springHz = 0.0;
     double dampingRatio = 0.0;
-    bool isSlack = false; ///< a rope: it holds only when it is taut, and is no spring then
+    bool isSlack = false; ///< a rope: limits the distance; springHz is unused
     bool operator==(const DistanceJoint&) const = default;
 };
-/// Glues two bodies together; a frequency makes the seam springy.
+/// Fixes two bodies to each other; with a frequency by a torsion spring.
 struct WeldJoint {
     Vector anchorMetres;
     double springHz = 0.0;
     double dampingRatio = 0.0;
     bool operator==(const WeldJoint&) const = default;
 };
-/// Body B slides along an axis of body A and does not turn against it. A force of 0 is no motor.
+/// Body B slides along an axis of body A without rotation. Without force it has no motor.
 struct SliderJoint {
     Vector anchorMetres;
     Vector axis{1.0, 0.0}; ///< any length above 0
@@ -167,39 +166,39 @@ struct JointDescription {
     bool operator==(const JointDescription&) const = default;
 };
 
-// Actions. `isByHand`: a user's input, which is removed from a script when a user plays (sceneForHands).
-// `isLasting`: it changes the scene permanently and not only its motion.
+// Actions. `isUserInput`: a user's input, which is removed from a script when a user plays
+// (sceneForUserInput). `isLasting`: it changes the scene permanently and not only its motion.
 
-/// Replaces gravity by this vector: a tilt or a shake of the device.
+/// Replaces gravity by this vector, as a tilted or shaken device does.
 struct GravityAction {
-    static constexpr bool isByHand = true;
-    Vector metresPerSecond2;
+    static constexpr bool isUserInput = true;
+    Vector gravityMetresPerSecond2;
     bool operator==(const GravityAction&) const = default;
 };
-/// Replaces gravity by the scene's, turned counter-clockwise, as the device is held.
+/// Replaces gravity by the scene's, rotated counter-clockwise by this angle.
 struct TiltAction {
-    static constexpr bool isByHand = true;
+    static constexpr bool isUserInput = true;
     double angleRadians = 0.0;
     bool operator==(const TiltAction&) const = default;
 };
 /// A push or drag. No effect if the body is absent or not dynamic.
 struct ImpulseAction {
-    static constexpr bool isByHand = true;
+    static constexpr bool isUserInput = true;
     std::string body;
-    Vector newtonSeconds;
+    Vector impulseNewtonSeconds;
     std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass
     bool operator==(const ImpulseAction&) const = default;
 };
-/// Gives a body, dynamic or kinematic, this velocity.
+/// Sets the velocity of a dynamic or kinematic body.
 struct VelocityAction {
-    static constexpr bool isByHand = true;
+    static constexpr bool isUserInput = true;
     std::string body;
-    Vector metresPerSecond;
+    Vector velocityMetresPerSecond;
     double spinRadiansPerSecond = 0.0;
     bool operator==(const VelocityAction&) const = default;
 };
-/// Adds a body to the world. Repetitions are separate bodies, "name 1", "name 2"..., each `shift` farther. A
-/// body that exists already (in the script's next period) restarts.
+/// Adds a body to the world. Repetitions are separate bodies "name 1", "name 2"..., each moved by
+/// `shiftMetres` from the last. A body that exists already (in the script's next period) restarts.
 struct SpawnAction {
     static constexpr bool isLasting = true;
     BodyDescription body;
@@ -211,17 +210,17 @@ struct RemoveAction {
     std::string body;
     bool operator==(const RemoveAction&) const = default;
 };
-/// Changes the motor of a revolute or wheel joint; without a torque the torque stays.
+/// Changes the motor of a revolute or wheel joint; nullopt leaves the torque as it is.
 struct MotorAction {
     std::string joint;
-    double radiansPerSecond = 0.0;
+    double speedRadiansPerSecond = 0.0;
     std::optional<double> maxTorqueNewtonMetres;
     bool operator==(const MotorAction&) const = default;
 };
 
 constexpr int everyFixture = -1;
 
-/// Makes a fixture of a body (or every one) a haptic source, or not.
+/// Makes a fixture of a body, or all of them, haptic sources or not.
 struct CameraAction {
     static constexpr bool isLasting = true;
     std::string body;
@@ -229,8 +228,7 @@ struct CameraAction {
     bool isOn = true;
     bool operator==(const CameraAction&) const = default;
 };
-/// Makes a fixture of a body (or every one) of another material: sound, friction, restitution, and the mass
-/// if it comes from the density.
+/// Changes the material of a fixture of a body, or of all: sound, friction, restitution, density.
 struct MaterialAction {
     static constexpr bool isLasting = true;
     std::string body;
@@ -238,7 +236,7 @@ struct MaterialAction {
     int material = 0;
     bool operator==(const MaterialAction&) const = default;
 };
-/// Changes the contact sound of a material, of later collisions.
+/// Changes the contact sound of a material for later collisions.
 struct SoundAction {
     static constexpr bool isLasting = true;
     int material = 0;
@@ -258,41 +256,39 @@ struct TextureAction {
 
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
-/// The user turns the device counter-clockwise and changes its weight, in addition to gravity and tilt.
+/// Rotates gravity counter-clockwise and scales it, on top of other actions, as the user holds the device.
 struct HoldAction {
-    static constexpr bool isByHand = true;
+    static constexpr bool isUserInput = true;
     double factor = 1.0;
     double angleRadians = 0.0;
     bool operator==(const HoldAction&) const = default;
 };
-/// A hand grips a point of a body and pulls it towards `toMetres`, which it reaches after `overSeconds` in a
-/// straight line; without `toMetres` it lets go. See SceneGrips. No effect if the body is absent or not
-/// dynamic.
+/// A hand grips a point of a body and pulls it. The hand moves straight to `toMetres` within `overSeconds`;
+/// without `toMetres` it releases the body (see SceneGrips). No effect if the body is absent or not dynamic.
 struct GripAction {
-    static constexpr bool isByHand = true;
+    static constexpr bool isUserInput = true;
     std::string body;
     std::optional<Vector> toMetres;
-    std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass. Counts
-                                       ///< when the grip begins
+    std::optional<Vector> pointMetres; ///< on the body, from its origin; nullopt: the centre of mass. Used
+                                       ///< only when the grip begins
     double overSeconds = 0.0;
     bool operator==(const GripAction&) const = default;
 };
-/// Replaces the body of that name by this description, also if it was removed: an editor's action. Not in a
-/// script. Its joints keep their points on it. Its fixtures get new numbers, like those of a spawned body.
+/// An editor's action: replaces the body of that name by this description, even if it was removed. Its joints
+/// keep their anchors on it, and its fixtures get new numbers like those of a spawned body. Not in scripts.
 struct ChangeAction {
     static constexpr bool isLasting = true;
     BodyDescription body;
-    bool stays = false; ///< true: keeps its present place and motion if it is present; the description has
-                        ///< its place at the scene's start
+    bool stays = false; ///< true: a present body keeps its place and motion; else it starts as described
     bool operator==(const ChangeAction&) const = default;
 };
-/// Joins two bodies; places are those of the world when it acts. Not in a script.
+/// Joins two bodies; anchors are places in the world at that moment. Not in scripts.
 struct JoinAction {
     static constexpr bool isLasting = true;
     JointDescription joint;
     bool operator==(const JoinAction&) const = default;
 };
-/// Removes a joint of the scene or of a JoinAction. Not in a script.
+/// Removes a joint of the scene or of a JoinAction. Not in scripts.
 struct UnjoinAction {
     static constexpr bool isLasting = true;
     std::string joint;
@@ -308,15 +304,15 @@ bool isAnyOf(const Action& action) noexcept {
     return (... || std::holds_alternative<Kinds>(action));
 }
 
-/// The body that a live input adds to the world, under the next number; nullptr for other actions.
+/// The body that a live input (spawn or change) adds to the world, under the next number; nullptr for others.
 template <class OneAction> // Action, const or not
-auto bodyPutBy(OneAction& action) noexcept -> decltype(&std::get_if<SpawnAction>(&action)->body) {
+auto bodyAddedBy(OneAction& action) noexcept -> decltype(&std::get_if<SpawnAction>(&action)->body) {
     if (auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
     if (auto* change = std::get_if<ChangeAction>(&action)) return &change->body;
     return nullptr;
 }
 
-/// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
+/// An action at `timeSeconds` of the script, repeated `times` - 1 times at intervals of `everySeconds`.
 struct ScriptInput {
     double timeSeconds = 0.0;
     int times = 1;
@@ -325,7 +321,7 @@ struct ScriptInput {
     bool operator==(const ScriptInput&) const = default;
 };
 
-/// An input by a user or host while the world ran, once, at world time `timeSeconds`. A spawned body is new,
+/// An input by a user or host while the world ran, at world time `timeSeconds`. Bodies that it spawns start
 /// without the seed's jitter.
 struct LiveInput {
     double timeSeconds = 0.0;
@@ -333,32 +329,32 @@ struct LiveInput {
     bool operator==(const LiveInput&) const = default;
 };
 
-/// A* (s/m) and m_h (kg) of Eq. 5.4; none: by Eq. 5.7, from the field's width and the bodies present.
+/// A* (s/m) and m_h (kg) of Eq. 5.4; nullopt: by Eq. 5.7, from the field's width and the bodies present.
 struct Normalisation {
     std::optional<double> secondsPerMetre;
     std::optional<double> handMassKg;
     bool operator==(const Normalisation&) const = default;
 };
 
-/// A choice that a scene's file offers, for listings and provenance.
+/// A variable of a scene file with the chosen value, for listings and provenance.
 struct SceneVariable {
     std::string name;
-    std::string value; ///< the one chosen
+    std::string value; ///< the chosen one
     std::vector<std::string> choices;
     bool operator==(const SceneVariable&) const = default;
 };
 
-/// A reproducible world: same scene, same seed, same step rate give the same events.
+/// A reproducible world: the same scene, seed and step rate give the same events.
 struct Scene {
     std::string name;
     std::string description; ///< one line, for `physvib scenes`
     double fieldWidthMetres = 0.0;
     double fieldHeightMetres = 0.0;
-    Vector gravityMetresPerSecond2; ///< until the script changes it
+    Vector gravityMetresPerSecond2; ///< at the start
     double driveGain = 1.0;         ///< factor on Eq. 5.7, which leaves most impacts near -40 dBFS
     Normalisation normalisation;
     std::vector<Material> materials;
-    std::vector<BodyDescription> bodies; ///< at the start; sceneCast() numbers their fixtures
+    std::vector<BodyDescription> bodies; ///< at the start; allBodies() numbers their fixtures
     std::vector<JointDescription> joints;
     std::vector<ScriptInput> script;  ///< in any order; those of the same step act in this one
     double scriptPeriodSeconds = 0.0; ///< the script repeats after this time; 0: it does not

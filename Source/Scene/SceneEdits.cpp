@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Applies editing actions to scene descriptions; edits that would make a scene invalid are skipped.
+// Applies lasting actions to scene descriptions, skips invalid ones; removes scripted user input.
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/ScenePlayer.h"
@@ -13,9 +13,9 @@ namespace physvib {
 namespace {
 
 BodyDescription* findBody(Scene& scene, const std::string& name) {
-    // the last body of that name exists
+    // of several bodies of that name the last one exists
     for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input)
-        if (auto* put = bodyPutBy(input->action); put != nullptr && put->name == name) return put;
+        if (auto* added = bodyAddedBy(input->action); added != nullptr && added->name == name) return added;
     return findNamed(scene.bodies, name);
 }
 
@@ -49,34 +49,34 @@ void describeEdit(Scene& scene, const Action& action) {
 
 namespace {
 
-void edit(Scene& scene, const Action& action) {
+void applyEdit(Scene& scene, const Action& action) {
     describeEdit(scene, action);
     if (const auto* removal = std::get_if<RemoveAction>(&action))
         std::erase_if(scene.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
     if (const auto* join = std::get_if<JoinAction>(&action)) scene.joints.push_back(join->joint);
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action))
         std::erase_if(scene.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
-    const BodyDescription* put = bodyPutBy(action);
-    if (put != nullptr && findNamed(scene.bodies, put->name) == nullptr) scene.bodies.push_back(*put);
+    const BodyDescription* added = bodyAddedBy(action);
+    if (added != nullptr && findNamed(scene.bodies, added->name) == nullptr) scene.bodies.push_back(*added);
 }
 
 } // namespace
 
 bool isLasting(const Action& action) {
     return std::visit(
-        []<class One>(const One&) {
-            return requires { One::isLasting; };
+        []<class Kind>(const Kind&) {
+            return requires { Kind::isLasting; };
         },
         action);
 }
 
-std::size_t takenTogether(std::span<const Action> actions) {
+std::size_t independentActions(std::span<const Action> actions) {
     std::set<std::string_view> names;
     for (const Action& action : actions) {
         const auto* removal = std::get_if<RemoveAction>(&action);
-        const auto* put = bodyPutBy(action);
-        if (action.index() != actions.front().index() || (removal == nullptr && put == nullptr) ||
-            !names.insert(put ? put->name : removal->body).second)
+        const auto* added = bodyAddedBy(action);
+        if (action.index() != actions.front().index() || (removal == nullptr && added == nullptr) ||
+            !names.insert(added ? added->name : removal->body).second)
             break;
     }
     return std::max<std::size_t>(1, names.size());
@@ -84,34 +84,34 @@ std::size_t takenTogether(std::span<const Action> actions) {
 
 void editScene(Scene& scene, std::span<const Action> actions) {
     while (!actions.empty()) {
-        const auto run = actions.first(takenTogether(actions));
-        actions = actions.subspan(run.size());
-        if (!isLasting(run.front())) continue;
+        const auto group = actions.first(independentActions(actions));
+        actions = actions.subspan(group.size());
+        if (!isLasting(group.front())) continue;
         Scene next = scene;
-        for (const Action& action : run) edit(next, action);
+        for (const Action& action : group) applyEdit(next, action);
         if (validate(next).empty())
             scene = std::move(next);
-        else if (run.size() > 1)
-            for (const Action& action : run) editScene(scene, {&action, 1});
+        else if (group.size() > 1)
+            for (const Action& action : group) editScene(scene, {&action, 1});
     }
 }
 
-Scene sceneAsLeft(const SceneRun& take) {
-    Scene scene = *take.scene;
+Scene sceneAtEndOfRun(const SceneRun& run) {
+    Scene scene = *run.scene;
     std::vector<Action> actions;
-    for (const LiveInput& input : take.inputs) actions.push_back(input.action);
+    for (const LiveInput& input : run.inputs) actions.push_back(input.action);
     editScene(scene, actions);
     return scene;
 }
 
-Scene sceneForHands(Scene scene) {
+Scene sceneForUserInput(Scene scene) {
     const ScenePlayer player{scene};
     std::erase_if(scene.script, [&](const ScriptInput& input) {
         const Action& a = input.action;
-        if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
+        if (player.isPresent()) return player.controls(a) || std::holds_alternative<TiltAction>(a);
         return std::visit(
-            []<class One>(const One&) {
-                return requires { One::isByHand; };
+            []<class Kind>(const Kind&) {
+                return requires { Kind::isUserInput; };
             },
             a);
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene runs of a session, with their stalls; and actions that edit a scene permanently: they add, remove and
-// change bodies, joints and materials.
+// Scene runs of a session, i.e. a scene with its live inputs and stalls; and edits: actions that add, remove
+// or change bodies, joints and materials permanently.
 #pragma once
 #include "Scene/Scene.h"
 #include <cstddef>
@@ -11,10 +11,8 @@
 
 namespace physvib {
 
-// A scene run of a session: a scene from its start on, with its live inputs and stalls.
-
-/// At world time `worldNs` the world is delayed by `lengthNs`, and again after each of the following `steps`
-/// - 1 steps (slow motion).
+/// At world time `worldNs` the world stops for `lengthNs`, and again after each of the next `steps` - 1
+/// steps.
 struct WorldStall {
     std::int64_t worldNs = 0;
     std::int64_t lengthNs = 0;
@@ -22,50 +20,49 @@ struct WorldStall {
     bool operator==(const WorldStall&) const = default;
 };
 
-/// Iterates over the stalls along the steps of their world.
+/// Iterates over a world's stalls along its steps. The list must outlive it.
 class StallReader {
 public:
     explicit StallReader(const std::vector<WorldStall>& stalls) noexcept
         : next_{stalls.begin()}
         , end_{stalls.end()} {}
 
-    /// Delay before the world's step that begins at `worldNs`. Call once per step.
-    std::int64_t lengthBefore(std::int64_t worldNs) noexcept {
+    /// Delay in ns before the world's step that begins at `worldNs`. Call once per step.
+    std::int64_t delayNsBefore(std::int64_t worldNs) noexcept {
         std::int64_t length = 0;
-        while (next_ != end_ && (done_ > 0 || next_->worldNs <= worldNs)) {
+        while (next_ != end_ && (stepsDone_ > 0 || next_->worldNs <= worldNs)) {
             length += next_->lengthNs;
-            if (++done_ < next_->steps) break; // goes on after this step
+            if (++stepsDone_ < next_->steps) break; // goes on after this step
             ++next_;
-            done_ = 0;
+            stepsDone_ = 0;
         }
         return length;
     }
 
 private:
     std::vector<WorldStall>::const_iterator next_, end_;
-    int done_ = 0; // repetitions of *next_
+    int stepsDone_ = 0; // repetitions of *next_
 };
 
+/// A scene from its start on, with its live inputs and stalls.
 struct SceneRun {
     std::int64_t startNs = 0;    ///< session time of world time 0
     std::int64_t worldEndNs = 0; ///< world time up to which it was stepped
     std::uint32_t seed = 1;
     std::shared_ptr<const Scene> scene; ///< in its start state; runs of the same scene may share it
-    std::vector<LiveInput> inputs;      ///< since then
+    std::vector<LiveInput> inputs;      ///< since the start
     std::vector<WorldStall> stalls;     ///< in time order
 
-    /// The scene with its inputs.
-    Scene whole() const {
+    /// The scene with the live inputs of this run: simulating it repeats the run.
+    Scene fullScene() const {
         Scene all = *scene;
         all.inputs.insert(all.inputs.end(), inputs.begin(), inputs.end());
         return all;
     }
 };
 
-// Edits.
-
-/// Applies the permanent changes of `action` to the description: materials of fixtures, sounds, haptic
-/// sources; other actions change nothing. Finds the scene's and its live inputs' bodies by name. Any thread.
+/// Applies an action that changes fixtures' materials, sounds, textures, haptic sources or a body to the
+/// description of the scene, in its bodies or live inputs; others change nothing. Any thread.
 void describeEdit(Scene& scene, const Action& action);
 
 /// True if an action changes the scene permanently and not only its motion. Any thread.
@@ -73,18 +70,18 @@ bool isLasting(const Action& action);
 
 /// Number of leading actions that can be validated together: they add, change or remove bodies, each a
 /// different one, so that no action repairs the error of another. Any thread.
-std::size_t takenTogether(std::span<const Action> actions);
+std::size_t independentActions(std::span<const Action> actions);
 
-/// Applies one action after the other as describeEdit does, and also adds and removes bodies and joints. An
-/// action that would make the scene invalid changes nothing. Any thread.
+/// Applies actions in order like describeEdit(), and also adds and removes bodies and joints. An action that
+/// would make the scene invalid changes nothing. Any thread.
 void editScene(Scene& scene, std::span<const Action> actions);
 
 /// The scene at the end of a scene run, without inputs: added bodies start where they were added, removed
 /// ones are absent (unless a joint holds them or the script needs them). Any thread.
-Scene sceneAsLeft(const SceneRun& take);
+Scene sceneAtEndOfRun(const SceneRun& run);
 
 /// The scene without scripted user input: pushes, tilts and device orientation; with a player (ScenePlayer),
 /// the player's actions. Any thread.
-Scene sceneForHands(Scene scene);
+Scene sceneForUserInput(Scene scene);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Table of all fields of a scene: name in files, member, range. Readers, writers and checks iterate over it.
+// Tables of all fields of a scene and its parts: name in files, member, range. Readers, writers, checks visit
+// them.
 #pragma once
 #include "Core/Limits.h"
 #include "Io/Json/FieldTable.h"
@@ -11,26 +12,26 @@
 
 namespace physvib {
 
-/// Range of a number (of each component, of each item) and of the number of items of a list.
+/// Range of a number (or of each component or item), and of the number of items of a list.
 struct Bounds {
-    double least = std::numeric_limits<double>::lowest();
-    double most = std::numeric_limits<double>::max();
-    std::size_t fewestItems = 0;
-    std::size_t mostItems = 0;
+    double min = std::numeric_limits<double>::lowest();
+    double max = std::numeric_limits<double>::max();
+    std::size_t minItems = 0;
+    std::size_t maxItems = 0;
 };
 
-/// How many items a list of structs may have.
-constexpr Bounds items(std::size_t fewest, std::size_t most) { return {{}, {}, fewest, most}; }
-constexpr Bounds upTo(double most) { return {0.0, most}; }
+/// Range of the number of items of a list.
+constexpr Bounds items(std::size_t min, std::size_t max) { return {{}, {}, min, max}; }
+constexpr Bounds upTo(double max) { return {0.0, max}; }
 constexpr Bounds within(double reach) { return {-reach, reach}; }
 
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T:
-///   field(name, member, Bounds, Need)   text, truth, number, Vector, struct; optionals and lists of those;
-///                                       required unless Need::optional is given
+///   field(name, member, Bounds, Need)   text, boolean, number, Vector or struct, or an optional or list of
+///                                       these; required unless Need::optional is given
 ///   pair(name, member, member, Bounds)  two numbers as [a, b]; required
 ///   choice(name, member, names)         an enumeration; optional
 ///   material(name, member)              an index into Scene::materials, in files a name; required
-///   variant(name, member, names)        which alternative it is; its fields follow in the same object
+///   variant(name, member, names)        the name of the alternative, whose fields are in the same object
 inline constexpr Bounds anyText{};
 inline constexpr Bounds positionBounds = within(sceneLimits::maxPositionMetres);
 inline constexpr Bounds angleBounds = within(sceneLimits::maxAngleRadians);
@@ -47,7 +48,7 @@ inline constexpr std::array<std::string_view, 2> grainPatternNames{"random", "re
 template <class T, class V>
 void visitTexture(V& v) {
     v.field("grain_m", &T::grainMetres, upTo(Texture::coarsestMetres), Need::optional);
-    v.field("roughness", &T::roughness, upTo(Texture::mostRoughness), Need::optional);
+    v.field("roughness", &T::roughness, upTo(Texture::maxRoughness), Need::optional);
     v.choice("grain_pattern", &T::grainPattern, grainPatternNames);
     v.field("rolling", &T::rolling, upTo(1.0), Need::optional);
 }
@@ -162,19 +163,19 @@ void visitFields(auto& v, FieldsOf<JointDescription>) {
 }
 
 void visitFields(auto& v, FieldsOf<GravityAction>) {
-    v.field("gravity_m_per_s2", &GravityAction::metresPerSecond2, accelerationBounds);
+    v.field("gravity_m_per_s2", &GravityAction::gravityMetresPerSecond2, accelerationBounds);
 }
 void visitFields(auto& v, FieldsOf<TiltAction>) {
     v.field("angle_rad", &TiltAction::angleRadians, angleBounds);
 }
 void visitFields(auto& v, FieldsOf<ImpulseAction>) {
     v.field("body", &ImpulseAction::body, anyText);
-    v.field("impulse_ns", &ImpulseAction::newtonSeconds, within(sceneLimits::maxImpulseNewtonSeconds));
+    v.field("impulse_ns", &ImpulseAction::impulseNewtonSeconds, within(sceneLimits::maxImpulseNewtonSeconds));
     v.field("point_m", &ImpulseAction::pointMetres, positionBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<VelocityAction>) {
     v.field("body", &VelocityAction::body, anyText);
-    v.field("velocity_m_per_s", &VelocityAction::metresPerSecond, speedBounds);
+    v.field("velocity_m_per_s", &VelocityAction::velocityMetresPerSecond, speedBounds);
     v.field("spin_rad_per_s", &VelocityAction::spinRadiansPerSecond, spinBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<SpawnAction>) {
@@ -184,7 +185,7 @@ void visitFields(auto& v, FieldsOf<SpawnAction>) {
 void visitFields(auto& v, FieldsOf<RemoveAction>) { v.field("body", &RemoveAction::body, anyText); }
 void visitFields(auto& v, FieldsOf<MotorAction>) {
     v.field("joint", &MotorAction::joint, anyText);
-    v.field("motor_rad_per_s", &MotorAction::radiansPerSecond, spinBounds);
+    v.field("motor_rad_per_s", &MotorAction::speedRadiansPerSecond, spinBounds);
     v.field("max_torque_nm", &MotorAction::maxTorqueNewtonMetres, torqueBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<CameraAction>) {

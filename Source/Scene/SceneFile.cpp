@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes scene files: version and variables; the fields follow the table in SceneFields.h. Finds
-// scenes by name, and a file's kind. Builds without files drop what reads them.
+// Reads and writes scene files: version and variables here, all fields by the table in SceneFields.h. Finds
+// scenes by name, and detects a file's kind.
 #include "Scene/SceneFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonText.h"
@@ -28,14 +28,14 @@ struct Choice {
 };
 
 struct Variable {
-    SceneVariable described;
+    SceneVariable description;
     std::vector<Choice> choices;
 };
 
-std::size_t sizeOf(const JsonField& list, std::size_t most) {
+std::size_t checkedSize(const JsonField& list, std::size_t max) {
     const std::size_t size = list.arraySize();
-    if (size < 1 || size > most)
-        list.fail("expected 1 to " + std::to_string(most) + " items, found " + std::to_string(size));
+    if (size < 1 || size > max)
+        list.fail("expected 1 to " + std::to_string(max) + " items, found " + std::to_string(size));
     return size;
 }
 
@@ -49,37 +49,37 @@ Variable readVariable(const JsonField& json, const Json& value) {
     json.expectObject({"name", "default", "choices"});
     Variable variable{{json["name"].text(), json["default"].text(), {}}, {}};
     const JsonField list = json["choices"];
-    for (std::size_t i = 0, size = sizeOf(list, limits::maxChoices); i < size; ++i) {
+    for (std::size_t i = 0, size = checkedSize(list, limits::maxChoices); i < size; ++i) {
         variable.choices.push_back(readChoice(list.item(i), value["choices"][i]));
-        variable.described.choices.push_back(variable.choices.back().value);
+        variable.description.choices.push_back(variable.choices.back().value);
     }
     return variable;
 }
 
 std::vector<Variable> readVariables(const JsonField& json, const Json& list) {
     std::vector<Variable> variables;
-    for (std::size_t i = 0, size = sizeOf(json, limits::maxVariables); i < size; ++i)
+    for (std::size_t i = 0, size = checkedSize(json, limits::maxVariables); i < size; ++i)
         variables.push_back(readVariable(json.item(i), list[i]));
     return variables;
 }
 
-void choose(std::vector<Variable>& variables, const SceneSettings& settings) {
+void applySettings(std::vector<Variable>& variables, const SceneSettings& settings) {
     for (const auto& [name, value] : settings) {
-        const auto isMeant = [&n = name](const Variable& v) { return v.described.name == n; };
-        const auto variable = std::ranges::find_if(variables, isMeant);
+        const auto hasName = [&n = name](const Variable& v) { return v.description.name == n; };
+        const auto variable = std::ranges::find_if(variables, hasName);
         if (variable == variables.end()) {
             std::vector<std::string> names;
-            for (const Variable& v : variables) names.push_back(v.described.name);
+            for (const Variable& v : variables) names.push_back(v.description.name);
             throw JsonError(
                 {}, "no variable " + inQuotes(name) +
                         (names.empty() ? ", the scene has none" : ", expected one of " + listed(names)));
         }
-        variable->described.value = value;
+        variable->description.value = value;
     }
 }
 
-const Choice& chosen(const Variable& variable) {
-    const auto& [name, value, choices] = variable.described;
+const Choice& selectedChoice(const Variable& variable) {
+    const auto& [name, value, choices] = variable.description;
     const auto found = std::ranges::find(choices, value);
     if (found == choices.end())
         throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + listed(choices) +
@@ -87,38 +87,39 @@ const Choice& chosen(const Variable& variable) {
     return variable.choices[static_cast<std::size_t>(found - choices.begin())];
 }
 
-Json::json_pointer pointerTo(const Json& root, const std::string& text, const std::string& path) {
+Json::json_pointer checkedPointer(const Json& root, const std::string& text, const std::string& path) {
     try {
         const Json::json_pointer pointer(text);
         if (!pointer.empty() && root.contains(pointer)) return pointer;
-    } catch (const Json::exception&) { // not even a pointer
+    } catch (const Json::exception&) { // not a pointer at all
     }
     throw JsonError(path, "expected a pointer to a value of the scene, found " + inQuotes(text));
 }
 
-void replace(Json& root, const Choice& choice) {
+void applyChoice(Json& root, const Choice& choice) {
     for (const auto& item : choice.replacements->items())
-        root[pointerTo(root, item.key(), choice.path)] = item.value();
+        root[checkedPointer(root, item.key(), choice.path)] = item.value();
 }
 
-/// Takes "variables" out of `root`, and replaces what the chosen ones say:
+/// Removes "variables" from `root`, and applies the replacements ("set") of the chosen values:
 ///   [{ "name": "height", "default": "1", "choices": [{ "value": "1", "set": { POINTER: VALUE, ... } }, ...]
 ///   }]
-/// A POINTER (JSON Pointer, RFC 6901) names a value that the file has. Variables act in their order. Throws
-/// JsonError.
+/// A POINTER (JSON Pointer, RFC 6901) names a value in the file. Variables are applied in their order.
+/// Returns them with the chosen values. Throws JsonError.
 std::vector<SceneVariable> applyVariables(Json& root, const SceneSettings& settings) {
     const Json list = root.value("variables", Json());
     std::vector<Variable> variables;
     if (root.erase("variables") > 0) variables = readVariables(JsonField(list, "variables"), list);
-    choose(variables, settings);
-    std::vector<SceneVariable> described;
+    applySettings(variables, settings);
+    std::vector<SceneVariable> description;
     for (const Variable& variable : variables) {
-        for (const Choice& choice : variable.choices) // those not chosen are checked, too
-            for (const auto& item : choice.replacements->items()) pointerTo(root, item.key(), choice.path);
-        replace(root, chosen(variable));
-        described.push_back(variable.described);
+        for (const Choice& choice : variable.choices) // also checks choices that were not made
+            for (const auto& item : choice.replacements->items())
+                checkedPointer(root, item.key(), choice.path);
+        applyChoice(root, selectedChoice(variable));
+        description.push_back(variable.description);
     }
-    return described;
+    return description;
 }
 
 constexpr const char* sceneVersionField = "physvib_scene";
@@ -128,7 +129,7 @@ Scene readSceneRoot(Json& root, const SceneSettings& settings) {
     root.erase(sceneVersionField);
     auto variables = applyVariables(root, settings);
     Scene scene = readFields<Scene>(JsonField(root, {}));
-    if (const std::string fault = validate(scene); !fault.empty()) throw JsonError({}, fault);
+    if (const std::string error = validate(scene); !error.empty()) throw JsonError({}, error);
     scene.variables = std::move(variables);
     return scene;
 }
@@ -169,10 +170,10 @@ Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& sett
 
 namespace {
 
-constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes; the field begins them
+constexpr std::size_t headBytes = 1 << 16; // sessions may be long, but begin with the field
 
-constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
-    // a session's mixer state has a layout, and a plug-in's state a scene
+constexpr std::array<std::pair<std::string_view, FileKind>, 4> kindFields{
+    // in this order: a plug-in's state contains a scene, a session a layout
     {{"\"physvib_plugin_state\"", FileKind::pluginState},
      {"\"physvib_session\"", FileKind::session},
      {"\"physvib_scene\"", FileKind::scene},
@@ -184,7 +185,7 @@ FileKind fileKind(const std::filesystem::path& path) {
     std::string head(headBytes, '\0');
     if (const auto file = openRegular(path, std::numeric_limits<std::size_t>::max()))
         head.resize(std::fread(head.data(), 1, head.size(), file.value.stream.get()));
-    for (const auto& [field, kind] : fields)
+    for (const auto& [field, kind] : kindFields)
         if (head.find(field) != std::string::npos) return kind;
     return FileKind::unknown;
 }

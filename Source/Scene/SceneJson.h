@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the structs of a scene from JSON and writes them, driven by the field table in SceneFields.h; fields
-// with default values are not written. For .cpp files that read or write JSON.
+// Reads the structs of a scene from JSON and writes them by the field table in SceneFields.h; fields with
+// default values are not written. Included by .cpp files only.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
@@ -20,13 +20,13 @@ using Materials = std::vector<Material>; // materials that fixtures may refer to
 
 namespace detail {
 
-/// For text, `most` is its length in bytes; lists of texts have no limit.
+/// For text, `max` is its length in bytes; lists of texts have no limit.
 inline void readValue(const JsonField& json, std::string& out, const Bounds& bounds, const Materials&) {
-    const bool isBounded = bounds.most > 0.0 && bounds.most < Bounds{}.most;
-    out = isBounded ? json.text(static_cast<std::size_t>(bounds.most)) : json.text();
+    const bool isBounded = bounds.max > 0.0 && bounds.max < Bounds{}.max;
+    out = isBounded ? json.text(static_cast<std::size_t>(bounds.max)) : json.text();
 }
 inline void readValue(const JsonField& json, bool& out, const Bounds&, const Materials&) {
-    out = json.truth();
+    out = json.boolean();
 }
 inline void readValue(const JsonField& json, double& out, const Bounds&, const Materials&) {
     out = json.number();
@@ -59,14 +59,14 @@ void readValue(const JsonField& json, std::optional<T>& out, const Bounds& bound
 template <class T>
 void readValue(const JsonField& json, std::vector<T>& out, const Bounds& bounds, const Materials& materials) {
     const std::size_t size = json.arraySize();
-    if (size > bounds.mostItems)
-        json.fail("expected at most " + std::to_string(bounds.mostItems) + " items, found " +
+    if (size > bounds.maxItems)
+        json.fail("expected at most " + std::to_string(bounds.maxItems) + " items, found " +
                   std::to_string(size));
     out.resize(size);
     for (std::size_t i = 0; i < size; ++i) readValue(json.item(i), out[i], bounds, materials);
 }
 
-/// Reads the fields of one object. Unknown fields come before missing ones: a typo causes both.
+/// Reads the fields of one object. Reports unknown fields before missing ones: a typo causes both.
 template <class T>
 class FieldReader {
 public:
@@ -79,60 +79,61 @@ public:
 
     template <class F>
     void field(std::string_view name, F T::*member, const Bounds& bounds, Need need = Need::required) {
-        if (isThere(name, need)) readValue(json_[name], object_.*member, bounds, materialsIn());
+        if (isPresent(name, need)) readValue(json_[name], object_.*member, bounds, currentMaterials());
     }
     void pair(std::string_view name, double T::*first, double T::*second, const Bounds&) {
-        if (!isThere(name, Need::required)) return;
+        if (!isPresent(name, Need::required)) return;
         const auto numbers = readPair(json_[name]);
         object_.*first = numbers[0];
         object_.*second = numbers[1];
     }
     template <class E, class Names>
     void choice(std::string_view name, E T::*member, const Names& names) {
-        if (isThere(name, Need::optional)) object_.*member = static_cast<E>(json_[name].oneOf(names));
+        if (isPresent(name, Need::optional)) object_.*member = static_cast<E>(json_[name].oneOf(names));
     }
     void material(std::string_view name, int T::*member) {
-        if (!isThere(name, Need::required)) return;
-        const std::string wanted = json_[name].text();
-        const auto* found = findNamed(materials_, wanted);
-        if (found == nullptr) json_[name].fail("expected the name of a material, found " + inQuotes(wanted));
+        if (!isPresent(name, Need::required)) return;
+        const std::string materialName = json_[name].text();
+        const auto* found = findNamed(materials_, materialName);
+        if (found == nullptr)
+            json_[name].fail("expected the name of a material, found " + inQuotes(materialName));
         object_.*member = static_cast<int>(found - materials_.data());
     }
     template <class... Kinds, class Names>
     void variant(std::string_view name, std::variant<Kinds...> T::*member, const Names& names) {
         static_assert(sizeof...(Kinds) == std::tuple_size_v<Names>);
-        if (!isThere(name, Need::required)) return;
+        if (!isPresent(name, Need::required)) return;
         const std::size_t kind = json_[name].oneOf(names);
         std::size_t index = 0;
-        (..., (index++ == kind ? readKind((object_.*member).template emplace<Kinds>()) : void()));
+        (..., (index++ == kind ? readAlternative((object_.*member).template emplace<Kinds>()) : void()));
     }
 
     void finish() const {
-        json_.expectOnly(known_);
-        if (!missing_.empty()) static_cast<void>(json_[missing_]); // which throws
+        json_.expectOnly(fieldNames_);
+        if (!firstMissing_.empty()) static_cast<void>(json_[firstMissing_]); // which throws
     }
 
-    std::vector<std::string_view>& known() { return known_; }
-    std::string_view missing() const { return missing_; }
+    std::vector<std::string_view>& fieldNames() { return fieldNames_; }
+    std::string_view firstMissing() const { return firstMissing_; }
 
 private:
-    bool isThere(std::string_view name, Need need) {
-        known_.push_back(name);
+    bool isPresent(std::string_view name, Need need) {
+        fieldNames_.push_back(name);
         const bool found = json_.has(name);
-        if (!found && need == Need::required && missing_.empty()) missing_ = name;
+        if (!found && need == Need::required && firstMissing_.empty()) firstMissing_ = name;
         return found;
     }
 
     template <class Kind>
-    void readKind(Kind& kind) {
+    void readAlternative(Kind& kind) {
         FieldReader<Kind> reader(json_, kind, materials_);
         visitFields(reader, FieldsOf<Kind>{});
-        known_.insert(known_.end(), reader.known().begin(), reader.known().end());
-        if (missing_.empty()) missing_ = reader.missing();
+        fieldNames_.insert(fieldNames_.end(), reader.fieldNames().begin(), reader.fieldNames().end());
+        if (firstMissing_.empty()) firstMissing_ = reader.firstMissing();
     }
 
-    /// A scene has its own materials, which precede all references.
-    const Materials& materialsIn() const {
+    /// The materials that fields refer to: those of a scene once they are read.
+    const Materials& currentMaterials() const {
         if constexpr (requires(T t) { t.materials; })
             return object_.materials;
         else
@@ -142,13 +143,13 @@ private:
     const JsonField json_;
     T& object_;
     const Materials& materials_;
-    std::vector<std::string_view> known_;
-    std::string_view missing_;
+    std::vector<std::string_view> fieldNames_;
+    std::string_view firstMissing_;
 };
 
 template <class T>
 void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials) {
-    if (std::is_same_v<T, Normalisation> && json.is("auto")) return; // the default applies to all
+    if (std::is_same_v<T, Normalisation> && json.isString("auto")) return; // all members stay nullopt
     FieldReader<T> reader(json, out, materials);
     visitFields(reader, FieldsOf<T>{});
     reader.finish();
@@ -156,8 +157,8 @@ void readValue(const JsonField& json, T& out, const Bounds&, const Materials& ma
 
 } // namespace detail
 
-/// Reads the fields of an object and refuses others. Checks types and list lengths only; validate() checks
-/// ranges. Throws JsonError.
+/// Reads the fields of an object; other fields are errors. Checks types and list lengths, but leaves ranges
+/// to validate(). Throws JsonError.
 template <class T>
 T readFields(const JsonField& json) {
     T object;
@@ -171,6 +172,7 @@ namespace detail {
 template <class T>
 OrderedJson fieldsJson(const T& object, const std::vector<Material>& materials);
 
+/// Writes the fields of one object to `json`, without those that have their defaults.
 template <class T>
 class FieldWriter {
 public:
@@ -220,7 +222,7 @@ private:
     OrderedJson valueJson(const Interval& i) const { return OrderedJson::array({i.lower, i.upper}); }
     template <class F>
     OrderedJson valueJson(const std::optional<F>& value) const {
-        return valueJson(*value); // none is the default
+        return valueJson(*value); // called for values only: nullopt is the default
     }
     template <class F>
     OrderedJson valueJson(const std::vector<F>& list) const {

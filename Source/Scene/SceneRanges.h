@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks every field of a scene against its range in SceneFields.h, and names the first that is outside.
+// Checks every field of a scene against its range in SceneFields.h, and reports the first that is outside.
 #pragma once
 #include "Scene/SceneFields.h"
 #include <charconv>
@@ -11,14 +11,14 @@ namespace physvib {
 
 namespace detail {
 
-/// In six digits, the same in every locale.
+/// The number in at most six digits, the same in every locale.
 inline std::string shortNumber(double number) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6).ptr};
 }
 
-inline std::string outside(const std::string& path, double least, double most, double found) {
-    return path + ": expected " + shortNumber(least) + " to " + shortNumber(most) + ", found " +
+inline std::string rangeError(const std::string& path, double min, double max, double found) {
+    return path + ": expected " + shortNumber(min) + " to " + shortNumber(max) + ", found " +
            shortNumber(found);
 }
 
@@ -26,10 +26,10 @@ inline std::string itemPath(const std::string& path, std::size_t index) {
     return path + "[" + std::to_string(index) + "]";
 }
 
-/// Also refuses NaN.
+/// Empty, or the error of a value outside its range; NaN is outside of all ranges.
 inline std::string checkRange(const std::string& path, double value, const Bounds& bounds) {
-    const bool isInside = value >= bounds.least && value <= bounds.most;
-    return isInside ? std::string() : outside(path, bounds.least, bounds.most, value);
+    const bool isInside = value >= bounds.min && value <= bounds.max;
+    return isInside ? std::string() : rangeError(path, bounds.min, bounds.max, value);
 }
 inline std::string checkRange(const std::string& path, int value, const Bounds& bounds) {
     return checkRange(path, static_cast<double>(value), bounds);
@@ -39,8 +39,8 @@ inline std::string checkRange(const std::string& path, const std::string& text, 
     return text.empty() ? path + ": expected text, found none" : std::string();
 }
 inline std::string checkRange(const std::string& path, const Vector& value, const Bounds& bounds) {
-    std::string fault = checkRange(path + "[0]", value.x, bounds);
-    return fault.empty() ? checkRange(path + "[1]", value.y, bounds) : fault;
+    std::string error = checkRange(path + "[0]", value.x, bounds);
+    return error.empty() ? checkRange(path + "[1]", value.y, bounds) : error;
 }
 inline std::string checkRange(const std::string& path, const Interval& value, const Bounds& bounds) {
     if (value.lower > value.upper) return path + ": expected [lower, upper], found them the other way round";
@@ -50,7 +50,7 @@ inline std::string checkRange(const std::string& path, const Interval& value, co
 template <class T>
 std::string checkFields(const std::string& path, const T& object, int materials);
 
-/// The fields of one object; `materials` is how many the scene has.
+/// Visitor that checks the fields of one object; `materials` is the number of materials in the scene.
 template <class T>
 class RangeCheck {
 public:
@@ -62,30 +62,32 @@ public:
     template <class F>
     void field(std::string_view name, F T::*member, const Bounds& bounds, Need need = Need::required) {
         const F& value = object_.*member;
-        const bool isLeftOut = need == Need::optional && value == defaults_.*member;
-        if (fault.empty() && !isLeftOut) fault = check(pathOf(name), value, bounds);
+        const bool isDefault = need == Need::optional && value == defaults_.*member;
+        if (error.empty() && !isDefault) error = check(pathOf(name), value, bounds);
     }
     void pair(std::string_view name, double T::*first, double T::*second, const Bounds& bounds) {
-        if (fault.empty()) fault = checkRange(pathOf(name), Vector{object_.*first, object_.*second}, bounds);
+        if (error.empty()) error = checkRange(pathOf(name), Vector{object_.*first, object_.*second}, bounds);
     }
     template <class E, class Names>
     void choice(std::string_view name, E T::*member, const Names& names) {
         const auto index = static_cast<std::size_t>(object_.*member);
-        if (fault.empty() && index >= names.size()) fault = pathOf(name) + ": expected one of its names";
+        if (error.empty() && index >= names.size()) error = pathOf(name) + ": expected one of its names";
     }
     void material(std::string_view name, int T::*member) {
         const int index = object_.*member;
-        if (fault.empty() && (index < 0 || index >= materials_))
-            fault = pathOf(name) + ": expected one of the " + std::to_string(materials_) +
+        if (error.empty() && (index < 0 || index >= materials_))
+            error = pathOf(name) + ": expected one of the " + std::to_string(materials_) +
                     " materials of the scene";
     }
     template <class Variant, class Names>
     void variant(std::string_view, Variant T::*member, const Names&) {
-        const auto visitOne = [this](const auto& one) { return checkFields(path_, one, materials_); };
-        if (fault.empty()) fault = std::visit(visitOne, object_.*member);
+        const auto checkAlternative = [this](const auto& alternative) {
+            return checkFields(path_, alternative, materials_);
+        };
+        if (error.empty()) error = std::visit(checkAlternative, object_.*member);
     }
 
-    std::string fault; ///< the first; empty if there is none
+    std::string error; ///< the first; empty if there is none
 
 private:
     template <class F>
@@ -101,9 +103,9 @@ private:
     }
     template <class F>
     std::string check(const std::string& path, const std::vector<F>& list, const Bounds& bounds) const {
-        if (list.size() < bounds.fewestItems || list.size() > bounds.mostItems)
-            return path + ": expected " + std::to_string(bounds.fewestItems) + " to " +
-                   std::to_string(bounds.mostItems) + " items, found " + std::to_string(list.size());
+        if (list.size() < bounds.minItems || list.size() > bounds.maxItems)
+            return path + ": expected " + std::to_string(bounds.minItems) + " to " +
+                   std::to_string(bounds.maxItems) + " items, found " + std::to_string(list.size());
         std::string found;
         for (std::size_t i = 0; i < list.size() && found.empty(); ++i)
             found = check(itemPath(path, i), list[i], bounds);
@@ -123,7 +125,7 @@ template <class T>
 std::string checkFields(const std::string& path, const T& object, int materials) {
     RangeCheck<T> check(object, path, materials);
     visitFields(check, FieldsOf<T>{});
-    return std::move(check.fault);
+    return std::move(check.error);
 }
 
 } // namespace detail

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Validates a scene: ranges, totals, outlines and masses, then references, and what haptic sources need.
+// Validates a scene in this order: ranges, totals, unique names, outlines and masses, references, and the
+// needs of haptic sources. And warns of sizes that Box2D simulates badly.
 #include "Scene/SceneValidation.h"
 #include "Core/PortableMath.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -23,12 +24,12 @@ namespace {
 using namespace sceneLimits;
 using detail::itemPath;
 
-std::string atMost(const std::string& what, std::size_t most, std::size_t found) {
-    if (found <= most) return {};
-    return what + ": expected at most " + std::to_string(most) + " in all, found " + std::to_string(found);
+std::string countError(const std::string& what, std::size_t max, std::size_t found) {
+    if (found <= max) return {};
+    return what + ": expected at most " + std::to_string(max) + " in all, found " + std::to_string(found);
 }
 
-std::size_t edgesOf(const BodyDescription& body) {
+std::size_t chainEdgesOf(const BodyDescription& body) {
     std::size_t edges = 0;
     for (const FixtureDescription& fixture : body.fixtures)
         if (const auto* chain = std::get_if<ChainShape>(&fixture.shape))
@@ -41,23 +42,24 @@ struct Totals {
     void add(const BodyDescription& body, std::size_t times = 1) {
         bodies += times;
         fixtures += times * body.fixtures.size();
-        edges += times * edgesOf(body);
+        edges += times * chainEdgesOf(body);
     }
-    void take(const BodyDescription& body) {
+    void remove(const BodyDescription& body) {
         bodies -= 1;
         fixtures -= body.fixtures.size();
-        edges -= edgesOf(body);
+        edges -= chainEdgesOf(body);
     }
-    std::string fault() const {
-        for (std::string fault :
-             {atMost("bodies", maxBodies, bodies), atMost("fixtures", maxFixtures, fixtures),
-              atMost("chain edges", maxChainEdges, edges)})
-            if (!fault.empty()) return fault;
+    std::string error() const {
+        for (std::string error :
+             {countError("bodies", maxBodies, bodies), countError("fixtures", maxFixtures, fixtures),
+              countError("chain edges", maxChainEdges, edges)})
+            if (!error.empty()) return error;
         return {};
     }
 };
 
-/// Includes the script's repetitions; of live inputs, the bodies that exist at the same time.
+/// Checks the numbers of bodies, fixtures, edges and actions: with the script's repetitions, and with those
+/// bodies of live inputs that exist at the same time.
 std::string checkTotals(const Scene& scene) {
     Totals totals;
     std::size_t actions = 0;
@@ -67,23 +69,23 @@ std::string checkTotals(const Scene& scene) {
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action))
             totals.add(spawn->body, static_cast<std::size_t>(input.times));
     }
-    std::string fault = totals.fault();
-    if (fault.empty()) fault = atMost("script actions", maxActions, actions);
+    std::string error = totals.error();
+    if (error.empty()) error = countError("script actions", maxActions, actions);
     std::map<std::string_view, const BodyDescription*> spawned;
-    for (std::size_t i = 0; i < scene.inputs.size() && fault.empty(); ++i) {
+    for (std::size_t i = 0; i < scene.inputs.size() && error.empty(); ++i) {
         if (const auto* removal = std::get_if<RemoveAction>(&scene.inputs[i].action))
-            if (const auto gone = spawned.find(removal->body); gone != spawned.end()) {
-                totals.take(*gone->second);
-                spawned.erase(gone);
+            if (const auto removed = spawned.find(removal->body); removed != spawned.end()) {
+                totals.remove(*removed->second);
+                spawned.erase(removed);
             }
-        const BodyDescription* body = bodyPutBy(scene.inputs[i].action);
+        const BodyDescription* body = bodyAddedBy(scene.inputs[i].action);
         if (body == nullptr) continue;
         totals.add(*body);
-        const auto [there, isNew] = spawned.emplace(body->name, body);
-        if (!isNew) totals.take(*std::exchange(there->second, body)); // replaced
-        fault = totals.fault();
+        const auto [present, isNew] = spawned.emplace(body->name, body);
+        if (!isNew) totals.remove(*std::exchange(present->second, body)); // replaced
+        error = totals.error();
     }
-    return fault;
+    return error;
 }
 
 std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
@@ -110,9 +112,9 @@ std::string checkOutline(const ChainShape& chain) {
 std::string checkOutline(const CircleShape&) { return {}; }
 std::string checkOutline(const BoxShape&) { return {}; }
 
-// Box2D computes inertia about the origin and subtracts the centre's share in single precision: for a small
-// shape far from the origin nothing would be left.
-std::string checkCentre(const PlacedBody& placed, const Scene& scene) {
+// Box2D computes the inertia about the origin and subtracts the part due to the centre's distance, in single
+// precision: for a small shape far from the origin the result would be 0.
+std::string checkCentre(const BodyWithPath& placed, const Scene& scene) {
     constexpr double farthestRadii = 100.0;
     if (placed.body->type != BodyType::dynamicBody) return {};
     const BodyMoments moments = bodyMoments(*placed.body, scene);
@@ -122,13 +124,13 @@ std::string checkCentre(const PlacedBody& placed, const Scene& scene) {
     return placed.path + ".fixtures: expected a centre of mass nearer to the body's origin";
 }
 
-std::string checkBody(const PlacedBody& placed) {
+std::string checkBody(const BodyWithPath& placed) {
     const BodyDescription& body = *placed.body;
     for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
         const std::string path = itemPath(placed.path + ".fixtures", i);
         const Shape& shape = body.fixtures[i].shape;
-        const std::string fault = std::visit([](const auto& s) { return checkOutline(s); }, shape);
-        if (!fault.empty()) return path + ".vertices_m: " + fault;
+        const std::string error = std::visit([](const auto& s) { return checkOutline(s); }, shape);
+        if (!error.empty()) return path + ".vertices_m: " + error;
         if (body.type == BodyType::dynamicBody && std::holds_alternative<ChainShape>(shape))
             return path + ".shape: a chain has no mass, expected another shape for a dynamic body";
     }
@@ -136,24 +138,24 @@ std::string checkBody(const PlacedBody& placed) {
 }
 
 std::string sizeWarning(const std::string& path, const Shape& shape) {
-    const double thin = thicknessMetres(shape), far = lengthMetres(shape);
-    if (thin >= minWarnMetres && far <= maxWarnMetres) return {};
-    const double found = thin < minWarnMetres ? thin : far;
-    return detail::outside(path, minWarnMetres, maxWarnMetres, found) +
+    const double minMetres = thicknessMetres(shape), maxMetres = lengthMetres(shape);
+    if (minMetres >= minWarnMetres && maxMetres <= maxWarnMetres) return {};
+    const double found = minMetres < minWarnMetres ? minMetres : maxMetres;
+    return detail::rangeError(path, minWarnMetres, maxWarnMetres, found) +
            " m: Box2D simulates such moving bodies less well";
 }
 
-std::string missing(const std::string& path, const char* what, const std::string& name) {
+std::string unknownNameError(const std::string& path, const char* what, const std::string& name) {
     return path + ": expected the name of a " + what + ", found \"" + name + "\"";
 }
 
-/// Names of bodies and joints, and references to them in joints and the script with its times. Fields and
-/// totals must be in range.
+/// Checks the names of bodies and joints, references to them in joints and inputs, and the inputs' times.
+/// Fields and totals must be in range.
 class References {
 public:
     explicit References(const Scene& scene)
         : scene_(scene)
-        , cast_(scriptedCast(scene)) {
+        , scriptedBodies_(scriptedBodies(scene)) {
         for (const JointDescription& joint : scene.joints) joints_.emplace(joint.name, &joint);
         for (const LiveInput& input : scene.inputs)
             if (const auto* join = std::get_if<JoinAction>(&input.action))
@@ -161,82 +163,84 @@ public:
     }
 
     std::string check() {
-        std::string fault = nameBodies();
-        if (fault.empty()) fault = countJoints();
-        for (std::size_t i = 0; i < scene_.joints.size() && fault.empty(); ++i)
-            fault = checkJoint(scene_.joints[i], itemPath("joints", i));
-        for (std::size_t i = 0; i < scene_.script.size() && fault.empty(); ++i)
-            fault = checkInput(scene_.script[i], itemPath("script", i));
-        for (std::size_t i = 0; i < scene_.inputs.size() && fault.empty(); ++i)
-            fault = checkLive(i, itemPath("inputs", i));
-        return fault;
+        std::string error = checkBodyNames();
+        if (error.empty()) error = checkJointNames();
+        for (std::size_t i = 0; i < scene_.joints.size() && error.empty(); ++i)
+            error = checkJoint(scene_.joints[i], itemPath("joints", i));
+        for (std::size_t i = 0; i < scene_.script.size() && error.empty(); ++i)
+            error = checkScriptInput(scene_.script[i], itemPath("script", i));
+        for (std::size_t i = 0; i < scene_.inputs.size() && error.empty(); ++i)
+            error = checkLiveInput(i, itemPath("inputs", i));
+        return error;
     }
 
 private:
     // The name of a spawned and removed body may be used again.
-    std::string nameBodies() {
-        const auto twice = [](const std::string& name) {
+    std::string checkBodyNames() {
+        const auto duplicateError = [](const std::string& name) {
             return "bodies: expected names of their own, found \"" + name + "\" twice";
         };
-        for (const BodyDescription& body : cast_)
-            if (!bodies_.emplace(body.name, &body).second) return twice(body.name);
-        std::set<std::string_view> there, gone;
+        for (const BodyDescription& body : scriptedBodies_)
+            if (!bodies_.emplace(body.name, &body).second) return duplicateError(body.name);
+        std::set<std::string_view> present, removed;
         for (const LiveInput& input : scene_.inputs) {
             if (const auto* removal = std::get_if<RemoveAction>(&input.action);
-                removal != nullptr && there.erase(removal->body) > 0)
-                gone.insert(removal->body);
-            const BodyDescription* put = bodyPutBy(input.action);
-            if (put == nullptr) continue;
-            const BodyDescription& body = *put;
+                removal != nullptr && present.erase(removal->body) > 0)
+                removed.insert(removal->body);
+            const BodyDescription* added = bodyAddedBy(input.action);
+            if (added == nullptr) continue;
+            const BodyDescription& body = *added;
             const bool isChange = std::holds_alternative<ChangeAction>(input.action);
-            if (isChange && !bodies_.contains(body.name)) return missing("body.name", "body", body.name);
+            if (isChange && !bodies_.contains(body.name))
+                return unknownNameError("body.name", "body", body.name);
             const auto [known, isNew] = bodies_.emplace(body.name, &body);
-            if (gone.erase(body.name) == 0 && !isNew && !isChange) return twice(body.name);
+            if (removed.erase(body.name) == 0 && !isNew && !isChange) return duplicateError(body.name);
             if (body.fixtures.size() > known->second->fixtures.size()) known->second = &body;
-            there.insert(body.name);
+            present.insert(body.name);
         }
         return {};
     }
 
     // Like bodies: the name of a removed joint may be used again.
-    std::string countJoints() const {
-        std::set<std::string_view> there;
-        for (const JointDescription& joint : scene_.joints) there.insert(joint.name);
+    std::string checkJointNames() const {
+        std::set<std::string_view> present;
+        for (const JointDescription& joint : scene_.joints) present.insert(joint.name);
         for (const LiveInput& input : scene_.inputs) {
-            if (const auto* unjoin = std::get_if<UnjoinAction>(&input.action)) there.erase(unjoin->joint);
+            if (const auto* unjoin = std::get_if<UnjoinAction>(&input.action)) present.erase(unjoin->joint);
             const auto* join = std::get_if<JoinAction>(&input.action);
-            if (join != nullptr && !there.insert(join->joint.name).second)
+            if (join != nullptr && !present.insert(join->joint.name).second)
                 return "joints: expected names of their own, found \"" + join->joint.name + "\" twice";
-            if (there.size() > sceneLimits::maxJoints)
+            if (present.size() > sceneLimits::maxJoints)
                 return "joints: expected at most " + std::to_string(sceneLimits::maxJoints);
         }
         return {};
     }
 
     std::string checkJoint(const JointDescription& joint, const std::string& path) const {
-        if (!bodies_.contains(joint.bodyA)) return missing(path + ".body_a", "body", joint.bodyA);
-        if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);
+        if (!bodies_.contains(joint.bodyA)) return unknownNameError(path + ".body_a", "body", joint.bodyA);
+        if (!bodies_.contains(joint.bodyB)) return unknownNameError(path + ".body_b", "body", joint.bodyB);
         if (joint.bodyA == joint.bodyB) return path + ".body_b: expected another body than body_a";
-        const auto isNoAxis = [](const auto* slides) {
-            return slides != nullptr && portable::hypot(slides->axis.x, slides->axis.y) < 1.0e-3;
+        const auto hasNoAxis = [](const auto* slidingJoint) {
+            return slidingJoint != nullptr &&
+                   portable::hypot(slidingJoint->axis.x, slidingJoint->axis.y) < 1.0e-3;
         };
-        if (isNoAxis(std::get_if<WheelJoint>(&joint.joint)) ||
-            isNoAxis(std::get_if<SliderJoint>(&joint.joint)))
+        if (hasNoAxis(std::get_if<WheelJoint>(&joint.joint)) ||
+            hasNoAxis(std::get_if<SliderJoint>(&joint.joint)))
             return path + ".axis: expected a direction, found none";
         return {};
     }
 
-    std::string checkInput(const ScriptInput& input, const std::string& path) const {
+    std::string checkScriptInput(const ScriptInput& input, const std::string& path) const {
         const double last = input.timeSeconds + (input.times - 1) * input.everySeconds;
         const double period = scene_.scriptPeriodSeconds;
         const double end = period > 0.0 ? period : sceneLimits::maxScriptSeconds;
-        if (!(last <= end)) return detail::outside(path + ".time_s", 0.0, end, last);
+        if (!(last <= end)) return detail::rangeError(path + ".time_s", 0.0, end, last);
         if (isAnyOf<ChangeAction, JoinAction, UnjoinAction>(input.action))
             return path + ".input: expected another: change, join and unjoin are live inputs only";
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }
 
-    std::string checkLive(std::size_t index, const std::string& path) const {
+    std::string checkLiveInput(std::size_t index, const std::string& path) const {
         const LiveInput& input = scene_.inputs[index];
         if (index > 0 && input.timeSeconds < scene_.inputs[index - 1].timeSeconds)
             return path + ".time_s: expected a time that is not before that of the input above";
@@ -248,77 +252,79 @@ private:
         const bool hasMotor =
             joint != joints_.end() && (std::holds_alternative<RevoluteJoint>(joint->second->joint) ||
                                        std::holds_alternative<WheelJoint>(joint->second->joint));
-        return hasMotor ? std::string() : missing(path + ".joint", "revolute or wheel joint", action.joint);
+        return hasMotor ? std::string()
+                        : unknownNameError(path + ".joint", "revolute or wheel joint", action.joint);
     }
     std::string checkAction(const JoinAction& action, const std::string& path) const {
         return checkJoint(action.joint, path + ".joint");
     }
     std::string checkAction(const UnjoinAction& action, const std::string& path) const {
         return joints_.contains(action.joint) ? std::string()
-                                              : missing(path + ".joint", "joint", action.joint);
+                                              : unknownNameError(path + ".joint", "joint", action.joint);
     }
-    template <class One>
-    std::string checkAction(const One& action, const std::string& path) const {
-        if constexpr (requires { bodies_.find(action.body); }) { // a name; other actions have none
+    template <class Kind>
+    std::string checkAction(const Kind& action, const std::string& path) const {
+        if constexpr (requires { bodies_.find(action.body); }) { // `body` is a name here
             const auto body = bodies_.find(action.body);
-            if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
+            if (body == bodies_.end()) return unknownNameError(path + ".body", "body", action.body);
             if constexpr (requires { action.fixture; }) {
                 const auto count = static_cast<int>(body->second->fixtures.size());
                 if (action.fixture >= count)
-                    return detail::outside(path + ".fixture", 0, count - 1, action.fixture);
+                    return detail::rangeError(path + ".fixture", 0, count - 1, action.fixture);
             }
         }
         return {};
     }
 
     const Scene& scene_;
-    std::vector<BodyDescription> cast_;
+    std::vector<BodyDescription> scriptedBodies_;
     std::map<std::string_view, const BodyDescription*> bodies_;
     std::map<std::string_view, const JointDescription*> joints_;
 };
 
-class Cameras {
+/// Checks that fixtures which may become haptic sources have the mass and the sounds that they need.
+class SourceCheck {
 public:
-    explicit Cameras(const Scene& scene)
+    explicit SourceCheck(const Scene& scene)
         : scene_(scene) {
         for (const ScriptInput& input : scene.script)
-            if (!std::holds_alternative<SpawnAction>(input.action)) note(input.action);
-        for (const LiveInput& input : scene.inputs) note(input.action);
-        bearers_.clear();
+            if (!std::holds_alternative<SpawnAction>(input.action)) noteAction(input.action);
+        for (const LiveInput& input : scene.inputs) noteAction(input.action);
+        nameCounts_.clear();
     }
 
     /// Checks every repetition, because each has its own name in camera and material actions.
-    std::string check(const PlacedBody& placed) {
+    std::string check(const BodyWithPath& placed) {
         const SpawnAction spawn{*placed.body, {}};
         if (placed.isLive) count(placed.body->name);
         for (int k = 0; k < placed.times; ++k) {
             const BodyDescription body = spawnedBody(spawn, k, placed.times);
             for (int i = 0; i < static_cast<int>(body.fixtures.size()); ++i)
-                if (mayBeCamera(body, i))
-                    if (auto fault = checkCamera(body, i, placed.path); !fault.empty()) return fault;
+                if (mayBeSource(body, i))
+                    if (auto error = checkSource(body, i, placed.path); !error.empty()) return error;
         }
         return {};
     }
 
 private:
-    // A body that had a name; a name may pass to another body, to which earlier actions do not apply.
-    struct Bearer {
+    // One of the bodies that had a name in turn; actions apply to the body that had it at their time.
+    struct NamedBody {
         std::string_view name;
-        int number; // index among live-spawned bodies of that name; earlier actions count for the first
-        auto operator<=>(const Bearer&) const = default;
+        int number; // counts the live bodies of that name from 1; earlier actions are of the first
+        auto operator<=>(const NamedBody&) const = default;
     };
-    void count(std::string_view name) { ++bearers_[name]; }
-    Bearer bearer(std::string_view name) const {
-        const auto found = bearers_.find(name);
-        return {name, found == bearers_.end() ? 1 : found->second};
+    void count(std::string_view name) { ++nameCounts_[name]; }
+    NamedBody latestOf(std::string_view name) const {
+        const auto found = nameCounts_.find(name);
+        return {name, found == nameCounts_.end() ? 1 : found->second};
     }
 
-    void note(const Action& action) {
-        if (const BodyDescription* body = bodyPutBy(action)) count(body->name);
+    void noteAction(const Action& action) {
+        if (const BodyDescription* body = bodyAddedBy(action)) count(body->name);
         if (const auto* camera = std::get_if<CameraAction>(&action))
-            if (camera->isOn) switchedOn_.emplace(bearer(camera->body), camera->fixture);
+            if (camera->isOn) enabledSources_.emplace(latestOf(camera->body), camera->fixture);
         if (const auto* change = std::get_if<MaterialAction>(&action))
-            changes_[bearer(change->body)].push_back(change);
+            changes_[latestOf(change->body)].push_back(change);
     }
 
     static const FixtureDescription& fixtureOf(const BodyDescription& body, int index) {
@@ -326,21 +332,22 @@ private:
     }
 
     bool isSilent(int material) const {
-        const Material& made = scene_.materials[static_cast<std::size_t>(material)];
-        return made.frequencyHz <= 0.0 || made.decayPerSecond <= 0.0;
+        const Material& values = scene_.materials[static_cast<std::size_t>(material)];
+        return values.frequencyHz <= 0.0 || values.decayPerSecond <= 0.0;
     }
 
-    bool mayBeCamera(const BodyDescription& body, int fixture) const {
-        return fixtureOf(body, fixture).isCamera || switchedOn_.contains({bearer(body.name), everyFixture}) ||
-               switchedOn_.contains({bearer(body.name), fixture});
+    bool mayBeSource(const BodyDescription& body, int fixture) const {
+        return fixtureOf(body, fixture).isCamera ||
+               enabledSources_.contains({latestOf(body.name), everyFixture}) ||
+               enabledSources_.contains({latestOf(body.name), fixture});
     }
 
-    std::string checkCamera(const BodyDescription& body, int index, const std::string& path) const {
+    std::string checkSource(const BodyDescription& body, int index, const std::string& path) const {
         const std::string place = itemPath(path + ".fixtures", static_cast<std::size_t>(index));
         const Voice voice = fixtureOf(body, index).voice;
         if (massKg(body, scene_) <= 0.0) return path + ".mass_kg: expected above 0, as a line has none";
         if (voice != Voice::own)
-            if (auto fault = checkOthers(place); !fault.empty()) return fault;
+            if (auto error = checkOtherMaterials(place); !error.empty()) return error;
         if (voice != Voice::other && mayBeSilent(body, index))
             return place +
                    ".material: a camera's material vibrates, expected one with frequency_hz and decay_per_s";
@@ -349,16 +356,16 @@ private:
 
     bool mayBeSilent(const BodyDescription& body, int index) const {
         if (isSilent(fixtureOf(body, index).material)) return true;
-        const auto changes = changes_.find(bearer(body.name));
+        const auto changes = changes_.find(latestOf(body.name));
         if (changes == changes_.end()) return false;
         return std::ranges::any_of(changes->second, [&](const MaterialAction* change) {
-            const bool isMeant = change->fixture == everyFixture || change->fixture == index;
-            return isMeant && isSilent(change->material);
+            const bool concernsFixture = change->fixture == everyFixture || change->fixture == index;
+            return concernsFixture && isSilent(change->material);
         });
     }
 
-    // Any material may collide with it.
-    std::string checkOthers(const std::string& camera) const {
+    // With the voice of the other fixture, any material may sound.
+    std::string checkOtherMaterials(const std::string& camera) const {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
             if (isSilent(static_cast<int>(i)))
                 return itemPath("materials", i) + ": expected frequency_hz and decay_per_s, for " + camera +
@@ -367,39 +374,39 @@ private:
     }
 
     const Scene& scene_;
-    std::map<std::string_view, int> bearers_;
-    std::set<std::pair<Bearer, int>> switchedOn_;
-    std::map<Bearer, std::vector<const MaterialAction*>> changes_;
+    std::map<std::string_view, int> nameCounts_;
+    std::set<std::pair<NamedBody, int>> enabledSources_;
+    std::map<NamedBody, std::vector<const MaterialAction*>> changes_;
 };
 
-/// Every fixture that may become a haptic source has what it needs: a mass for Eq. 5.4, and the sounds that
-/// its voice may play. References must be valid. The first error, or empty.
-std::string checkCameras(const Scene& scene) {
-    Cameras cameras(scene);
-    for (const PlacedBody& placed : placedBodies(scene))
-        if (std::string fault = cameras.check(placed); !fault.empty()) return fault;
+/// Checks that every fixture that may become a haptic source has a mass for Eq. 5.4, and the sounds that its
+/// voice may play: the first error, or empty. References must be valid.
+std::string checkSources(const Scene& scene) {
+    SourceCheck sourceCheck(scene);
+    for (const BodyWithPath& placed : bodiesWithPaths(scene))
+        if (std::string error = sourceCheck.check(placed); !error.empty()) return error;
     return {};
 }
 
 } // namespace
 
 std::string validate(const Scene& scene) {
-    if (std::string fault = checkRanges(scene); !fault.empty()) return fault;
-    const auto placed = placedBodies(scene);
-    if (std::string fault = checkTotals(scene); !fault.empty()) return fault;
-    for (std::string fault : {checkMaterialNames(scene.materials), checkUnique("bodies", scene.bodies),
+    if (std::string error = checkRanges(scene); !error.empty()) return error;
+    const auto placed = bodiesWithPaths(scene);
+    if (std::string error = checkTotals(scene); !error.empty()) return error;
+    for (std::string error : {checkMaterialNames(scene.materials), checkUnique("bodies", scene.bodies),
                               checkUnique("joints", scene.joints)})
-        if (!fault.empty()) return fault;
-    for (const PlacedBody& body : placed)
-        for (std::string fault : {checkBody(body), checkCentre(body, scene)})
-            if (!fault.empty()) return fault;
-    if (std::string fault = References(scene).check(); !fault.empty()) return fault;
-    return checkCameras(scene);
+        if (!error.empty()) return error;
+    for (const BodyWithPath& body : placed)
+        for (std::string error : {checkBody(body), checkCentre(body, scene)})
+            if (!error.empty()) return error;
+    if (std::string error = References(scene).check(); !error.empty()) return error;
+    return checkSources(scene);
 }
 
 std::vector<std::string> sceneWarnings(const Scene& scene) {
     std::vector<std::string> warnings;
-    for (const PlacedBody& placed : placedBodies(scene)) {
+    for (const BodyWithPath& placed : bodiesWithPaths(scene)) {
         if (placed.body->type != BodyType::dynamicBody) continue;
         for (std::size_t i = 0; i < placed.body->fixtures.size(); ++i) {
             auto warning =

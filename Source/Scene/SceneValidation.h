@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Validates a scene before a world is built from it.
+// Validates a scene before a world is built from it, and warns of sizes that Box2D simulates badly.
 #pragma once
 #include "Scene/Scene.h"
 #include <string>
@@ -10,8 +10,7 @@ namespace physvib {
 /// spell it, and what was expected. Any thread.
 std::string validate(const Scene& scene);
 
-/// Warnings about a valid scene that is simulated badly: dynamic bodies outside of the 0.1 to 10 m that Box2D
-/// is made for. Any thread.
+/// Warnings about dynamic bodies of a valid scene outside of the 0.1 to 10 m of Box2D. Any thread.
 std::vector<std::string> sceneWarnings(const Scene& scene);
 
 } // namespace physvib

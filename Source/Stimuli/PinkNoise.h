@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pink noise for headphones, which masks the sound of the actuators (thesis 3.2.1). Played on another output
-// than the stimuli.
+// Pink noise for headphones, which masks the sound of the actuators (thesis 3.2.1). It is played on
+// other outputs than the stimuli.
 #pragma once
 #include <array>
 #include <bit>
@@ -9,16 +9,16 @@
 
 namespace physvib {
 
-/// -3 dB per octave over sixteen octaves below half the sample rate (Voss and McCartney: rows of random
-/// numbers, row k renewed every 2^(k+1) samples). Within -1 to 1, the same samples for the same seed. One
-/// thread at a time; next() is wait-free.
+/// Noise with -3 dB per octave over sixteen octaves below half the sample rate, by the algorithm of Voss and
+/// McCartney: the sum of rows of random numbers, of which row k changes every 2^(k+1) samples. Samples are
+/// within -1 to 1, the same for the same seed. One thread at a time; next() is wait-free.
 class PinkNoise {
 public:
     /// RMS of the samples: the mean of seventeen independent numbers that are uniform from -1 to 1.
     static constexpr double rootMeanSquare = 0.14002800840280097; // 1 / sqrt(3 * 17)
 
-    // RMS levels in dB of full scale, on headphones. At mostDb the largest samples, 17.1 dB above, fit.
-    static constexpr double leastDb = -90.0, safeDb = -40.0, mostDb = -18.0;
+    // RMS levels on headphones, in dB of full scale. The largest samples, 17.1 dB above, still fit at maxDb.
+    static constexpr double minDb = -90.0, safeDb = -40.0, maxDb = -18.0;
 
     explicit PinkNoise(std::uint32_t seed = 1) noexcept
         : state_{seed * 2654435761u + 1u} {

@@ -18,7 +18,7 @@ public:
     /// Different seeds and names give unrelated streams (FNV-1a over the name).
     explicit SeededRandom(std::uint64_t seed, std::string_view name = {}) noexcept
         : state_{seed * 0x9E3779B97F4A7C15u + 0xCBF29CE484222325u} {
-        if (name.empty()) state_ = next(); // without it seed + 1 gives this stream one step ahead
+        if (name.empty()) state_ = next(); // else seed + 1 would give the same stream, one step ahead
         for (const char c : name) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
         next();
     }
@@ -37,9 +37,9 @@ public:
     /// A whole number from 0 to below `count` > 0, all equally likely.
     std::size_t below(std::size_t count) noexcept {
         // without this rejection the lowest numbers would be more likely
-        const std::uint64_t range = count, rest = (0 - range) % range;
+        const std::uint64_t range = count, rejectedBelow = (0 - range) % range;
         std::uint64_t number = next();
-        while (number < rest) number = next();
+        while (number < rejectedBelow) number = next();
         return static_cast<std::size_t>(number % range);
     }
 
@@ -51,11 +51,11 @@ public:
 
     bool chance(double probability) noexcept { return uniform() < probability; }
 
-    /// Fisher and Yates.
+    /// Puts the items in a random order (Fisher and Yates).
     template <class T>
     void shuffle(std::vector<T>& items) noexcept {
-        for (std::size_t left = items.size(); left > 1; --left)
-            std::swap(items[left - 1], items[below(left)]);
+        for (std::size_t remaining = items.size(); remaining > 1; --remaining)
+            std::swap(items[remaining - 1], items[below(remaining)]);
     }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creates the events of pattern and phantom stimuli.
+// Creates the events and panners of pattern and phantom stimuli, and layouts whose actuators are independent.
 #include "Stimuli/Stimulus.h"
 #include "Core/PortableMath.h"
 #include <numbers>
@@ -9,8 +9,8 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) noexcept { return std::llround(seconds * 1e9); }
 
-CollisionEvent burst(double fromSeconds, double seconds, const EnchanterPlace& at,
-                     const Carrier& carrier) noexcept {
+CollisionEvent burstEvent(double fromSeconds, double seconds, const ActuatorPlace& at,
+                          const Carrier& carrier) noexcept {
     return {.timeNs = nanoseconds(fromSeconds),
             .frequencyHz = carrier.frequencyHz,
             .amplitude = carrier.levelG,
@@ -20,14 +20,14 @@ CollisionEvent burst(double fromSeconds, double seconds, const EnchanterPlace& a
             .source = {}};
 }
 
-PhantomPanner pannerOver(const EnchanterLayout& layout, PanningLaw law, double exponent) noexcept {
+PhantomPanner makePanner(const ActuatorLayout& layout, PanningLaw law, double exponent) noexcept {
     return {layout, law, exponent, layout.extentWidthMetres, layout.extentHeightMetres};
 }
 
 } // namespace
 
-EnchanterLayout isolatingLayout(int count) noexcept {
-    EnchanterLayout layout;
+ActuatorLayout separatedLayout(int count) noexcept {
+    ActuatorLayout layout;
     if (count >= 1 && count <= 4) {
         constexpr std::string_view presets[] = {"phone1", "phone2", "phone3", "phone4"};
         layoutPreset(presets[count - 1], layout);
@@ -43,24 +43,24 @@ EnchanterLayout isolatingLayout(int count) noexcept {
     return layout;
 }
 
-Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier,
+Stimulus patternStimulus(const PulsePattern& pattern, int actuatorCount, const Carrier& carrier,
                          double gapSeconds) {
-    const EnchanterLayout layout = isolatingLayout(enchanters);
-    Stimulus stimulus{{}, pannerOver(layout, PanningLaw::linear, 1.0), 0.0};
+    const ActuatorLayout layout = separatedLayout(actuatorCount);
+    Stimulus stimulus{{}, makePanner(layout, PanningLaw::linear, 1.0), 0.0};
     for (int k = 0; k < pattern.count; ++k) {
         const auto& place =
-            layout.places[static_cast<std::size_t>(pattern.enchanters[static_cast<std::size_t>(k)])];
+            layout.places[static_cast<std::size_t>(pattern.actuators[static_cast<std::size_t>(k)])];
         stimulus.events.push_back(
-            burst(k * (pattern.pulseSeconds + gapSeconds), pattern.pulseSeconds, place, carrier));
+            burstEvent(k * (pattern.pulseSeconds + gapSeconds), pattern.pulseSeconds, place, carrier));
     }
     stimulus.seconds = pattern.count * pattern.pulseSeconds + (pattern.count - 1) * gapSeconds;
     return stimulus;
 }
 
-Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law,
+Stimulus phantomStimulus(const FieldPlace& place, const ActuatorLayout& layout, PanningLaw law,
                          double exponent, const Carrier& carrier, double seconds) {
-    const EnchanterPlace at{place.x * layout.extentWidthMetres, (1.0 - place.y) * layout.extentHeightMetres};
-    return {{burst(0.0, seconds, at, carrier)}, pannerOver(layout, law, exponent), seconds};
+    const ActuatorPlace at{place.x * layout.extentWidthMetres, (1.0 - place.y) * layout.extentHeightMetres};
+    return {{burstEvent(0.0, seconds, at, carrier)}, makePanner(layout, law, exponent), seconds};
 }
 
 } // namespace physvib

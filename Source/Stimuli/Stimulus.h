@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stimulus of a study's trial as events for the renderer: amplitudes in g, times from 0.
+// Stimuli of studies (pulse patterns and phantoms) as events: amplitudes in g, times from 0.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -14,12 +14,11 @@
 
 namespace physvib {
 
-/// One to three consecutive pulses of one duration (thesis 3.2); pulse k is on actuator enchanters[k], k <
-/// count.
+/// One to three consecutive pulses of one duration (thesis 3.2); pulse k plays on actuators[k].
 struct PulsePattern {
     double pulseSeconds = 0.0;
     int count = 0;
-    std::array<int, 3> enchanters{};
+    std::array<int, 3> actuators{};
     bool operator==(const PulsePattern&) const = default;
 };
 
@@ -28,18 +27,17 @@ constexpr double pulseGapSeconds = 0.1;
 /// The two pulse durations of the thesis' study.
 constexpr std::array<double, 2> pulseDurationsSeconds{0.1, 0.25};
 
-/// All D (E + E^2 + E^3) patterns for E actuators, by duration, then count, then actuators. Message thread
-/// (M) only (allocates).
-inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
+/// All D (E + E^2 + E^3) patterns for E actuators, by duration, then count, then actuators. Message thread.
+inline std::vector<PulsePattern> allPulsePatterns(int actuatorCount) {
     std::vector<PulsePattern> patterns;
     for (const double seconds : pulseDurationsSeconds) {
         int combinations = 1;
         for (int count = 1; count <= 3; ++count) {
-            combinations *= enchanterCount;
+            combinations *= actuatorCount;
             for (int c = 0; c < combinations; ++c) {
                 PulsePattern p{seconds, count, {}};
-                for (int k = count - 1, rest = c; k >= 0; --k, rest /= enchanterCount)
-                    p.enchanters[static_cast<std::size_t>(k)] = rest % enchanterCount;
+                for (int k = count - 1, quotient = c; k >= 0; --k, quotient /= actuatorCount)
+                    p.actuators[static_cast<std::size_t>(k)] = quotient % actuatorCount;
                 patterns.push_back(p);
             }
         }
@@ -47,11 +45,12 @@ inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     return patterns;
 }
 
-/// "ABA-250": the enchanters' letters by pulse, then a pulse's milliseconds. Enchanters 0 to 25. M only.
+/// "ABA-250": the actuators' letters by pulse, then a pulse's milliseconds. Actuators 0 to 25. Message
+/// thread.
 inline std::string patternLabel(const PulsePattern& p) {
     std::string label;
     for (int k = 0; k < p.count; ++k)
-        label += static_cast<char>('A' + p.enchanters[static_cast<std::size_t>(k)]);
+        label += static_cast<char>('A' + p.actuators[static_cast<std::size_t>(k)]);
     return label.append("-").append(std::to_string(std::lround(p.pulseSeconds * 1e3)));
 }
 
@@ -60,7 +59,7 @@ inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noe
     PulsePattern p;
     while (!label.empty() && label.front() >= 'A' && label.front() <= 'Z') {
         if (p.count == 3) return std::nullopt;
-        p.enchanters[static_cast<std::size_t>(p.count++)] = label.front() - 'A';
+        p.actuators[static_cast<std::size_t>(p.count++)] = label.front() - 'A';
         label.remove_prefix(1);
     }
     int milliseconds = 0;
@@ -93,23 +92,24 @@ struct Stimulus {
     double seconds = 0.0; ///< from 0 to the end of the last event
 };
 
-/// Each pulse is a rectangular burst on one actuator alone, whatever the layout. `enchanters`: number of
-/// actuators, 1 to 26, at least those that the pattern names. Message thread (M) only (allocates).
-Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier,
+/// Each pulse is a rectangular burst on one actuator alone, whatever the layout. `actuatorCount`: number of
+/// actuators, 1 to 26, at least those that the pattern names. Message thread.
+Stimulus patternStimulus(const PulsePattern& pattern, int actuatorCount, const Carrier& carrier,
                          double gapSeconds = pulseGapSeconds);
 
-/// A stationary phantom at `place` of the layout's extent, all actuators in phase (Eq. 4.1 to 4.3). M only.
-Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law,
+/// A stationary phantom at `place` of the layout's extent, all actuators in phase (Eq. 4.1 to 4.3). Message
+/// thread.
+Stimulus phantomStimulus(const FieldPlace& place, const ActuatorLayout& layout, PanningLaw law,
                          double exponent, const Carrier& carrier, double seconds = 1.0);
 
 /// A layout of `count` actuators in which each has gain 1 at its own place and 0 at those of all others:
 /// exactly for up to four, below -250 dB for more. Any thread.
-EnchanterLayout isolatingLayout(int count) noexcept;
+ActuatorLayout separatedLayout(int count) noexcept;
 
-/// Of a played stimulus, on the actuator with the highest level, after master level, strips and ceilings.
-struct FeltLevel {
+/// Level of a played stimulus on its strongest actuator, after master level, strips and ceilings.
+struct PlayedLevel {
     double peakG = 0.0, rmsG = 0.0; ///< rmsG: over the stimulus' duration
-    bool operator==(const FeltLevel&) const = default;
+    bool operator==(const PlayedLevel&) const = default;
 };
 
 } // namespace physvib

@@ -56,12 +56,12 @@ private:
     void enter(std::int64_t from, std::int64_t to, GainsAt& gainsAt) noexcept {
         if (from == from_) return;
         from_ = from, to_ = to;
-        fromGains_ = gainsThen(from, gainsAt);
-        toGains_ = gainsThen(to, gainsAt);
+        fromGains_ = gainsAtFrame(from, gainsAt);
+        toGains_ = gainsAtFrame(to, gainsAt);
     }
 
     template <class GainsAt>
-    Gains gainsThen(std::int64_t frame, GainsAt& gainsAt) const noexcept {
+    Gains gainsAtFrame(std::int64_t frame, GainsAt& gainsAt) const noexcept {
         const double ageNs = (static_cast<double>(frame) + onset_.leadFrames) / rate_ * 1e9;
         const double share = std::min(1.0, ageNs / static_cast<double>(moving_.course.travelNs));
         return gainsAt(movedAlong(moving_, share));
@@ -89,21 +89,22 @@ struct BoardTime {
     }
 };
 
-/// One moving tone. One thread.
+/// The segments of one moving tone, one after another. One thread.
 class BoardPath {
 public:
     using Gains = PathGains::Gains;
-    static constexpr int mostFrames = 320;    ///< 40 ms: what is missing if a segment is lost
-    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones in such take two thirds of the line
+    static constexpr int maxFrames = 320;            ///< 40 ms: what is missing if a segment is lost
+    static constexpr int minHurriedFrames = 160;     ///< 20 ms: four such tones use two thirds of the line
     static constexpr double tolerance = 0.5 / 127.0; ///< of full scale
-    static constexpr double mostSlip = 1.0 / 64; ///< turns that a segment makes up: more would be perceptible
-    static constexpr double mostJumpSeconds = 0.02; ///< of the clock: after a larger jump a segment starts at
-                                                    ///< its proper time instead of the last one's end
+    static constexpr double maxSlipTurns = 1.0 / 64; ///< turns that a segment makes up: more would be
+                                                     ///< perceptible
+    static constexpr double maxJumpSeconds = 0.02; ///< of the clock: after a larger jump a segment starts at
+                                                   ///< its proper time instead of the last one's end
 
-    /// In a session rendered at this rate.
+    /// For a session that is rendered at `sampleRateHz`.
     BoardPath(const CollisionEvent& moving, int sampleRateHz) noexcept
         : moving_{moving}
-        , lifeNs_{boardLifeNs(moving)}
+        , lifeNs_{boardLifetimeNs(moving)}
         , gains_{moving, lifeNs_, sampleRateHz} {}
 
     bool isOver() const noexcept { return nextNs_ >= lifeNs_; }
@@ -113,33 +114,35 @@ public:
     std::int64_t nextNs() const noexcept { return moving_.timeNs + nextNs_; }
 
     /// The next segment; nullopt if the tone is over. `gainsAt(event)` returns the panner's Gains.
-    /// isHurried: at least hurriedFrames long, to save line time, even if the line is then less accurate.
+    /// isHurried: at least minHurriedFrames long, to save line time, even if the line is then less accurate.
     template <class GainsAt>
     std::optional<BoardSegment> next(const BoardTime& time, GainsAt gainsAt,
                                      bool isHurried = false) noexcept {
-        isJoined_ = isJoined_ && std::abs(time.secondsAt(after_.frame) -
-                                          static_cast<double>(nextNs_) * 1e-9) < mostJumpSeconds;
+        isJoined_ = isJoined_ && std::abs(time.secondsAt(joint_.frame) -
+                                          static_cast<double>(nextNs_) * 1e-9) < maxJumpSeconds;
         const std::int64_t begin =
-            isJoined_ ? after_.frame : time.frameAt(static_cast<double>(nextNs_) * 1e-9);
-        const std::int64_t left = time.frameAt(static_cast<double>(lifeNs_) * 1e-9) - begin;
-        if (left <= 0) return nextNs_ = lifeNs_, std::nullopt;
-        const int most = static_cast<int>(std::min<std::int64_t>(left, mostFrames));
-        for (int k = 0; k < most; ++k) samples_[at(k)] = gains_.at(time.secondsAt(begin + k), gainsAt);
-        const double toneSeconds = time.secondsAt(begin) + static_cast<double>(moving_.course.sinceNs) * 1e-9;
+            isJoined_ ? joint_.frame : time.frameAt(static_cast<double>(nextNs_) * 1e-9);
+        const std::int64_t remaining = time.frameAt(static_cast<double>(lifeNs_) * 1e-9) - begin;
+        if (remaining <= 0) return nextNs_ = lifeNs_, std::nullopt;
+        const int available = static_cast<int>(std::min<std::int64_t>(remaining, maxFrames));
+        for (int k = 0; k < available; ++k) samples_[at(k)] = gains_.at(time.secondsAt(begin + k), gainsAt);
+        const double toneSeconds =
+            time.secondsAt(begin) + static_cast<double>(moving_.course.toneAgeNs) * 1e-9;
         const double level = amplitudeAfter(moving_, toneSeconds);
-        const int exact = longestChord(most, std::abs(level)),
-                  frames = isHurried ? std::max(exact, std::min(most, hurriedFrames)) : exact;
+        const int exact = longestChord(available, std::abs(level)),
+                  frames = isHurried ? std::max(exact, std::min(available, minHurriedFrames)) : exact;
         isCoarse_ = frames > exact;
         const double turns = moving_.frequencyHz * toneSeconds;
         const std::uint32_t phase =
-            isJoined_ ? after_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
-        const double behind = std::clamp(std::remainder(turns - phase * turnUnit, 1.0), -mostSlip, mostSlip);
+            isJoined_ ? joint_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
+        const double errorTurns =
+            std::clamp(std::remainder(turns - phase * turnUnit, 1.0), -maxSlipTurns, maxSlipTurns);
         BoardSegment segment = chord(frames, level);
         segment.frame = static_cast<std::uint32_t>(begin);
         segment.phase16 = static_cast<std::uint16_t>((phase + 0x8000u) >> 16);
         segment.turn = static_cast<std::uint32_t>(
-            std::llround((moving_.frequencyHz / time.framesPerSecond + behind / frames) / turnUnit));
-        following_ = {begin + frames, phase + segment.turn * segment.frames,
+            std::llround((moving_.frequencyHz / time.framesPerSecond + errorTurns / frames) / turnUnit));
+        nextJoint_ = {begin + frames, phase + segment.turn * segment.frames,
                       static_cast<std::int64_t>(time.secondsAt(begin + frames) * 1e9)};
         return segment;
     }
@@ -148,25 +151,25 @@ public:
     bool isCoarse() const noexcept { return isCoarse_; }
 
     /// The last segment was sent: advances to the next.
-    void take() noexcept {
-        after_ = following_;
-        nextNs_ = after_.ns;
+    void advance() noexcept {
+        joint_ = nextJoint_;
+        nextNs_ = joint_.ns;
         isJoined_ = hasBegun_ = true;
     }
 
     /// Before the first segment: continues where `before` has ended, if both are parts of one tone.
-    void joinTo(const BoardPath& before) noexcept {
-        const bool isRest = before.endNs() == onsetNs() &&
-                            before.moving_.frequencyHz == moving_.frequencyHz &&
-                            before.moving_.course.sinceNs + before.lifeNs_ == moving_.course.sinceNs;
-        if (hasBegun_ || !isRest || !before.isOver() || !before.isJoined_) return;
-        after_ = {before.after_.frame, before.after_.phase, 0};
+    void continueFrom(const BoardPath& before) noexcept {
+        const bool isContinuation =
+            before.endNs() == onsetNs() && before.moving_.frequencyHz == moving_.frequencyHz &&
+            before.moving_.course.toneAgeNs + before.lifeNs_ == moving_.course.toneAgeNs;
+        if (hasBegun_ || !isContinuation || !before.isOver() || !before.isJoined_) return;
+        joint_ = {before.joint_.frame, before.joint_.phase, 0};
         isJoined_ = true;
     }
 
     /// Skips the time of one segment. The next one starts at its own time, maybe on another clock.
     void skip() noexcept {
-        nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
+        nextNs_ += maxFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;
         isJoined_ = false;
     }
@@ -191,10 +194,10 @@ private:
         return segment;
     }
 
-    /// Largest number of frames, up to `most`, that one straight line approximates.
-    int longestChord(int most, double level) const noexcept {
-        int fits = 1, fails = most + 1;
-        for (int tried = most; fails - fits > 1; tried = (fits + fails) / 2)
+    /// Largest number of frames, up to `available`, that one straight line approximates.
+    int longestChord(int available, double level) const noexcept {
+        int fits = 1, fails = available + 1;
+        for (int tried = available; fails - fits > 1; tried = (fits + fails) / 2)
             (isChord(tried, level) ? fits : fails) = tried;
         return fits;
     }
@@ -214,10 +217,10 @@ private:
     std::int64_t lifeNs_, nextNs_ = 0; // nextNs_: since the onset
     PathGains gains_;
     bool hasBegun_ = false, isCoarse_ = false;
-    bool isJoined_ = false; // the segment before was sent, and ends at after_
-    Joint after_, following_;
+    bool isJoined_ = false; // the segment before was sent, and ends at joint_
+    Joint joint_, nextJoint_;
     // gains of the frames that the next segment may have
-    std::array<Gains, static_cast<std::size_t>(mostFrames)> samples_{};
+    std::array<Gains, static_cast<std::size_t>(maxFrames)> samples_{};
 };
 
 // Splits a moving tone into a series of short stationary events for a board of protocol 1, whose events have
@@ -227,35 +230,35 @@ private:
 /// each begins at phase 0 on the board. Any thread.
 class BoardSteps {
 public:
-    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 per second, of 720 on the line
+    static constexpr int minMs = 20, maxMs = 60; ///< fewer than 50 per second, of 720 on the line
 
     explicit BoardSteps(const CollisionEvent& moving) noexcept
         : moving_{moving}
         , stepNs_{lengthMs(moving.frequencyHz) * 1'000'000LL}
-        , endNs_{boardLifeNs(moving)} {}
+        , endNs_{boardLifetimeNs(moving)} {}
 
     bool isOver() const noexcept { return doneNs_ >= endNs_; }
     std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
 
     /// The next event, at the place where the tone is in the middle of it. Not if isOver().
-    CollisionEvent take() noexcept {
+    CollisionEvent next() noexcept {
         const std::int64_t lengthNs = std::min(stepNs_, endNs_ - doneNs_);
         const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(lengthNs);
         CollisionEvent step =
             movedAlong(moving_, std::min(1.0, middle / static_cast<double>(moving_.course.travelNs)));
         step.timeNs = nextNs();
         step.durationNs = lengthNs;
-        step.course = {.sinceNs = moving_.course.sinceNs + doneNs_};
+        step.course = {.toneAgeNs = moving_.course.toneAgeNs + doneNs_};
         doneNs_ += step.durationNs;
         return step;
     }
 
-    /// The length that is closest to whole periods.
+    /// Length of a step in ms, minMs to maxMs, that is closest to whole periods.
     static int lengthMs(double frequencyHz) noexcept {
-        const auto off = [=](int ms) { return std::abs(std::remainder(frequencyHz * ms * 1e-3, 1.0)); };
-        int best = leastMs;
-        for (int ms = leastMs + 1; ms <= mostMs; ++ms)
-            if (off(ms) < off(best)) best = ms;
+        const auto deviation = [=](int ms) { return std::abs(std::remainder(frequencyHz * ms * 1e-3, 1.0)); };
+        int best = minMs;
+        for (int ms = minMs + 1; ms <= maxMs; ++ms)
+            if (deviation(ms) < deviation(best)) best = ms;
         return best;
     }
 

@@ -18,9 +18,9 @@ struct BoardStrike {
     BoardEvent event;
 
     int peak() const noexcept {
-        int most = 0;
-        for (const int a : event.amplitudes) most = std::max(most, std::abs(a));
-        return most;
+        int maxMagnitude = 0;
+        for (const int a : event.amplitudes) maxMagnitude = std::max(maxMagnitude, std::abs(a));
+        return maxMagnitude;
     }
 };
 
@@ -39,8 +39,8 @@ inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept {
     return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude;
 }
 
-/// How long it is felt: to its end, or until it has decayed.
-inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
+/// How long an event lasts, ns: to its end, or until it has decayed by limits::retireDecibels.
+inline std::int64_t boardLifetimeNs(const CollisionEvent& e) noexcept {
     const auto end = static_cast<double>(e.durationNs > 0 ? e.durationNs : limits::maxTimeNs);
     constexpr double nepers = limits::retireDecibels / (20.0 * std::numbers::log10e);
     return static_cast<std::int64_t>(e.decayPerSecond > 0.0 ? std::min(end, nepers / e.decayPerSecond * 1e9)
@@ -52,7 +52,7 @@ constexpr std::int64_t longestStrikeNs = 65'535'000'000;
 
 /// True if one strike would end before the event does.
 inline bool outlastsStrike(const CollisionEvent& e) noexcept {
-    return e.durationNs > longestStrikeNs && boardLifeNs(e) > longestStrikeNs;
+    return e.durationNs > longestStrikeNs && boardLifetimeNs(e) > longestStrikeNs;
 }
 
 /// Rounded to the link's units; amplitudes are clamped to 8 times full scale. `gains`: the panner's, one per
@@ -71,13 +71,13 @@ inline BoardEvent boardEventOf(const CollisionEvent& e,
     if (e.durationNs > 0)
         b.durationMs =
             static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
-    const double amplitude = amplitudeAfter(e, static_cast<double>(e.course.sinceNs) * 1e-9);
+    const double amplitude = amplitudeAfter(e, static_cast<double>(e.course.toneAgeNs) * 1e-9);
     for (std::size_t j = 0; j < gains.size(); ++j) b.amplitudes[j] = boardAmplitude(amplitude * gains[j]);
     return b;
 }
 
 /// Timing of the line at present.
-struct LineRoom {
+struct LineTiming {
     std::int64_t freeNs = 0;    ///< time at which everything written has been transmitted
     std::int64_t strikeNs = 0;  ///< transmission time of an event
     std::int64_t transitNs = 0; ///< from transmission until the board can play it
@@ -116,7 +116,7 @@ public:
 
     /// If an event would be late because of those before it, drops the weakest of all of these and counts it.
     /// An event that would be late even as the first one stays, because dropping others would not help.
-    void keepTo(const LineRoom& line) noexcept {
+    void dropLate(const LineTiming& line) noexcept {
         for (int i = 1; i < size_;) {
             if (isInTime(line, i, i + 1) || !isInTime(line, i, 1)) {
                 ++i;
@@ -142,7 +142,7 @@ private:
         ++thinned_;
     }
     /// True if event `strike` is in time after `onTheLine` transmissions, its own included.
-    bool isInTime(const LineRoom& line, int strike, int onTheLine) const noexcept {
+    bool isInTime(const LineTiming& line, int strike, int onTheLine) const noexcept {
         return line.freeNs + onTheLine * line.strikeNs + line.transitNs <=
                strikes_[static_cast<std::size_t>(strike)].onsetNs;
     }

@@ -24,8 +24,8 @@ public:
         return size == 0 ? std::span<const std::uint8_t>{} : check(size);
     }
 
-    std::uint32_t good() const noexcept { return good_; }
-    std::uint32_t bad() const noexcept { return bad_; }
+    std::uint32_t goodFrames() const noexcept { return good_; } ///< valid frames so far
+    std::uint32_t badFrames() const noexcept { return bad_; }   ///< invalid frames so far
 
 private:
     constexpr std::span<const std::uint8_t> check(std::size_t size) noexcept {
@@ -50,14 +50,14 @@ private:
 // Detects repeated event messages on the board link, so that an event is not played twice.
 
 /// For one connection, on the board. One thread.
-class StrikeOrder {
+class DuplicateFilter {
 public:
     /// A computer sends nothing later than 50 ms; the rest is margin.
-    static constexpr std::int32_t mostLateFrames = limits::board::sampleRateHz / 4;
+    static constexpr std::int32_t maxLateFrames = limits::board::sampleRateHz / 4;
 
     /// False if the event was received before. `frame`: its onset; `now`: the frame that is rendered next.
     bool isNew(std::uint8_t sequence, std::uint32_t frame, std::uint32_t now) noexcept {
-        if (after(frame, now) < -mostLateFrames) return false; // sequence numbers may have wrapped
+        if (after(frame, now) < -maxLateFrames) return false; // sequence numbers may have wrapped
         const auto gap = static_cast<std::uint8_t>(sequence - last_);
         const bool isBehind = gap == 0 || gap >= 128; // or that many were lost, but then its onset is later
                                                       // than all so far

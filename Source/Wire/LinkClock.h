@@ -15,20 +15,20 @@
 
 namespace physvib {
 
-/// One thread.
+/// Converts the computer's time to the board's frames. One thread.
 class LinkClock {
 public:
     /// Pings that are kept: 26 s at 10 a second. The drift of a warming crystal is constant for so long.
     static constexpr int window = 256;
     /// Pings before the estimate is used: the first 2 s, at 50 a second. With 64 an error of 3 ms was seen.
-    static constexpr int needed = 100;
+    static constexpr int minPings = 100;
     static constexpr double maxDrift = 0.02; // of the board's internal oscillator: 1 % plus temperature
 
     void clear() noexcept { count_ = next_ = 0; }
     bool isEmpty() const noexcept { return count_ == 0; }
 
     /// Extends the board's 32-bit frame counter, which wraps after 6.2 days. For the next `add`.
-    double unwrapped(std::uint32_t frame, std::uint8_t fraction) const noexcept {
+    double unwrappedFrame(std::uint32_t frame, std::uint8_t fraction) const noexcept {
         const auto sinceLast = static_cast<std::int32_t>(frame - static_cast<std::uint32_t>(last_));
         return static_cast<double>(isEmpty() ? frame : last_ + sinceLast) + fraction / 256.0;
     }
@@ -44,7 +44,7 @@ public:
         estimate();
     }
 
-    bool isReady() const noexcept { return count_ >= needed; }
+    bool isReady() const noexcept { return count_ >= minPings; }
 
     /// The board's frame, usually fractional, at the computer's time `ns`.
     double frameAt(std::int64_t ns) const noexcept {
@@ -56,48 +56,48 @@ public:
 
     /// The longest delay to the board among the stored pings; the output latency has to cover it.
     double worstDelaySeconds() const noexcept {
-        double worst = 0.0;
+        double longest = 0.0;
         for (int i = 0; i < count_; ++i)
-            worst = std::max(worst, point(i).board - (offset_ + point(i).sent * (1.0 + drift_)));
-        return worst;
+            longest = std::max(longest, point(i).board - (offset_ + point(i).sent * (1.0 + drift_)));
+        return longest;
     }
 
     /// Maximum error of the offset, if delays stay within those seen.
-    double uncertaintySeconds() const noexcept { return room(drift_).width() / 2.0; }
+    double uncertaintySeconds() const noexcept { return offsetBounds(drift_).width() / 2.0; }
 
 private:
     static constexpr double rate = limits::board::sampleRateHz;
     struct Point {
         double sent = 0.0, board = 0.0, received = 0.0; // seconds since the origin
     };
-    struct Room {
+    struct OffsetBounds {
         double upper = 0.0, lower = 0.0; // bounds of the offset
         double width() const noexcept { return upper - lower; }
     };
     double seconds(std::int64_t ns) const noexcept { return static_cast<double>(ns - origin_.ns) * 1e-9; }
     const Point& point(int i) const noexcept { return points_[static_cast<std::size_t>(i)]; }
 
-    Room room(double drift) const noexcept {
-        Room r{1e300, -1e300};
+    OffsetBounds offsetBounds(double drift) const noexcept {
+        OffsetBounds bounds{1e300, -1e300};
         for (int i = 0; i < count_; ++i) {
-            r.upper = std::min(r.upper, point(i).board - point(i).sent * (1.0 + drift));
-            r.lower = std::max(r.lower, point(i).board - point(i).received * (1.0 + drift));
+            bounds.upper = std::min(bounds.upper, point(i).board - point(i).sent * (1.0 + drift));
+            bounds.lower = std::max(bounds.lower, point(i).board - point(i).received * (1.0 + drift));
         }
-        return r;
+        return bounds;
     }
 
     void estimate() noexcept {
         double low = -maxDrift, high = maxDrift;
         for (int i = 0; i < 40 && isReady(); ++i) { // ternary search: 0.02 becomes 2e-9
             const double third = (high - low) / 3.0;
-            if (room(low + third).width() < room(high - third).width())
+            if (offsetBounds(low + third).width() < offsetBounds(high - third).width())
                 low += third;
             else
                 high -= third;
         }
         drift_ = isReady() ? (low + high) / 2.0 : 0.0;
-        const Room r = room(drift_);
-        offset_ = (r.upper + r.lower) / 2.0;
+        const OffsetBounds bounds = offsetBounds(drift_);
+        offset_ = (bounds.upper + bounds.lower) / 2.0;
     }
 
     struct Origin {

@@ -16,7 +16,7 @@
 namespace physvib::wire {
 
 constexpr std::uint8_t protocolVersion = 2; // 2: segments
-constexpr std::uint8_t segmentsSince = 2;
+constexpr std::uint8_t firstVersionWithSegments = 2;
 constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, as the thesis' Bluetooth module
 constexpr std::size_t maxPayload = 64;    // type, fields, CRC; leaves space for more telemetry
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
@@ -65,7 +65,7 @@ struct HelloReply {
 };
 
 /// An impact or other event. `sequence` counts events of both forms and segments. A repeated one (see
-/// StrikeOrder), or one before a Hello, is not played.
+/// DuplicateFilter), or one before a Hello, is not played.
 struct Strike {
     static constexpr Type type = Type::strike;
     std::uint8_t sequence = 0;
@@ -146,7 +146,7 @@ struct Telemetry {
     std::uint8_t modes = 0, pending = 0;
     std::uint8_t silenced = 0; ///< 1: the watchdog muted the board
     std::uint16_t guarded = 0; ///< how often the guard began to act; wraps. 0 from firmware without a guard
-    static constexpr std::size_t addedLater = 2; ///< bytes at the end that older firmware does not send
+    static constexpr std::size_t optionalBytes = 2; ///< bytes at the end that older firmware does not send
     void visit(auto&& field) {
         field(frame), field(good), field(bad), field(lost), field(overruns), field(played), field(late),
             field(dropped), field(stolen);
@@ -208,7 +208,9 @@ public:
                     bits | static_cast<std::make_unsigned_t<T>>(in_[at_]) << (8 * i));
         value = static_cast<T>(bits);
     }
-    constexpr bool isComplete(std::size_t mayLack = 0) const { return at_ <= in_.size() + mayLack; }
+    constexpr bool isComplete(std::size_t allowedMissing = 0) const {
+        return at_ <= in_.size() + allowedMissing;
+    }
 
 private:
     std::span<const std::uint8_t> in_;
@@ -233,12 +235,12 @@ template <class Message>
 constexpr bool decode(std::span<const std::uint8_t> payload, Message& message) noexcept {
     if (payload.empty() || payload[0] != static_cast<std::uint8_t>(Message::type)) return false;
     Reader read{payload.subspan(1)};
-    Message found;
-    found.visit(read);
-    std::size_t mayLack = 0;
-    if constexpr (requires { Message::addedLater; }) mayLack = Message::addedLater;
-    if (!read.isComplete(mayLack)) return false;
-    message = found;
+    Message decoded;
+    decoded.visit(read);
+    std::size_t allowedMissing = 0;
+    if constexpr (requires { Message::optionalBytes; }) allowedMissing = Message::optionalBytes;
+    if (!read.isComplete(allowedMissing)) return false;
+    message = decoded;
     return true;
 }
 

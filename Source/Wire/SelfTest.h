@@ -20,8 +20,8 @@ public:
     bool isRunning() const noexcept { return step_ != 0; }
 
     /// Before a block: adds eight notes, each with its own frequency and decay.
-    void strike(BoardRenderer& renderer) noexcept {
-        renderer.letThrough(); // the block is not sent to the actuators
+    void addNotes(BoardRenderer& renderer) noexcept {
+        renderer.bypassNextBlock(); // the block is not sent to the actuators
         for (int i = 0; i < notesPerBlock && step_ <= blocks; ++i) {
             const int note = (step_ - 1) * notesPerBlock + i;
             const auto amplitude = static_cast<std::int16_t>(20 + note);
@@ -34,8 +34,8 @@ public:
     }
 
     /// After a block that took `cycles`: true once, when the result is complete.
-    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, BoardRenderer& renderer,
-              SelfTestReply& reply) noexcept {
+    bool finishBlock(const BoardRenderer::Codes& block, std::uint32_t cycles, BoardRenderer& renderer,
+                     SelfTestReply& reply) noexcept {
         if (step_++ <= blocks) return false;
         step_ = 0;
         (void)renderer.exchangeGains(gains_);
@@ -59,9 +59,9 @@ inline SelfTestReply expectedSelfTest(BoardRenderer& renderer) noexcept {
     renderer.prepare();
     test.begin(renderer);
     do {
-        test.strike(renderer);
+        test.addNotes(renderer);
         renderer.render(block);
-    } while (!test.take(block, 0, renderer, reply));
+    } while (!test.finishBlock(block, 0, renderer, reply));
     return reply;
 }
 

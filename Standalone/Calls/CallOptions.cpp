@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Declares the options of `physvib render` and `physvib stimulus`: names, ranges and help texts. Finds the
-// files of a call.
+// Declares the options of `physvib render` and `physvib stimulus`: names, ranges and help texts; converts
+// parsed stimulus options to a job; and checks the files that a call names.
 #include "Calls/CallOptions.h"
 #include "Core/EventShaping.h"
 #include "Formats/ClipFile.h"
@@ -9,7 +9,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Identification.h"
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace physvib {
 
-static_assert(usualContactDb == safeContactDb, "as on a device");
+static_assert(defaultContactSoundDb == defaultContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene,
@@ -61,15 +61,15 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
         .add("--gamma", o.gamma,
              "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings "
              "out, without a click); recordings (SV) are played whole")
-        .in(0.0, EventShaping::mostTruncation);
+        .in(0.0, EventShaping::maxTruncation);
     command.addSwitch("--perceived-level", o.isWeighted,
                       "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)");
     command
         .add("--contact-sound-db", o.contactSoundDb,
              "its level: that of a hit at full scale, in dB of full scale")
-        .in(leastContactDb, mostContactDb, " dB");
+        .in(minContactDb, maxContactDb, " dB");
     command.addOneOf<MarkedOnsets>(
-        "--marker-of", o.marked,
+        "--marker-of", o.markedOnsets,
         {{"all", MarkedOnsets::all}, {"hits", MarkedOnsets::hits}, {"messages", MarkedOnsets::messages}},
         "what --marker marks: all onsets, hits (no grains, no messages), or messages");
     command.add(
@@ -88,21 +88,21 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
 void declareRenderOptions(OptionTable& command, RenderJob& o) {
     declareSceneOptions(command, o);
     command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
-    command.add("--out", o.wavPath, "32-bit float WAV, one channel per actuator").written("FILE.wav");
+    command.add("--out", o.wavPath, "32-bit float WAV, one channel per actuator").outputFile("FILE.wav");
     command
         .add("--pad", o.pad,
              "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a "
              "profile (pad-generic, pad-xbox, pad-dualshock) or its file")
         .as("PROFILE");
-    command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
-    command.add("--picture", o.picturePath, "world, waveforms and event marks").writtenAs("FILE.png");
+    command.add("--events", o.eventsPath, "the collisions as an event list").outputFile("FILE.csv");
+    command.add("--picture", o.picturePath, "world, waveforms and event marks").outputFileNamed("FILE.png");
     command
         .add("--movie", o.moviePath,
              "world, impacts and channels in time: .webp; with the program ffmpeg also .gif, and .mp4 with "
              "audio")
-        .written("FILE.webp");
+        .outputFile("FILE.webp");
     command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")
-        .written("FILE.csv");
+        .outputFile("FILE.csv");
     command.add("--explain", o.explains,
                 "count the scene's contacts, and say why nothing or not everything is felt");
     command.add("--threshold", o.threshold, "of the pattern, in full scale").in(0.0, 1.0);
@@ -114,10 +114,10 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     command
         .add("--contact-sound", o.contactSound,
              "what is heard of each hit, for headphones or loudspeakers, in sync with --out")
-        .written("FILE.wav");
-    command.add("--contact-sound-channels", o.contactSoundEars, "2: left and right, by place").in(1, 2);
+        .outputFile("FILE.wav");
+    command.add("--contact-sound-channels", o.contactSoundChannels, "2: left and right, by place").in(1, 2);
     command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")
-        .written("FILE.wav");
+        .outputFile("FILE.wav");
     command.add("--rate", o.sampleRateHz, "sample rate")
         .in(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz");
     command.add("--block", o.blockFrames, "frames per block; changes nothing but --limiter blocks")
@@ -127,14 +127,14 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
         "best: the vectors of this processor, with the same bytes on all; scalar: double precision");
     command
-        .add("--patience", o.patienceSeconds,
+        .add("--patience", o.timeoutSeconds,
              "time-out: processor time, beyond its own length, that a world may take to simulate")
         .in(0.0, 1e7, " s");
 }
 
-void noteGiven(const OptionTable& command, RenderJob& o) {
+void recordGivenOptions(const OptionTable& command, RenderJob& o) {
     for (const Option& option : command.options)
-        if (!option.said.empty()) o.given.insert(option.spellings.front());
+        if (!option.arguments.empty()) o.givenOptions.insert(option.spellings.front());
 }
 
 Option& addLaw(OptionTable& command, PanningLaw& law) {
@@ -143,11 +143,11 @@ Option& addLaw(OptionTable& command, PanningLaw& law) {
                    ? std::string{}
                    : "expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(word);
     };
-    return command.addRead(stimulusWords::law, std::string{nameOf(law)}, read,
+    return command.addRead(stimulusOptions::law, std::string{nameOf(law)}, read,
                            "panning law: " + listed(panningLawNames));
 }
 
-Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says) {
+Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string helpText) {
     const WordsReader read = [&sounds](const std::vector<std::string>& words) -> std::string {
         for (const std::string& word : words) {
             const auto equals = word.find('=');
@@ -158,21 +158,21 @@ Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string says
                        "frequency";
             const RecordedSound sound{hz ? "" : word.substr(0, equals), hz.value_or(0.0),
                                       word.substr(equals + 1)};
-            const auto isSame = [&](const RecordedSound& other) { return other.name() == sound.name(); };
-            if (std::ranges::any_of(sounds, isSame))
+            const auto hasSameName = [&](const RecordedSound& other) { return other.name() == sound.name(); };
+            if (std::ranges::any_of(sounds, hasSameName))
                 return "expected one recording of " + sound.name() + ", found another";
             sounds.push_back(sound);
         }
         return {};
     };
-    return command.addRow("--sound", read, std::move(says)).as("MATERIAL=FILE.wav").single();
+    return command.addRow("--sound", read, std::move(helpText)).as("MATERIAL=FILE.wav").single();
 }
 
 Option& addField(OptionTable& command, FieldSize& field) {
     const auto read = [&field](const std::string& word) {
         const auto found = parseField(word);
         if (found) field = *found;
-        return found ? std::string{} : std::string{expectedField} + inQuotes(word);
+        return found ? std::string{} : std::string{expectedFieldText} + inQuotes(word);
     };
     return command
         .addRead("--field", {}, read,
@@ -197,7 +197,7 @@ Option& addSettings(OptionTable& command, SceneSettings& settings) {
 Option& addMethod(OptionTable& command, RenderJob& job) {
     const auto read = [&job](const std::string& word) {
         job.playsRecordings = word == "SV";
-        return job.playsRecordings || renderingMethodNamed(word, job.method)
+        return job.playsRecordings || parseRenderingMethod(word, job.method)
                    ? std::string{}
                    : "expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found " + inQuotes(word);
     };
@@ -208,40 +208,40 @@ Option& addMethod(OptionTable& command, RenderJob& job) {
 
 namespace {
 
-namespace words = stimulusWords;
-namespace ranges = stimulusRanges;
+namespace words = stimulusOptions;
+namespace ranges = parameterRanges;
 
-bool splitPair(const std::string& text, char separator, double& first, double& second) {
-    const std::size_t at = text.find(separator);
-    if (at == std::string::npos) return false;
-    const auto a = parseNumber<double>(std::string_view{text}.substr(0, at)),
-               b = parseNumber<double>(std::string_view{text}.substr(at + 1));
+bool parsePair(const std::string& text, char separator, double& first, double& second) {
+    const std::size_t split = text.find(separator);
+    if (split == std::string::npos) return false;
+    const auto a = parseNumber<double>(std::string_view{text}.substr(0, split)),
+               b = parseNumber<double>(std::string_view{text}.substr(split + 1));
     if (a) first = *a;
     if (b) second = *b;
     return a && b;
 }
 
-/// Unreadable text gives an invalid place.
+/// The place in "0.25,0.5"; for invalid text a place outside the field, which jobError() refuses.
 FieldPlace placeAt(const std::string& text) {
     FieldPlace place;
-    return splitPair(text, ',', place.x, place.y) ? place : FieldPlace{-1.0, -1.0};
+    return parsePair(text, ',', place.x, place.y) ? place : FieldPlace{-1.0, -1.0};
 }
 
 GridPlace gridPlace(const StimulusOptions& o) {
     double columns = 0.0, rows = 0.0;
-    const auto lines = [](double n) {
-        return n >= 1.0 && n <= static_cast<double>(mostGridLines) && n == std::floor(n) ? static_cast<int>(n)
-                                                                                         : 0;
+    const auto lineCount = [](double n) {
+        return n >= 1.0 && n <= static_cast<double>(maxGridLines) && n == std::floor(n) ? static_cast<int>(n)
+                                                                                        : 0;
     };
-    if (!splitPair(o.grid, 'x', columns, rows)) columns = rows = 0.0;
-    return {{lines(columns), lines(rows),
+    if (!parsePair(o.grid, 'x', columns, rows)) columns = rows = 0.0;
+    return {{lineCount(columns), lineCount(rows),
              o.points == "middles" ? PhantomGrid::Points::middles : PhantomGrid::Points::corners},
             parseGridCell(o.cell).value_or(GridCell{})};
 }
 
-/// The text given for an option.
-const std::string& saidOf(const StimulusOptions& o, std::string_view word) {
-    return word == words::at          ? o.at
+/// The call's text for the option named `word`.
+const std::string& argumentOf(const StimulusOptions& o, std::string_view word) {
+    return word == words::at          ? o.place
            : word == words::grid      ? o.grid
            : word == words::cell      ? o.cell
            : word == words::frequency ? o.frequency
@@ -249,7 +249,7 @@ const std::string& saidOf(const StimulusOptions& o, std::string_view word) {
 }
 
 void declarePlace(OptionTable& command, StimulusOptions& o) {
-    command.add(words::at, o.at, "place on the field: right and down, from 0 to 1").as("X,Y");
+    command.add(words::at, o.place, "place on the field: right and down, from 0 to 1").as("X,Y");
     command.add(words::grid, o.grid, "columns and rows of a grid, e.g. 7x5").as("CxR");
     command.add(words::cell, o.cell, "row and column in the grid, from 1, row 1 above").as("r,c");
     command
@@ -258,7 +258,7 @@ void declarePlace(OptionTable& command, StimulusOptions& o) {
         .oneOf({"corners", "middles"});
     addLaw(command, o.phantom.law);
     command.add(words::exponent, o.phantom.exponent, "exponent of the law")
-        .in(ranges::exponent.least, ranges::exponent.most);
+        .in(ranges::exponent.min, ranges::exponent.max);
 }
 
 void declareCarrier(OptionTable& command, StimulusOptions& o) {
@@ -274,33 +274,33 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
     OptionTable& wav =
         command.addCommand("wav", "a recording or a haptic file as a phantom, at its own rate");
     wav.alias = "clip";
-    OptionTable& all = command.addCommand("list", "the labels of all patterns, one per line");
+    OptionTable& list = command.addCommand("list", "the labels of all patterns, one per line");
     pattern.add("pattern", o.pattern.label, "actuators in the order of the pulses, and a pulse's ms")
         .required()
         .as("ABA-250");
     pattern.add(words::gap, o.pattern.gapSeconds, "silence between pulses, s")
-        .in(ranges::gapSeconds.least, ranges::gapSeconds.most);
+        .in(ranges::gapSeconds.min, ranges::gapSeconds.max);
     wav.add("recording", o.phantom.recording, "one channel").required().as("FILE.wav");
-    phantom.add(words::seconds, o.phantom.seconds, "length").in(ranges::seconds.least, ranges::seconds.most);
+    phantom.add(words::seconds, o.phantom.seconds, "length").in(ranges::seconds.min, ranges::seconds.max);
     phantom.add(words::decay, o.phantom.decayPerSecond, "decay of the amplitude, 1/s; 0: a burst")
-        .in(ranges::decayPerSecond.least, ranges::decayPerSecond.most);
+        .in(ranges::decayPerSecond.min, ranges::decayPerSecond.max);
     phantom
         .add(
-            words::levelOf, o.levelOf,
+            words::levelMeasure, o.levelMeasure,
             "--level-g is the peak, or that of a burst of the same rms over the length, of a burst of 1 s of "
             "the same energy, or of a burst whose rms is that behind the hand-arm weighting of ISO 5349-1")
-        .oneOf({levelOfNames.begin(), levelOfNames.end()});
-    all.add("--enchanters", o.enchanters, "how many").in(1, 26);
-    for (OptionTable* const one : {&pattern, &phantom}) declareCarrier(*one, o);
-    for (OptionTable* const one : {&phantom, &wav}) declarePlace(*one, o);
-    for (OptionTable* const one : {&pattern, &phantom, &wav}) {
-        one->add(words::layout, o.job.layout,
-                 listedByNumber(layoutPresetNames) + ", study1 or a layout file");
-        one->add(words::levelG, o.job.levelG, "peak acceleration at gain 1, in g")
-            .in(ranges::levelG.least, ranges::levelG.most);
-        one->add("--out", o.wavPath, "32-bit float WAV, one channel per actuator, 1 = its full scale")
-            .written("FILE.wav");
-        one->add("--picture", o.picturePath, "what each actuator plays").writtenAs("FILE.png");
+        .oneOf({levelMeasureNames.begin(), levelMeasureNames.end()});
+    list.add("--enchanters", o.enchanters, "how many").in(1, 26);
+    for (OptionTable* const subcommand : {&pattern, &phantom}) declareCarrier(*subcommand, o);
+    for (OptionTable* const subcommand : {&phantom, &wav}) declarePlace(*subcommand, o);
+    for (OptionTable* const subcommand : {&pattern, &phantom, &wav}) {
+        subcommand->add(words::layout, o.job.layout,
+                        listedByNumber(layoutPresetNames) + ", study1 or a layout file");
+        subcommand->add(words::levelG, o.job.levelG, "peak acceleration at gain 1, in g")
+            .in(ranges::levelG.min, ranges::levelG.max);
+        subcommand->add("--out", o.wavPath, "32-bit float WAV, one channel per actuator, 1 = its full scale")
+            .outputFile("FILE.wav");
+        subcommand->add("--picture", o.picturePath, "what each actuator plays").outputFileNamed("FILE.png");
     }
 }
 
@@ -308,20 +308,20 @@ Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptio
     StimulusJob job = o.job;
     job.frequencyHz = parseNumber<double>(o.frequency).value_or(0.0);
     if (o.frequency == words::resonance) job.frequencyHz.reset();
-    job.what = o.pattern;
+    job.stimulus = o.pattern;
     if (!command.isCalled("pattern")) {
-        if (o.at.empty() == o.cell.empty())
+        if (o.place.empty() == o.cell.empty())
             return Failure{"give either --at X,Y or --grid CxR with --cell r,c"};
-        auto& phantom = job.what.emplace<PhantomJob>(o.phantom);
-        phantom.levelOf =
-            static_cast<LevelOf>(std::ranges::find(levelOfNames, o.levelOf) - levelOfNames.begin());
-        if (o.at.empty())
-            phantom.at = gridPlace(o);
+        auto& phantom = job.stimulus.emplace<PhantomJob>(o.phantom);
+        phantom.levelMeasure = static_cast<LevelMeasure>(
+            std::ranges::find(levelMeasureNames, o.levelMeasure) - levelMeasureNames.begin());
+        if (o.place.empty())
+            phantom.target = gridPlace(o);
         else
-            phantom.at = placeAt(o.at);
+            phantom.target = placeAt(o.place);
     }
-    const JobFault fault = faultOf(job);
-    if (fault) return Failure{fault.words() + ", found " + inQuotes(saidOf(o, fault.word))};
+    const JobError error = jobError(job);
+    if (error) return Failure{error.text() + ", found " + inQuotes(argumentOf(o, error.option))};
     return job;
 }
 
@@ -331,40 +331,40 @@ struct CallFiles {
     std::vector<std::string> outputs, inputs;
 };
 
-void collect(const OptionTable& table, CallFiles& files) {
+void collectFiles(const OptionTable& table, CallFiles& files) {
     for (const Option& option : table.options)
-        for (const std::string& value : option.said) {
-            if (option.isWritten)
+        for (const std::string& value : option.arguments) {
+            if (option.isOutputFile)
                 files.outputs.push_back(value);
             else
                 files.inputs.insert(files.inputs.end(),
                                     {value, value.substr(value.find('=') + 1)}); // of MATERIAL=FILE
         }
-    for (const OptionTable* const command : table.calls) collect(*command, files);
+    for (const OptionTable* const command : table.calls) collectFiles(*command, files);
 }
 
-void collectWritten(const OptionTable& table, std::set<std::string, std::less<>>& words) {
+void collectOutputOptions(const OptionTable& table, std::set<std::string, std::less<>>& words) {
     for (const Option& option : table.options)
-        if (option.isWritten) words.insert(option.spellings.begin(), option.spellings.end());
-    for (const OptionTable& command : table.commands) collectWritten(command, words);
+        if (option.isOutputFile) words.insert(option.spellings.begin(), option.spellings.end());
+    for (const OptionTable& command : table.commands) collectOutputOptions(command, words);
 }
 
 /// Every spelling of every output-file option of the commands that a call may use.
-std::set<std::string, std::less<>> writtenWords() {
+std::set<std::string, std::less<>> outputOptionNames() {
     OptionTable calls{"physvib", {}};
     RenderJob render;
     StimulusOptions stimulus;
     declareRenderOptions(calls.addCommand("render", {}), render);
     declareStimulus(calls.addCommand("stimulus", {}), stimulus);
     std::set<std::string, std::less<>> words;
-    collectWritten(calls, words);
+    collectOutputOptions(calls, words);
     return words;
 }
 
 } // namespace
 
-std::string writtenWordFault(std::string_view call) {
-    static const auto words = writtenWords();
+std::string outputOptionError(std::string_view call) {
+    static const auto words = outputOptionNames();
     while (!call.empty()) {
         const std::string_view word = call.substr(0, call.find(' '));
         call.remove_prefix(std::min(word.size() + 1, call.size()));
@@ -374,18 +374,18 @@ std::string writtenWordFault(std::string_view call) {
     return {};
 }
 
-std::string linkOfCallFault(const OptionTable& app, const std::string& folder) {
+std::string callLinkError(const OptionTable& app, const std::string& folder) {
     CallFiles files;
-    collect(app, files);
+    collectFiles(app, files);
     for (const std::string& path : files.inputs)
-        if (auto fault = linkFault(folder, path); !fault.empty()) return fault;
+        if (auto error = linkError(folder, path); !error.empty()) return error;
     return {};
 }
 
-std::string clashOfCall(const OptionTable& app) {
+std::string callFileClash(const OptionTable& app) {
     CallFiles files;
-    collect(app, files);
-    return fileClash(files.outputs, files.inputs);
+    collectFiles(app, files);
+    return fileClashError(files.outputs, files.inputs);
 }
 
 } // namespace physvib

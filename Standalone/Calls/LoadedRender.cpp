@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looks up actuator profiles and derives equalisation, voltage scales and the frequency remapping.
+// Looks up actuator profiles, and derives equalisation, voltage scales, frequency remapping and compensation
+// of coupling from them, with notes and warnings.
 #include "Calls/LoadedRender.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
@@ -15,23 +16,23 @@ namespace {
 /// Just noticeable relative difference of vibration frequency (Pongrac 2008; other studies found 20 to 30 %).
 constexpr double frequencyJnd = 0.18;
 
-/// One profile per actuator; empty with --actuator none.
+/// One profile per actuator of the layout; none with --actuator none.
 Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const LayoutDescription& layout) {
     std::vector<ActuatorProfile> profiles;
     if (o.actuator == "none") return profiles;
-    for (const EnchanterDescription& enchanter : layout.enchanters) {
-        const bool isNamedThere = o.actuator == "layout";
-        const std::string& name = isNamedThere ? enchanter.actuator : o.actuator;
+    for (const ActuatorDescription& enchanter : layout.actuators) {
+        const bool isNamedByLayout = o.actuator == "layout";
+        const std::string& name = isNamedByLayout ? enchanter.actuator : o.actuator;
         auto profile = name == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(name);
         if (!profile)
-            return Failure{(isNamedThere ? o.layout + ": actuator " + enchanter.label : "--actuator") + ": " +
-                           profile.error};
+            return Failure{(isNamedByLayout ? o.layout + ": actuator " + enchanter.label : "--actuator") +
+                           ": " + profile.error};
         profiles.push_back(std::move(profile.value));
     }
     return profiles;
 }
 
-std::string hertz(double frequencyHz) { return fixedNumber(frequencyHz, 0) + " Hz"; }
+std::string hertzText(double frequencyHz) { return fixedNumber(frequencyHz, 0) + " Hz"; }
 
 /// Frequency band that all actuators have in common.
 Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
@@ -65,7 +66,7 @@ std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double i
 }
 
 /// True if two values are equal within the rounding of files.
-bool isAlmost(double g, double other) { return std::abs(g - other) <= 0.005 * std::max(g, other); }
+bool isNearlyEqual(double g, double other) { return std::abs(g - other) <= 0.005 * std::max(g, other); }
 
 } // namespace
 
@@ -74,8 +75,7 @@ Result<LayoutDescription> calibratedLayout(const RenderJob& o, LayoutDescription
     const auto profile = findActuator(o.actuator);
     if (!profile) return Failure{"--actuator: " + profile.error};
     if (!profile.value.fullScaleG) return layout;
-    for (EnchanterDescription& enchanter : layout.enchanters)
-        enchanter.fullScaleG = *profile.value.fullScaleG;
+    for (ActuatorDescription& actuator : layout.actuators) actuator.fullScaleG = *profile.value.fullScaleG;
     return layout;
 }
 
@@ -85,8 +85,8 @@ std::vector<std::string> calibrationWarnings(const RenderJob& o, const LayoutDes
     const auto profiles = profilesOf(o, layout);
     for (std::size_t j = 0; j < profiles.value.size(); ++j) {
         const auto& measured = profiles.value[j].fullScaleG;
-        const EnchanterDescription& enchanter = layout.enchanters[j];
-        if (measured && !isAlmost(*measured, enchanter.fullScaleG))
+        const ActuatorDescription& enchanter = layout.actuators[j];
+        if (measured && !isNearlyEqual(*measured, enchanter.fullScaleG))
             warnings.push_back(o.layout + ": actuator " + enchanter.label +
                                ": levels are printed with full_scale_g " + numberText(enchanter.fullScaleG) +
                                " of the layout; " + enchanter.actuator + " was measured as " +
@@ -102,16 +102,16 @@ Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescripti
     for (std::size_t j = 0; j < profiles.value.size() && o.isEqualised; ++j) {
         const ActuatorProfile& p = profiles.value[j];
         if (p.name.empty()) continue;
-        if (const std::string fault = equaliserFault(p); !fault.empty())
-            return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + fault};
+        if (const std::string error = equaliserError(p); !error.empty())
+            return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + error};
         choice.equalised[j] = {p.resonator(), *p.band};
         if (p.band->highHz >= 0.5 * o.sampleRateHz)
             return Failure{"--actuator " + o.actuator + ": " + p.name +
                            ": expected a band below half of the sample rate"};
     }
     if (o.interfaceVolts > 0.0)
-        if (auto fault = scaleVoltages(profiles.value, o.interfaceVolts, choice); !fault.empty())
-            return Failure{fault};
+        if (auto error = scaleVoltages(profiles.value, o.interfaceVolts, choice); !error.empty())
+            return Failure{error};
     if (!o.isRemapped) return choice;
     const auto band = commonBand(profiles.value);
     if (!band) return Failure{band.error};
@@ -121,12 +121,13 @@ Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescripti
 
 std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz) {
     std::vector<std::string> notes;
-    for (auto at = choice.equalised.begin(); at != choice.equalised.end(); ++at) {
-        if (!at->isKnown() || std::find(choice.equalised.begin(), at, *at) != at) continue;
-        const double level = ActuatorEqualiser{*at, sampleRateHz}.flatLevel();
-        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) +
-                        ": flat up to " + fixedNumber(toDecibels(level), 1) + " dB of the level at " +
-                        hertz(at->resonator.resonanceHz) + "; above it the limiter holds the drive");
+    for (auto entry = choice.equalised.begin(); entry != choice.equalised.end(); ++entry) {
+        if (!entry->isKnown() || std::find(choice.equalised.begin(), entry, *entry) != entry) continue;
+        const double level = ActuatorEqualiser{*entry, sampleRateHz}.flatLevel();
+        notes.push_back("equalised from " + hertzText(entry->band.lowHz) + " to " +
+                        hertzText(entry->band.highHz) + ": flat up to " + fixedNumber(toDecibels(level), 1) +
+                        " dB of the level at " + hertzText(entry->resonator.resonanceHz) +
+                        "; above it the limiter holds the drive");
     }
     return notes;
 }
@@ -141,8 +142,8 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
         if (++high == frequencies.end()) break;
         const double ratio = remap(*high) / remap(*low);
         if (ratio < 1.0 + frequencyJnd)
-            warnings.push_back("--remap: " + hertz(*low) + " and " + hertz(*high) + " end at " +
-                               hertz(remap(*low)) + " and " + hertz(remap(*high)) +
+            warnings.push_back("--remap: " + hertzText(*low) + " and " + hertzText(*high) + " end at " +
+                               hertzText(remap(*low)) + " and " + hertzText(remap(*high)) +
                                ", nearer than one JND of " + fixedNumber(100.0 * frequencyJnd, 0) +
                                " % (Pongrac 2008)");
     }
@@ -160,15 +161,15 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
 
 namespace {
 
-std::string percent(double share) { return fixedNumber(100.0 * share, 1) + " %"; }
+std::string percentText(double share) { return fixedNumber(100.0 * share, 1) + " %"; }
 
-std::string noteOf(const MeasuredCoupling& measured) {
-    const CouplingResidual r = residualOf(measured);
-    return "coupling: what is felt differs from what is wanted by " + percent(r.compensated) +
-           ", without compensation by " + percent(r.plain) + "; by " + percent(r.mismatchedCompensated) +
-           " and " + percent(r.mismatchedPlain) +
+std::string couplingNote(const MeasuredCoupling& measured) {
+    const CouplingResidual r = couplingResidual(measured);
+    return "coupling: what is felt differs from what is wanted by " + percentText(r.compensated) +
+           ", without compensation by " + percentText(r.uncompensated) + "; by " +
+           percentText(r.mismatchedCompensated) + " and " + percentText(r.mismatchedUncompensated) +
            " where it is off by up to 2 dB and 20 degrees; strongest drive " +
-           fixedNumber(toDecibels(r.strongestDrive), 1) + " dB";
+           fixedNumber(toDecibels(r.maxDrive), 1) + " dB";
 }
 
 } // namespace
@@ -176,11 +177,11 @@ std::string noteOf(const MeasuredCoupling& measured) {
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout) {
     const auto measured = loadCoupling(path);
     if (!measured) return Failure{measured.error};
-    if (const std::size_t found = measured.value.enchanters(), wanted = layout.enchanters.size();
+    if (const std::size_t found = measured.value.enchanters(), wanted = layout.actuators.size();
         found != wanted)
         return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(wanted) +
                        ", found " + std::to_string(found)};
-    return CouplingChoice{CouplingDrives{measured.value}, noteOf(measured.value)};
+    return CouplingChoice{CouplingDrives{measured.value}, couplingNote(measured.value)};
 }
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Movie files: animated WebP by libwebp; GIF and MP4 by the program ffmpeg, if installed; movies of sessions.
+// Writes movie files: animated WebP by libwebp; GIF and MP4 by the program ffmpeg, if installed; also of
+// sessions.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
@@ -12,17 +13,17 @@
 
 namespace physvib {
 
-/// Body poses at 0, everyNs, 2 everyNs... before `endNs`; empty for events without a world.
-using PoseSource = std::function<void(std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see)>;
+/// Calls `watch` with the poses of bodies at 0, everyNs, 2 everyNs... before `endNs`; empty: no world.
+using PoseSource = std::function<void(std::int64_t everyNs, std::int64_t endNs, const RunPoseWatch& watch)>;
 
-/// Errors are one line each. After an error, or without commit(), no file remains. One thread at a time.
+/// Errors are one line each; after an error, or without commit(), no file remains. One thread at a time.
 class MovieOutput {
 public:
-    /// Checks that the file can be written: error().
-    MovieOutput(const std::string& path, int sampleRateHz, int ears = 1)
+    /// Begins the file at `path`, whose ending gives the format; see error().
+    MovieOutput(const std::string& path, int sampleRateHz, int soundChannels = 1)
         : path_{path}
         , sampleRateHz_{sampleRateHz}
-        , ears_{ears}
+        , soundChannels_{soundChannels}
         , movie_{path} {
         if (!path.ends_with(".webp")) pictures_.emplace(path + ".pictures");
         if (hasSound()) sound_.emplace(path + ".sound");
@@ -30,11 +31,11 @@ public:
     const std::string& error() const noexcept { return movie_.error(); }
 
     bool hasSound() const noexcept { return path_.ends_with(".mp4"); }
-    /// Next frames of the sound track.
-    bool takeSound(const float* const* channels, int frames) {
+    /// Appends frames to the sound track; false after an error. Only if hasSound().
+    bool writeSound(const float* const* channels, int frames) {
         frames_.clear();
         for (int k = 0; k < frames; ++k)
-            for (int c = 0; c < ears_; ++c) frames_.push_back(channels[c][k]);
+            for (int c = 0; c < soundChannels_; ++c) frames_.push_back(channels[c][k]);
         const std::string_view bytes{reinterpret_cast<const char*>(frames_.data()),
                                      sizeof(float) * frames_.size()};
         if (!sound_->writeAt(soundBytes_, bytes)) return false;
@@ -42,38 +43,40 @@ public:
         return true;
     }
 
-    /// Draws all pictures, with the bodies' poses. `keepGoing` gets progress from 0 to 1; if it returns
-    /// false, drawing stops with the error "cancelled". Returns an error or "".
+    /// Draws all pictures and writes the movie. `keepGoing` is called with the progress from 0 to 1;
+    /// returning false stops with the error "cancelled". Returns an error or "".
     std::string draw(const PictureInput& picture, const PoseSource& bodies,
                      const std::function<bool(double)>& keepGoing = {}) {
         const RenderMovie movie{picture};
         const std::int64_t everyNs = RenderMovie::timeNs(1), endNs = RenderMovie::timeNs(movie.count());
-        bool isWhole = true;
-        const Pictures all = [&](const auto& take) {
-            const auto one = [&](std::int64_t timeNs, const picture::Image& image) {
-                isWhole = !keepGoing || keepGoing(static_cast<double>(timeNs) / static_cast<double>(endNs));
-                return isWhole && take(timeNs, image);
+        bool isComplete = true;
+        const Pictures forEachPicture = [&](const auto& receive) {
+            const auto addPicture = [&](std::int64_t timeNs, const picture::Image& image) {
+                isComplete =
+                    !keepGoing || keepGoing(static_cast<double>(timeNs) / static_cast<double>(endNs));
+                return isComplete && receive(timeNs, image);
             };
             if (bodies)
                 return bodies(everyNs, endNs,
                               [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& poses) {
-                                  return one(timeNs, movie.at(timeNs, poses, &scene));
+                                  return addPicture(timeNs, movie.draw(timeNs, poses, &scene));
                               });
             for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)
-                if (!one(timeNs, movie.at(timeNs, {}))) return;
+                if (!addPicture(timeNs, movie.draw(timeNs, {}))) return;
         };
-        const auto watch = [&] { return isWhole = isWhole && (!keepGoing || keepGoing(1.0)); };
-        const std::string error = pictures_ ? drawByFfmpeg(all, watch) : drawWebp(movie, all);
-        return isWhole ? error : "cancelled";
+        const auto keepDrawing = [&] { return isComplete = isComplete && (!keepGoing || keepGoing(1.0)); };
+        const std::string error =
+            pictures_ ? writeByFfmpeg(forEachPicture, keepDrawing) : writeWebp(movie, forEachPicture);
+        return isComplete ? error : "cancelled";
     }
     [[nodiscard]] const std::string& commit() { return movie_.commit(); }
 
 private:
     using Pictures =
-        std::function<void(const std::function<bool(std::int64_t momentNs, const picture::Image&)>& take)>;
-    std::string drawWebp(const RenderMovie& movie, const Pictures& all) {
+        std::function<void(const std::function<bool(std::int64_t momentNs, const picture::Image&)>& receive)>;
+    std::string writeWebp(const RenderMovie& movie, const Pictures& forEachPicture) {
         WebpMovie webp{RenderMovie::width, RenderMovie::height};
-        all([&](std::int64_t momentNs, const picture::Image& image) {
+        forEachPicture([&](std::int64_t momentNs, const picture::Image& image) {
             webp.add(image, momentNs / 1'000'000);
             return true;
         });
@@ -81,28 +84,28 @@ private:
     }
     // ffmpeg reads finished files (concatenated PNGs, 32-bit samples) and writes a temporary file, which
     // commit() renames.
-    std::string drawByFfmpeg(const Pictures& all, const std::function<bool()>& keepGoing) {
-        all([&](std::int64_t, const picture::Image& image) {
+    std::string writeByFfmpeg(const Pictures& forEachPicture, const std::function<bool()>& keepGoing) {
+        forEachPicture([&](std::int64_t, const picture::Image& image) {
             const std::string png = image.png();
             const bool isWritten = pictures_->writeAt(pictureBytes_, png);
             pictureBytes_ += static_cast<std::int64_t>(png.size());
             return isWritten;
         });
-        for (const auto* beside : {&pictures_, &sound_})
-            if (*beside && !(*beside)->error().empty())
-                return path_ + (*beside)->error().substr((*beside)->error().find(": cannot be written"));
+        for (const auto* input : {&pictures_, &sound_})
+            if (*input && !(*input)->error().empty())
+                return path_ + (*input)->error().substr((*input)->error().find(": cannot be written"));
         if (!keepGoing()) return {};
         std::vector<std::string> words;
         const auto add = [&words](std::initializer_list<const char*> more) {
             words.insert(words.end(), more.begin(), more.end());
         };
-        // without -xerror, ffmpeg takes a full disk at the end of its file for success
+        // without -xerror, ffmpeg reports success if the disk is full at the end of its file
         add({"-v", "error", "-xerror", "-nostdin", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate"});
         words.insert(words.end(), {std::to_string(RenderMovie::picturesPerSecond), "-i",
                                    pictures_->temporaryPath().string()});
         if (sound_) {
             add({"-f", "f32le", "-ac"});
-            words.insert(words.end(), {std::to_string(ears_), "-ar", std::to_string(sampleRateHz_)});
+            words.insert(words.end(), {std::to_string(soundChannels_), "-ar", std::to_string(sampleRateHz_)});
             words.insert(words.end(), {"-i", sound_->temporaryPath().string()});
             add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags",
                  "+faststart", "-f", "mp4"});
@@ -110,31 +113,31 @@ private:
             add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f",
                  "gif"});
         words.push_back(movie_.temporaryPath().string());
-        const auto ran = runWatched("ffmpeg", words, keepGoing);
-        if (!ran)
-            return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
+        const auto result = runWatched("ffmpeg", words, keepGoing);
+        if (!result)
+            return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + result.error +
                    "); expected it on the path, or a name that ends in .webp";
-        return ran.value.empty() ? std::string{} : path_ + ": ffmpeg failed: " + ran.value;
+        return result.value.empty() ? std::string{} : path_ + ": ffmpeg failed: " + result.value;
     }
 
     std::string path_;
-    int sampleRateHz_, ears_;
-    std::vector<float> frames_; // interleaved, of one block
+    int sampleRateHz_, soundChannels_;
+    std::vector<float> frames_; // of one block, interleaved
     AtomicFile movie_;
     std::optional<AtomicFile> pictures_, sound_; // temporary input files of ffmpeg, beside the movie
     std::int64_t pictureBytes_ = 0, soundBytes_ = 0;
 };
 
-constexpr double longestMovieSeconds = 600.0; ///< limits memory and disk space for pictures
+constexpr double maxMovieSeconds = 600.0; ///< limits memory and disk space for pictures
 
-/// The ending of a movie with sound, if this computer can write one, else of one without. Any thread but R.
+/// Ending of movies on this computer: .mp4, with sound, if ffmpeg is installed, else .webp. Not on the render
+/// thread.
 inline std::string movieEnding() { return hasProgram("ffmpeg") ? ".mp4" : ".webp"; }
 
-/// Writes a movie of the last `seconds` of the session, with all its scene runs and impacts in order
-/// and the output of the actuators of `layout`; an .mp4 also has the sound of each contact, left and right,
-/// as the mixer's monitor plays it at its usual level. The file appears complete or not at all. `progress`
-/// gets shares of 0 to 1 and cancels by returning false. Returns an empty string or one error line,
-/// "cancelled" if so. Any thread but the render thread.
+/// Writes a movie of the last `seconds` of the session: its scene runs, impacts and the outputs of the
+/// actuators of `layout`; an .mp4 also has the contact sound in stereo, as the mixer's monitor plays it at
+/// its default level. The file appears complete or not at all. `progress` is called with shares from 0 to 1
+/// and cancels by returning false. Returns "", an error line or "cancelled". Not on the render thread.
 std::string writeSessionMovie(const SavedSession& session, const LayoutDescription& layout, double seconds,
                               const std::string& path, const std::function<bool(double)>& progress);
 

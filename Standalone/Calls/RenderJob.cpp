@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Validates a render job before any file is read.
+// Checks the options of a render job for conflicts before any file is read.
 #include "Calls/RenderJob.h"
 #include "Calls/MovieOutput.h"
 #include "Io/Disk/FileClash.h"
@@ -20,16 +20,16 @@ std::string RenderJob::methodName() const {
 
 namespace {
 
-/// Checks the movie's file name and length.
-std::string movieFault(const RenderJob& o) {
-    if (auto fault = endingFault(o.moviePath, {".webp", ".gif", ".mp4"}); !fault.empty())
-        return "--movie: " + fault;
-    return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
+/// Checks the movie's file name and length: empty, or the error.
+std::string movieError(const RenderJob& o) {
+    if (auto error = fileExtensionError(o.moviePath, {".webp", ".gif", ".mp4"}); !error.empty())
+        return "--movie: " + error;
+    return o.seconds <= maxMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
 }
 
 } // namespace
 
-std::string sceneFault(const RenderJob& o) {
+std::string sceneOptionsError(const RenderJob& o) {
     if (o.playsRecordings && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings && !o.sounds.empty() && o.contactSound.empty())
         return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
@@ -43,26 +43,26 @@ std::string sceneFault(const RenderJob& o) {
     return {};
 }
 
-std::string renderInputFault(const RenderJob& o) {
+std::string inputOptionsError(const RenderJob& o) {
     if (o.scene.empty() == o.fromEvents.empty())
         return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.settings.empty() && o.scene.empty()) return "--set: only a scene has variables";
     if (o.interfaceVolts > 0.0 && o.actuator == "none")
         return "--interface-volts: expected an --actuator, whose drive limit is to be met";
     if (!o.moviePath.empty())
-        if (const std::string fault = movieFault(o); !fault.empty()) return fault;
+        if (const std::string error = movieError(o); !error.empty()) return error;
     if (!o.coupling.empty() && o.playsRecordings)
         return "--coupling: expected a --method of modes; a recording has no one frequency";
-    return sceneFault(o);
+    return sceneOptionsError(o);
 }
 
-std::string renderFault(const RenderJob& o) {
-    const std::string fault = renderInputFault(o);
+std::string renderOptionsError(const RenderJob& o) {
+    const std::string error = inputOptionsError(o);
     if (!o.pad.empty() && o.wavPath.empty()) return "--pad: expected --out MOTORS.csv";
-    if (fault.empty() && o.explains && o.scene.empty())
+    if (error.empty() && o.explains && o.scene.empty())
         return "--explain: expected a scene, whose contacts are counted";
-    if (!fault.empty() || o.explains || !std::ranges::all_of(o.writtenPaths(), &std::string::empty))
-        return fault;
+    if (!error.empty() || o.explains || !std::ranges::all_of(o.writtenPaths(), &std::string::empty))
+        return error;
     return "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound "
            "or --marker";
 }

@@ -21,7 +21,7 @@
 
 namespace physvib {
 
-/// What keeps samples within full scale.
+/// How samples are kept within full scale.
 enum class Limiting {
     on,    ///< one smooth limiter of all outputs
     off,   ///< nothing
@@ -39,9 +39,9 @@ struct RecordedSound {
 };
 using RecordedSounds = std::vector<RecordedSound>;
 
-constexpr double usualContactDb = -20.0; ///< level of the contact sound for a full-scale impact
+constexpr double defaultContactSoundDb = -20.0; ///< level of the contact sound for a full-scale impact
 
-/// The defaults are shown by --help.
+/// The options of `physvib render` as values; --help shows these defaults.
 struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     SceneSettings settings; ///< the scene's variables
@@ -56,8 +56,9 @@ struct RenderJob {
     InstructionSet instructions = InstructionSet::best;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
-    double patienceSeconds = Patience::usualSeconds; ///< for a world that is simulated slower than real time
-    std::string layout = "phone4";                   ///< preset or path of a layout file
+    double timeoutSeconds = SimulationTimeLimit::defaultSeconds; ///< for a world that is simulated slower
+                                                                 ///< than real time
+    std::string layout = "phone4";                               ///< preset or path of a layout file
     FieldSize field; ///< unset: the field of the scene or list, or the layout's extent
     PanningLaw law = PanningLaw::automatic;
     double exponent = 1.0;
@@ -69,22 +70,22 @@ struct RenderJob {
     bool playsRecordings = false; ///< SV: play `sounds` instead of the method's modes
     double levelDb = 0.0;         ///< of all impacts
     double gamma = 0.0;           ///< Eq. 5.5: share of the amplitude at which a decay is cut; 0: not cut
-    bool isWeighted = false;      ///< so that impacts of one amplitude feel more equal across frequencies
+    bool isWeighted = false;      ///< weights impacts by how strongly their frequency is perceived
     bool matchesStrength = false; ///< recordings get the mode's root mean square; else its peak
     RecordedSounds sounds;        ///< for SV and the contact sound
     std::string contactSound;     ///< a WAV of `render`, outputs of `play`; empty: none
-    double contactSoundDb = usualContactDb; ///< of a full-scale impact
-    int contactSoundEars = 1; ///< of `render`; 2: left and right, by the impact's place in the field
-    std::string marker;       ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
-    MarkedOnsets marked = MarkedOnsets::all;
+    double contactSoundDb = defaultContactSoundDb; ///< of a full-scale impact
+    int contactSoundChannels = 1; ///< of `render`; 2: left and right, by the impact's place in the field
+    std::string marker; ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
+    MarkedOnsets markedOnsets = MarkedOnsets::all;
     std::string actuator = "none";               ///< or "layout", a profile's name, a profile's path
     bool isEqualised = true, isRemapped = false; ///< effective with an actuator
     bool explains = false; ///< print which contacts of the scene became events, and why others did not
     std::string coupling;  ///< path of a measured coupling to compensate; empty: none
 
-    std::set<std::string> given; ///< options in the call, with their dashes; a saved session keeps its own
-                                 ///< values for all others
-    bool isGiven(const std::string& option) const { return given.contains(option); }
+    std::set<std::string> givenOptions; ///< options in the call, with their dashes; a saved session keeps its
+                                        ///< own values for all others
+    bool isGiven(const std::string& option) const { return givenOptions.contains(option); }
     /// The first of these that the call had; null: none.
     const char* firstGiven(std::initializer_list<const char*> options) const {
         const auto found = std::ranges::find_if(options, [&](const char* name) { return isGiven(name); });
@@ -96,7 +97,7 @@ struct RenderJob {
     }
     /// nullopt: no markers.
     std::optional<MarkedOnsets> marks() const {
-        return marker.empty() ? std::nullopt : std::optional{marked};
+        return marker.empty() ? std::nullopt : std::optional{markedOnsets};
     }
     std::string methodName() const; ///< "AV-FV-DRV", or "SV"
 
@@ -107,22 +108,22 @@ inline constexpr std::string_view recordingsHaveNoFrequency =
     "--remap: recordings have no frequency to be moved";
 inline constexpr std::string_view recordingsHaveNoWeight =
     "--perceived-level: recordings have no one frequency to be weighted by";
-/// Empty, or a usage error in one line for conflicting options on how a scene is rendered. Any thread
+/// Checks options on how a scene is rendered for conflicts: empty, or a usage error in one line. Any thread
 /// (allocates), as the next two.
-std::string sceneFault(const RenderJob& job);
+std::string sceneOptionsError(const RenderJob& job);
 
 /// Also checks the options on what is rendered.
-std::string renderInputFault(const RenderJob& job);
+std::string inputOptionsError(const RenderJob& job);
 
 /// Also checks the output options.
-std::string renderFault(const RenderJob& job);
+std::string renderOptionsError(const RenderJob& job);
 
 /// "12 pulses", or "12 pulses for 14 onsets: 2 came within 0.5 ms of another".
-inline std::string markWords(const OnsetMarks& marks) {
-    const std::string words = counted(marks.made(), "pulse");
-    if (marks.shared() == 0) return words;
-    return words + " for " + std::to_string(marks.made() + marks.shared()) +
-           " onsets: " + std::to_string(marks.shared()) + " came within 0.5 ms of another";
+inline std::string markSummary(const OnsetMarks& marks) {
+    const std::string words = counted(marks.pulses(), "pulse");
+    if (marks.sharedOnsets() == 0) return words;
+    return words + " for " + std::to_string(marks.pulses() + marks.sharedOnsets()) +
+           " onsets: " + std::to_string(marks.sharedOnsets()) + " came within 0.5 ms of another";
 }
 
 } // namespace physvib

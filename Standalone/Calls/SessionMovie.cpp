@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creates a movie of a session: first its events, then its samples, then the pictures.
+// Writes a movie of a session: computes first its events, then its samples, then the pictures.
 #include "Calls/MovieOutput.h"
 #include "Calls/RenderJob.h"
 #include "Io/Disk/FileClash.h"
@@ -17,7 +17,7 @@ constexpr int soundRateHz = 48'000, ears = 2;
 // shares of the total time, for the progress report; ffmpeg's own work follows, if there is sound
 constexpr double eventsShare = 0.1, samplesShare = 0.3, picturesShareBeforeFfmpeg = 0.8;
 
-/// Part of a session; its first frame is at session time `fromNs`.
+/// Part of a session from session time `fromNs` to `endNs`.
 struct MoviePart {
     std::int64_t fromNs, endNs;
     double seconds() const { return 1e-9 * static_cast<double>(endNs - fromNs); }
@@ -35,8 +35,8 @@ std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePar
     return events;
 }
 
-/// The controls of the part; the last field before it counts from its start.
-std::vector<RenderControl> controlsIn(const SavedSession& session, const MoviePart& part) {
+/// The controls of the part. Earlier ones that still apply, such as a layout, act at its start.
+std::vector<RenderControl> controlsOfPart(const SavedSession& session, const MoviePart& part) {
     auto controls = controlsOf(session.log, true, session.channels);
     std::erase_if(controls, [&](const RenderControl& control) {
         return control.kind == RenderControl::Kind::stopAll && control.timeNs < part.fromNs;
@@ -46,18 +46,19 @@ std::vector<RenderControl> controlsIn(const SavedSession& session, const MoviePa
     return controls;
 }
 
-/// What the monitor plays; false if cancelled.
-bool addSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
-              const std::vector<CollisionEvent>& hits, const std::function<bool()>& keepGoing) {
-    bool isWhole = true;
-    ContactAudioRender heard{soundRateHz, std::llround(part.seconds() * soundRateHz)};
-    heard.ears = ears;
-    heard.field = session.panner;
-    heard.levelDb = usualContactDb;
-    renderContactAudio(hits, controlsIn(session, part), heard, [&](const float* const* channels, int frames) {
-        return isWhole = movie.takeSound(channels, frames) && keepGoing();
-    });
-    return isWhole;
+/// Writes the sound that the mixer's monitor would play; false if cancelled.
+bool writeContactSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
+                       const std::vector<CollisionEvent>& hits, const std::function<bool()>& keepGoing) {
+    bool isComplete = true;
+    ContactAudioRender settings{soundRateHz, std::llround(part.seconds() * soundRateHz)};
+    settings.ears = ears;
+    settings.field = session.panner;
+    settings.levelDb = defaultContactDb;
+    renderContactAudio(hits, controlsOfPart(session, part), settings,
+                       [&](const float* const* channels, int frames) {
+                           return isComplete = movie.writeSound(channels, frames) && keepGoing();
+                       });
+    return isComplete;
 }
 
 } // namespace
@@ -66,9 +67,9 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
                               const std::string& path, const std::function<bool(double)>& progress) {
     const MoviePart part{std::max<std::int64_t>(0, session.lengthNs - std::llround(seconds * 1e9)),
                          session.lengthNs};
-    const auto loaded = loadRecordings(session.log);
-    if (!loaded) return loaded.error;
-    if (auto clash = fileClash({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
+    const auto recordings = loadRecordings(session.log);
+    if (!recordings) return recordings.error;
+    if (auto clash = fileClashError({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
     MovieOutput movie{path, soundRateHz, ears};
     if (!movie.error().empty()) return movie.error();
 
@@ -84,33 +85,34 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const SessionExtent extent{movieRateHz, 1e-9 * static_cast<double>(part.endNs), [&](double share) {
                                    return progress(eventsShare + (samplesShare - eventsShare) * share);
                                }};
-    if (!renderSession(session, loaded.value, extent,
+    if (!renderSession(session, recordings.value, extent,
                        [&](const float* const* block, int n) { return waveform.add(block, n), true; }))
         return "cancelled";
     if (movie.hasSound() &&
-        !addSound(movie, session, part, events, [&] { return keepGoing = progress(samplesShare); }) &&
+        !writeContactSound(movie, session, part, events,
+                           [&] { return keepGoing = progress(samplesShare); }) &&
         !keepGoing)
         return "cancelled";
 
-    const SceneRun& last = session.log.takes.back();
+    const SceneRun& lastRun = session.log.runs.back();
     PictureInput picture;
-    picture.title = last.scene->name;
-    picture.fieldWidthMetres = last.scene->fieldWidthMetres;
-    picture.fieldHeightMetres = last.scene->fieldHeightMetres;
-    const Scene whole = last.whole();
-    picture.scene = &whole;
+    picture.title = lastRun.scene->name;
+    picture.fieldWidthMetres = lastRun.scene->fieldWidthMetres;
+    picture.fieldHeightMetres = lastRun.scene->fieldHeightMetres;
+    const Scene fullScene = lastRun.fullScene();
+    picture.scene = &fullScene;
     picture.events = events;
     picture.layout = layout.geometry;
-    for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
+    for (const auto& actuator : layout.actuators) picture.labels.push_back(actuator.label);
     picture.waveform = &waveform;
     picture.sampleRateHz = movieRateHz;
     picture.durationSeconds = part.seconds();
-    const PoseSource bodies = [&](std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
-        followTakes(session.log.takes, session.run, part.fromNs, everyNs,
-                    std::min(part.endNs, part.fromNs + endNs),
-                    [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& poses) {
-                        return see(timeNs - part.fromNs, scene, poses);
-                    });
+    const PoseSource bodies = [&](std::int64_t everyNs, std::int64_t endNs, const RunPoseWatch& watch) {
+        followRuns(session.log.runs, session.run, part.fromNs, everyNs,
+                   std::min(part.endNs, part.fromNs + endNs),
+                   [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& poses) {
+                       return watch(timeNs - part.fromNs, scene, poses);
+                   });
     };
     const double drawnShare = movie.hasSound() ? picturesShareBeforeFfmpeg : 1.0;
     const std::string error = movie.draw(picture, bodies, [&](double share) {

@@ -10,16 +10,17 @@
 namespace physvib {
 
 struct Command {
-    const char *name, *meaning;
+    const char *name, *description;
     /// Adds options to the table; returns the function to run after parsing, which returns an exit code.
     std::function<std::function<int()>(OptionTable&)> declare;
 };
 
-/// Creates a command from a structure of options: `declare` adds them, and `run` receives them, after the
-/// parsed table if it has that parameter.
+/// Creates a command from a structure of options: `declare` adds them to the table, and `run` receives them
+/// (and the parsed table, if it has that parameter) and returns an exit code.
 template <class Options, class Run>
-Command commandOf(const char* name, const char* meaning, void (*declare)(OptionTable&, Options&), Run run) {
-    return {name, meaning, [=](OptionTable& table) -> std::function<int()> {
+Command makeCommand(const char* name, const char* description, void (*declare)(OptionTable&, Options&),
+                    Run run) {
+    return {name, description, [=](OptionTable& table) -> std::function<int()> {
                 const auto options = std::make_shared<Options>();
                 declare(table, *options);
                 if constexpr (std::is_invocable_v<Run, Options&>)

@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// Available devices in the system's order. Message thread; queries the system.
-inline std::vector<AudioDeviceName> devicesOfThisMachine() { return listAudioDevices(systemAudioDrivers); }
+inline std::vector<AudioDeviceName> availableDevices() { return listAudioDevices(systemAudioDrivers); }
 
 /// One line per device: the name for --device, and its number of outputs.
 inline void printDevices(std::ostream& out, const std::vector<AudioDeviceName>& devices) {
@@ -25,7 +25,7 @@ inline void printDevices(std::ostream& out, const std::vector<AudioDeviceName>& 
 
 /// A call of `play` with the first device that has four outputs, else with the device with most outputs, and
 /// a layout that fits it.
-inline std::string proposedCall(const std::string& scene, const std::vector<AudioDeviceName>& devices) {
+inline std::string suggestedPlayCall(const std::string& scene, const std::vector<AudioDeviceName>& devices) {
     const AudioDeviceName* best = nullptr;
     for (const auto& device : devices)
         if (best == nullptr || (best->channels < 4 && device.channels > best->channels)) best = &device;
@@ -42,26 +42,26 @@ inline std::string proposedCall(const std::string& scene, const std::vector<Audi
 /// Name for --device that selects it with any driver.
 inline constexpr const char* dualSenseDeviceName = "dualsense";
 
-/// "type:name" of the first one with four outputs; or one line if there is none, or if its system profile
-/// hides two outputs. Message thread.
+/// "type:name" of the first DualSense with four outputs; or one error line if there is none, or if its system
+/// profile hides two outputs. Message thread.
 inline Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& devices) {
-    std::string narrow;
+    std::string reason;
     for (const AudioDeviceName& device : devices) {
         if (!dualsense::isDevice(device.name)) continue;
         if (device.channels >= dualsense::outputs) return device.type + ":" + device.name;
-        narrow = device.type + ":" + device.name + ": expected four outputs, found " +
+        reason = device.type + ":" + device.name + ": expected four outputs, found " +
                  std::to_string(device.channels) + ": its profile hides the coils (Docs/pads.md)";
     }
-    return Failure{narrow.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one "
+    return Failure{reason.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one "
                                     "by USB; by Bluetooth: --device DUALSENSE:auto"
-                                  : narrow};
+                                  : reason};
 }
 
 /// Sends the report that switches the coils to audio; empty, or one error line. Coils are in audio mode from
 /// connection until the first rumble command. Message thread; waits at most half a second for the controller.
-inline std::string giveCoilsToSound() {
+inline std::string switchCoilsToAudio() {
     GamePads pads{GamePads::Driver::sdl};
-    if (!pads.fault().empty()) return pads.fault();
+    if (!pads.error().empty()) return pads.error();
     constexpr auto report = dualsense::coilsToSound();
     for (int i = 0; i < 50; ++i) {
         pads.update();

@@ -40,13 +40,13 @@ int listActuators() {
 }
 
 int listDevices() {
-    printDevices(std::cout, devicesOfThisMachine());
+    printDevices(std::cout, availableDevices());
     for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
     return exitDone;
 }
 
-Command listOf(const char* name, const char* meaning, int (*list)()) {
-    return {name, meaning, [list](OptionTable&) { return list; }};
+Command listOf(const char* name, const char* description, int (*list)()) {
+    return {name, description, [list](OptionTable&) { return list; }};
 }
 
 } // namespace

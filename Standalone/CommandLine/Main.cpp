@@ -28,11 +28,11 @@ constexpr Command (*commands[])() = {
 
 int writeOwnReference(const OptionTable& app, const char* folder) {
     const std::string error = writeReference(app, folder);
-    return error.empty() ? exitDone : leave(exitFailed, error);
+    return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
-/// Where tests over participants are, for who calls them as analyses; empty for other calls.
-std::string goneAnalysis(int argc, char** argv) {
+/// If the call names a statistical test as an analysis: an error that says how it is run in R; else empty.
+std::string movedAnalysisError(int argc, char** argv) {
     constexpr std::string_view tests[] = {"anova",          "friedman", "wilcoxon", "mann-whitney",
                                           "kruskal-wallis", "shapiro",  "pairs"};
     if (argc < 3 || std::string_view{argv[1]} != "analyse" ||
@@ -46,26 +46,27 @@ std::string goneAnalysis(int argc, char** argv) {
 int run(int argc, char** argv) {
     OptionTable app{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
     app.addVersion("physvib " PHYSVIB_VERSION);
-    std::map<const OptionTable*, std::function<int()>> runs;
-    const bool isReference = argc == 3 && std::string_view{argv[1]} == referenceWord;
-    for (const auto make : commands) {
-        const Command command = make();
-        OptionTable& table = app.addCommand(command.name, command.meaning);
-        // the options of the others would cost more than many a call
-        if (isReference || std::find(argv, argv + argc, std::string_view{command.name}) != argv + argc)
-            runs[&table] = command.declare(table);
+    std::map<const OptionTable*, std::function<int()>> runFunctions;
+    const bool writesReference = argc == 3 && std::string_view{argv[1]} == referenceWord;
+    for (const auto factory : commands) {
+        const Command command = factory();
+        OptionTable& table = app.addCommand(command.name, command.description);
+        // declaring the options of all commands would take longer than many calls
+        if (writesReference || std::find(argv, argv + argc, std::string_view{command.name}) != argv + argc)
+            runFunctions[&table] = command.declare(table);
     }
-    if (isReference) return writeOwnReference(app, argv[2]);
-    const ParsedWords parsed = parseArguments(app, argc, argv);
+    if (writesReference) return writeOwnReference(app, argv[2]);
+    const ParseResult parsed = parseArguments(app, argc, argv);
     if (!parsed.help.empty()) {
         std::cout << parsed.help;
         return exitDone;
     }
-    if (const std::string gone = goneAnalysis(argc, argv); !parsed.fault.empty() && !gone.empty())
-        return leave(exitUsage, gone);
-    if (!parsed.fault.empty()) return leave(exitUsage, parsed.reason() + " (see physvib --help)");
-    if (const std::string clash = clashOfCall(app); !clash.empty()) return leave(exitUsage, clash);
-    return runs.at(app.called())();
+    if (const std::string movedError = movedAnalysisError(argc, argv);
+        !parsed.error.empty() && !movedError.empty())
+        return reportExit(exitUsage, movedError);
+    if (!parsed.error.empty()) return reportExit(exitUsage, parsed.reason() + " (see physvib --help)");
+    if (const std::string clash = callFileClash(app); !clash.empty()) return reportExit(exitUsage, clash);
+    return runFunctions.at(app.called())();
 }
 
 } // namespace
@@ -78,13 +79,13 @@ int main(int argc, char** argv) {
     try {
         code = run(argc, argv);
     } catch (const std::bad_alloc&) {
-        leave(exitFailed, "memory: expected more of it");
+        reportExit(exitFailed, "memory: expected more of it");
     } catch (const std::exception& error) { // such as a full disk reported by a library
-        leave(exitFailed, error.what());
+        reportExit(exitFailed, error.what());
     }
-    const std::string fault = outputFault();
-    if (!fault.empty() && code == exitDone) code = leave(exitFailed, fault);
-    endOutput();
-    if (DeviceThread::threadsLeft() > 0) endAtOnce(code);
+    const std::string error = outputError();
+    if (!error.empty() && code == exitDone) code = reportExit(exitFailed, error);
+    endNonBlockingOutput();
+    if (DeviceThread::abandonedThreads() > 0) exitImmediately(code);
     return code;
 }

@@ -27,7 +27,7 @@ juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option
     return at < 0 ? juce::String{} : arguments[at + 1].text;
 }
 
-StudyCall studyCallOf(const juce::ArgumentList& arguments) {
+StudySelection studyCallOf(const juce::ArgumentList& arguments) {
     return {valueOf(arguments, "--study"), valueOf(arguments, "--participant"),
             valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
 }
@@ -56,12 +56,12 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
 }
 
 void summarise(MixerModel& model) {
-    const auto moment = model.look();
+    const auto moment = model.poll();
     const auto& r = moment.session.render;
     std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1)
               << " s: " << r.played << " collisions rendered, " << r.late << " late, "
-              << model.session().world().drops() + r.untold << " dropped, "
-              << number(1e-6 * static_cast<double>(model.session().world().slippedNs()), 0)
+              << model.session().world().drops() + r.unsent << " dropped, "
+              << number(1e-6 * static_cast<double>(model.session().world().stalledNs()), 0)
               << " ms of stalls; worst load " << number(100.0 * moment.device.worstLoad, 1) << " %"
               << std::endl;
 }
@@ -78,9 +78,9 @@ public:
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
         const auto device = valueOf(arguments, "--device");
         hasSummary_ = arguments.containsOption("--summary");
-        window_ = std::make_unique<MixerWindow>(withNoDevice(hostAudioDrivers), device, fileOf(arguments));
+        window_ = std::make_unique<MixerWindow>(withNullDevice(hostAudioDrivers), device, fileOf(arguments));
         if (arguments.containsOption("--study")) window_->view().chooseStudy(studyCallOf(arguments));
-        heedInterrupts();
+        installInterruptHandlers();
         startTimer(milliseconds);
     }
     void shutdown() override {
@@ -112,13 +112,13 @@ int main(int argc, char* argv[]) {
         const juce::ArgumentList arguments{argc, argv};
         const juce::ScopedJuceInitialiser_GUI juce;
         if (const auto code = physvib::runWithoutWindow(arguments)) {
-            const std::string fault = physvib::outputFault();
+            const std::string fault = physvib::outputError();
             if (fault.empty() || *code != 0) return *code;
             return std::cerr << "physvib-mixer: " << fault << '\n', physvib::exitFailed;
         }
     }
     juce::JUCEApplicationBase::createInstance = physvib::makeApplication;
     const int code = juce::JUCEApplicationBase::main(argc, const_cast<const char**>(argv));
-    if (physvib::DeviceThread::threadsLeft() > 0) physvib::endAtOnce(code);
+    if (physvib::DeviceThread::abandonedThreads() > 0) physvib::exitImmediately(code);
     return code;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creates option entries with defaults from the type of their target, or from a usage text.
+// Creates option entries: their type and default come from the target, or all comes from a usage text.
 #include "Options/OptionTable.h"
 #include "Io/Text/NameList.h"
 #include "Scene/SceneFile.h"
@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 template <class T>
-std::string typeOf(const T*) {
+std::string typeNameOf(const T*) {
     if constexpr (std::is_same_v<T, bool>)
         return {};
     else if constexpr (std::is_floating_point_v<T>)
@@ -23,7 +23,7 @@ std::string typeOf(const T*) {
 }
 
 template <class T>
-std::string initialOf(const T* target) {
+std::string defaultTextOf(const T* target) {
     if constexpr (std::is_same_v<T, std::string>) return *target;
     if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool>)
         return {};
@@ -42,7 +42,7 @@ std::string braced(const std::vector<std::string>& words) { return '{' + joined(
 
 std::vector<std::string> sceneNames() {
     std::vector<std::string> names;
-    for (const EmbeddedFile& file : embeddedScenes()) // parsing them takes longer than many a call
+    for (const EmbeddedFile& file : embeddedScenes()) // reading the scenes would take too long
         names.emplace_back(file.name.substr(0, file.name.rfind('.')));
     return names;
 }
@@ -58,64 +58,64 @@ Option& Option::oneOf(std::vector<std::string> words) {
 
 Option& Option::numbered(std::vector<std::pair<std::string, int>> words) {
     std::ranges::sort(words);
-    std::vector<std::string> shown, bare;
+    std::vector<std::string> shown, numberTexts;
     for (const auto& [word, number] : words) {
         choices.push_back(word);
-        bare.push_back(std::to_string(number));
-        shown.push_back(word + "->" + bare.back());
+        numberTexts.push_back(std::to_string(number));
+        shown.push_back(word + "->" + numberTexts.back());
     }
-    range = "value in " + braced(shown) + " OR " + braced(bare);
+    range = "value in " + braced(shown) + " OR " + braced(numberTexts);
     numbers = std::move(words);
     check = Check::number;
     return *this;
 }
 
-Option& Option::inRange(double least, double most, std::string words) {
-    low = least;
-    high = most;
-    range = std::move(words);
+Option& Option::inRange(double min, double max, std::string rangeText) {
+    minValue = min;
+    maxValue = max;
+    range = std::move(rangeText);
     check = Check::range;
     const auto isOutside = [&](auto into) {
         if constexpr (std::is_pointer_v<decltype(into)>)
             if constexpr (std::is_arithmetic_v<std::remove_pointer_t<decltype(into)>>)
-                return static_cast<double>(*into) < least;
+                return static_cast<double>(*into) < min;
         return false;
     };
-    return std::visit(isOutside, target) ? unshown() : *this;
+    return std::visit(isOutside, target) ? hideDefault() : *this;
 }
 
-OptionTable::OptionTable(std::string calledBy, std::string says)
-    : words{std::move(calledBy)}
-    , meaning{std::move(says)} {
+OptionTable::OptionTable(std::string callWords, std::string help)
+    : words{std::move(callWords)}
+    , meaning{std::move(help)} {
     addRow("-h,--help", {}, "Print this help message and exit");
 }
 
-Option& OptionTable::addRow(const std::string& names, OptionTarget target, std::string says) {
-    Option& made = options.emplace_back();
-    made.spellings = split(names);
-    made.isPlace = !names.starts_with('-');
-    made.meaning = std::move(says);
-    if (made.isPlace && names == "scene") made.choices = sceneNames();
+Option& OptionTable::addRow(const std::string& names, OptionTarget target, std::string help) {
+    Option& option = options.emplace_back();
+    option.spellings = split(names);
+    option.isPositional = !names.starts_with('-');
+    option.meaning = std::move(help);
+    if (option.isPositional && names == "scene") option.choices = sceneNames();
     const auto describe = [&](auto into) {
         if constexpr (std::is_pointer_v<decltype(into)>) {
-            made.type = typeOf(into);
-            made.initial = initialOf(into);
+            option.type = typeNameOf(into);
+            option.initial = defaultTextOf(into);
         }
     };
     std::visit(describe, target);
-    made.target = std::move(target);
-    return made;
+    option.target = std::move(target);
+    return option;
 }
 
 Option& OptionTable::addRead(const std::string& names, std::string initial, WordReader reader,
-                             std::string says) {
-    Option& made = addRow(names, std::move(reader), std::move(says)).as("TEXT");
-    made.initial = std::move(initial);
-    return made;
+                             std::string help) {
+    Option& option = addRow(names, std::move(reader), std::move(help)).as("TEXT");
+    option.initial = std::move(initial);
+    return option;
 }
 
-OptionTable& OptionTable::addCommand(const std::string& name, std::string says) {
-    return commands.emplace_back(words + ' ' + name, std::move(says));
+OptionTable& OptionTable::addCommand(const std::string& name, std::string help) {
+    return commands.emplace_back(words + ' ' + name, std::move(help));
 }
 
 void OptionTable::addVersion(std::string answer) {

@@ -14,11 +14,11 @@ namespace physvib {
 namespace {
 
 /// Range check that rejects "nan", which CLI11's own checks accept, and whose message has the expected range.
-template <class T, class Fits>
-CLI::Validator numberThat(Fits fits, const std::string& expected, const std::string& shown) {
+template <class T, class IsValid>
+CLI::Validator numberCheck(IsValid isValid, const std::string& expected, const std::string& shown) {
     return {[=](std::string& text) {
                 T value{};
-                return CLI::detail::lexical_cast(text, value) && fits(value)
+                return CLI::detail::lexical_cast(text, value) && isValid(value)
                            ? std::string{}
                            : "expected " + expected + ", found \"" + text + "\"";
             },
@@ -26,35 +26,35 @@ CLI::Validator numberThat(Fits fits, const std::string& expected, const std::str
 }
 
 template <class T>
-CLI::Validator rangeOf(const Option& row) {
-    return numberThat<T>(
-        [low = row.low, high = row.high](T value) {
-            return static_cast<double>(value) >= low && static_cast<double>(value) <= high;
+CLI::Validator rangeCheck(const Option& row) {
+    return numberCheck<T>(
+        [minValue = row.minValue, maxValue = row.maxValue](T value) {
+            return static_cast<double>(value) >= minValue && static_cast<double>(value) <= maxValue;
         },
         row.range, row.range);
 }
 
-CLI::Validator rangeOf(const Option& row) {
+CLI::Validator rangeCheck(const Option& row) {
     if (std::holds_alternative<int*>(row.target) || std::holds_alternative<std::optional<int>*>(row.target))
-        return rangeOf<int>(row);
-    if (std::holds_alternative<std::uint32_t*>(row.target)) return rangeOf<std::uint32_t>(row);
-    return std::holds_alternative<std::size_t*>(row.target) ? rangeOf<std::size_t>(row)
-                                                            : rangeOf<double>(row);
+        return rangeCheck<int>(row);
+    if (std::holds_alternative<std::uint32_t*>(row.target)) return rangeCheck<std::uint32_t>(row);
+    return std::holds_alternative<std::size_t*>(row.target) ? rangeCheck<std::size_t>(row)
+                                                            : rangeCheck<double>(row);
 }
 
-std::function<std::string(const std::string&)> endingOf(const Option& row) {
+std::function<std::string(const std::string&)> endingCheck(const Option& row) {
     return [ending = row.type.substr(row.type.rfind('.'))](const std::string& path) {
-        return endingFault(path, {ending});
+        return fileExtensionError(path, {ending});
     };
 }
 
 void check(CLI::Option& option, const Option& row) {
     switch (row.check) {
     case Option::Check::none: return;
-    case Option::Check::range: option.check(rangeOf(row)); return;
+    case Option::Check::range: option.check(rangeCheck(row)); return;
     case Option::Check::positive:
-        option.check(numberThat<double>([](double value) { return value > 0.0 && std::isfinite(value); },
-                                        "more than 0", row.range));
+        option.check(numberCheck<double>([](double value) { return value > 0.0 && std::isfinite(value); },
+                                         "more than 0", row.range));
         return;
     case Option::Check::choice: option.check(CLI::IsMember(row.choices)); return;
     case Option::Check::number:
@@ -62,21 +62,21 @@ void check(CLI::Option& option, const Option& row) {
             CLI::CheckedTransformer(std::map<std::string, int>(row.numbers.begin(), row.numbers.end())));
         return;
     case Option::Check::folder: option.check(CLI::ExistingDirectory); return;
-    case Option::Check::ending: option.check(endingOf(row), ""); return;
+    case Option::Check::ending: option.check(endingCheck(row), ""); return;
     }
 }
 
 template <class Words, class Reader>
 CLI::Option* declareReader(CLI::App& app, const Option& row, const Reader& read) {
-    const auto take = [name = row.spellings.front(), read](const Words& words) {
-        if (const std::string fault = read(words); !fault.empty()) throw CLI::ValidationError(name, fault);
+    const auto readWords = [name = row.spellings.front(), read](const Words& words) {
+        if (const std::string error = read(words); !error.empty()) throw CLI::ValidationError(name, error);
     };
-    return app.add_option_function<Words>(joined(row.spellings, ","), take, row.meaning);
+    return app.add_option_function<Words>(joined(row.spellings, ","), readWords, row.meaning);
 }
 
 /// Declares the option; null for options that CLI11 provides itself.
 CLI::Option* declare(CLI::App& app, const Option& row) {
-    const auto make = [&](const auto& target) -> CLI::Option* {
+    const auto declareAs = [&](const auto& target) -> CLI::Option* {
         using Target = std::decay_t<decltype(target)>;
         if constexpr (std::is_same_v<Target, std::monostate>)
             return nullptr;
@@ -91,18 +91,18 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
         else
             return app.add_option(joined(row.spellings, ","), *target, row.meaning);
     };
-    CLI::Option* const option = std::visit(make, row.target);
+    CLI::Option* const option = std::visit(declareAs, row.target);
     if (!option) return nullptr;
     check(*option, row);
     if (!std::holds_alternative<bool*>(row.target)) option->type_name(row.type)->default_str(row.initial);
     if (row.isRequired) option->required();
     if (row.isSingle) option->allow_extra_args(false);
-    if (row.mostListed > 0) option->delimiter(',')->expected(1, row.mostListed);
+    if (row.maxValues > 0) option->delimiter(',')->expected(1, row.maxValues);
     if (!row.group.empty()) option->group(row.group);
     return option;
 }
 
-/// A table with its CLI11 options.
+/// Declares a table and its commands in CLI11, parses a call, and stores the arguments in the table.
 class Parser {
 public:
     Parser(CLI::App& app, OptionTable& table)
@@ -120,29 +120,29 @@ public:
     }
 
     template <class... Words>
-    ParsedWords parse(Words... words) {
+    ParseResult parse(Words... words) {
         try {
             app_.parse(words...);
         } catch (const CLI::ParseError& error) {
-            std::ostringstream said;
-            if (error.get_exit_code() == 0) app_.exit(error, said, said); // --help, --version
+            std::ostringstream output;
+            if (error.get_exit_code() == 0) app_.exit(error, output, output); // --help, --version
             const auto unknown = app_.remaining();
-            return {error.what(), unknown.empty() ? std::string{} : unknown.front(), said.str()};
+            return {error.what(), unknown.empty() ? std::string{} : unknown.front(), output.str()};
         }
-        take();
+        storeArguments();
         return {};
     }
     void warn() const {
         for (const auto& [option, row] : options_)
-            if (!row->said.empty() && !row->instead.empty())
-                std::cerr << row->spellings.front() << " is deprecated: " << row->instead << '\n';
+            if (!row->arguments.empty() && !row->replacement.empty())
+                std::cerr << row->spellings.front() << " is deprecated: " << row->replacement << '\n';
         for (const Parser& inner : commands_) inner.warn();
     }
 
 private:
-    void take() {
-        for (const auto& [option, row] : options_) row->said = option->results();
-        for (Parser& inner : commands_) inner.take();
+    void storeArguments() {
+        for (const auto& [option, row] : options_) row->arguments = option->results();
+        for (Parser& inner : commands_) inner.storeArguments();
         table_.calls.clear();
         for (const CLI::App* called : app_.get_subcommands())
             for (const Parser& inner : commands_)
@@ -157,15 +157,15 @@ private:
 
 } // namespace
 
-ParsedWords parseArguments(OptionTable& table, int argc, char** argv) {
+ParseResult parseArguments(OptionTable& table, int argc, char** argv) {
     CLI::App app{table.meaning};
     Parser parser{app, table};
-    const ParsedWords parsed = parser.parse(argc, argv);
+    const ParseResult parsed = parser.parse(argc, argv);
     parser.warn();
     return parsed;
 }
 
-ParsedWords parseText(OptionTable& table, const std::string& call) {
+ParseResult parseText(OptionTable& table, const std::string& call) {
     CLI::App app;
     return Parser{app, table}.parse(call, false);
 }

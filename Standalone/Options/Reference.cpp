@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the reference of a program for installation: manual pages and completions for bash, zsh and fish.
+// Writes the reference of a program for installation: a page in Markdown, manual pages in roff, and
+// completions for bash, zsh and fish.
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
 #include "Options/OptionTable.h"
@@ -24,7 +25,7 @@ std::string tableCell(std::string_view text) {
 
 std::string asCode(const std::string& text) { return text.empty() ? text : '`' + tableCell(text) + '`'; }
 
-std::string spelt(const Option& option) {
+std::string spellingList(const Option& option) {
     std::string out;
     for (const std::string& spelling : option.spellings) out += (out.empty() ? "" : ", ") + asCode(spelling);
     return out;
@@ -34,56 +35,57 @@ bool isListed(const Option& option) {
     return !option.meaning.empty() && std::ranges::find(option.spellings, "--help") == option.spellings.end();
 }
 
-/// Rows of tables that were written, and the command of each.
+/// Table rows that were written, each with the first command that has it.
 using WrittenRows = std::map<std::string, std::string>;
 
-void writeOptionTable(std::ostream& out, const OptionTable& command, WrittenRows& written) {
+void writeOptionTable(std::ostream& out, const OptionTable& command, WrittenRows& writtenRows) {
     std::string table;
-    std::map<std::string, std::string> again; // by the command that has them in its table
+    std::map<std::string, std::string> repeatedOptions; // by the command whose table has them
     for (const Option& option : command.options) {
         if (!isListed(option)) continue;
-        const std::string row = "| " + spelt(option) + " | " +
-                                asCode(option.isPlace ? option.range : option.value()) + " | " +
+        const std::string row = "| " + spellingList(option) + " | " +
+                                asCode(option.isPositional ? option.range : option.value()) + " | " +
                                 asCode(option.initial) + " | " + tableCell(option.meaning) +
                                 (option.isRequired ? " (required) |\n" : " |\n");
-        const auto [before, isNew] = written.emplace(row, command.words);
+        const auto [firstUse, isNew] = writtenRows.emplace(row, command.words);
         if (isNew)
             table += row;
         else
-            again[before->second] += (again[before->second].empty() ? "" : ", ") + spelt(option);
+            repeatedOptions[firstUse->second] +=
+                (repeatedOptions[firstUse->second].empty() ? "" : ", ") + spellingList(option);
     }
     if (!table.empty())
         out << "\n| option | value | default | meaning |\n| --- | --- | --- | --- |\n" << table;
-    for (const auto& [other, names] : again) out << "\nAs `" << other << "`: " << names << ".\n";
+    for (const auto& [other, names] : repeatedOptions) out << "\nAs `" << other << "`: " << names << ".\n";
 }
 
 void writeSection(std::ostream& out, const OptionTable& command, const std::string& heading,
-                  WrittenRows& written) {
+                  WrittenRows& writtenRows) {
     std::string sentence = command.meaning + '.';
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
     out << '\n' << heading << " `" << command.words << '`';
     if (!command.alias.empty()) out << ", `" << command.alias << '`';
     out << '\n' << sentence << '\n';
-    writeOptionTable(out, command, written);
-    for (const OptionTable& inner : command.commands) writeSection(out, inner, heading + '#', written);
+    writeOptionTable(out, command, writtenRows);
+    for (const OptionTable& inner : command.commands) writeSection(out, inner, heading + '#', writtenRows);
 }
 
 /// Markdown with a table of options for each command of a program. Message thread.
 std::string markdownPage(const OptionTable& program) {
     std::ostringstream out;
-    WrittenRows written;
+    WrittenRows writtenRows;
     out << "<!-- SPDX-License-Identifier: MIT -->\n<!-- Generated: " << program.words
         << " --reference FOLDER, and FOLDER/md/" << program.words << ".md -->\n# Commands and options\n\n"
         << "Every command of `" << program.words << "` with its options. `" << program.words
         << " COMMAND --help` and `man " << program.words
         << "-COMMAND` print the same. Options of ranges refuse other values.\n";
-    writeOptionTable(out, program, written);
-    for (const OptionTable& command : program.commands) writeSection(out, command, "##", written);
+    writeOptionTable(out, program, writtenRows);
+    for (const OptionTable& command : program.commands) writeSection(out, command, "##", writtenRows);
     return out.str();
 }
 
 /// Escapes text for man: hyphens can be copied, and no line is read as a request.
-std::string shown(std::string_view text) {
+std::string manText(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '\\')
@@ -98,7 +100,7 @@ std::string shown(std::string_view text) {
     return out;
 }
 
-std::string capitals(std::string text) {
+std::string upperCase(std::string text) {
     std::ranges::transform(text, text.begin(), [](char c) {
         return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     });
@@ -106,28 +108,28 @@ std::string capitals(std::string text) {
 }
 
 void writeOption(std::ostream& out, const Option& option) {
-    const std::string name = shown(joined(option.spellings, ", "));
-    out << ".TP\n" << (option.isPlace ? "\\fI" : "\\fB") << name << "\\fR";
-    if (!option.value().empty() && !option.isPlace) out << " \\fI" << shown(option.value()) << "\\fR";
-    if (!option.initial.empty()) out << " (" << shown(option.initial) << ')';
-    out << '\n' << shown(option.meaning) << '\n';
+    const std::string name = manText(joined(option.spellings, ", "));
+    out << ".TP\n" << (option.isPositional ? "\\fI" : "\\fB") << name << "\\fR";
+    if (!option.value().empty() && !option.isPositional) out << " \\fI" << manText(option.value()) << "\\fR";
+    if (!option.initial.empty()) out << " (" << manText(option.initial) << ')';
+    out << '\n' << manText(option.meaning) << '\n';
 }
 
-void writeInCall(std::ostream& out, const Option& option) {
-    const std::string name = shown(option.spellings.back());
+void writeCallOption(std::ostream& out, const Option& option) {
+    const std::string name = manText(option.spellings.back());
     out << (option.isRequired ? " " : " [")
-        << (option.isPlace ? "\\fI" + name : "\\fB" + name + "\\fR \\fI" + shown(option.value()))
+        << (option.isPositional ? "\\fI" + name : "\\fB" + name + "\\fR \\fI" + manText(option.value()))
         << (option.isRequired ? "\\fR" : "\\fR]");
 }
 
 void writeCall(std::ostream& out, const OptionTable& command) {
     if (!command.usage.empty()) {
-        out << ".nf\n" << shown(command.usage) << ".fi\n";
+        out << ".nf\n" << manText(command.usage) << ".fi\n";
         return;
     }
-    out << "\\fB" << shown(command.words) << "\\fR [\\fIoptions\\fR]";
+    out << "\\fB" << manText(command.words) << "\\fR [\\fIoptions\\fR]";
     for (const Option& option : command.options)
-        if (option.isPlace || option.isRequired) writeInCall(out, option);
+        if (option.isPositional || option.isRequired) writeCallOption(out, option);
     out << (command.commands.empty() ? "\n" : " \\fIcommand\\fR ...\n");
 }
 
@@ -143,17 +145,17 @@ std::string pageName(const OptionTable& command) {
     return name;
 }
 
-/// Commands of a program have pages of their own; subcommands are on the page of their command.
+/// Writes the commands of a program as a list, because each has its own page; subcommands in full.
 void writeCommands(std::ostream& out, const OptionTable& command) {
     if (command.commands.empty()) return;
     const bool isProgram = command.words.find(' ') == std::string::npos;
     out << ".SH COMMANDS\n";
     for (const OptionTable& inner : command.commands) {
         if (isProgram) {
-            out << ".TP\n\\fB" << shown(pageName(inner)) << "\\fR(1)\n" << shown(inner.meaning) << '\n';
+            out << ".TP\n\\fB" << manText(pageName(inner)) << "\\fR(1)\n" << manText(inner.meaning) << '\n';
             continue;
         }
-        out << ".SS " << shown(inner.words) << '\n' << shown(inner.meaning) << "\n.PP\n";
+        out << ".SS " << manText(inner.words) << '\n' << manText(inner.meaning) << "\n.PP\n";
         writeCall(out, inner);
         writeOptions(out, inner);
     }
@@ -201,12 +203,12 @@ std::string_view descriptionOf(std::string_view page) {
 /// A manual page in roff, with the options of the command and its subcommands. `pages` are listed at the end.
 std::string manPage(const OptionTable& command, const std::vector<std::string>& pages) {
     std::ostringstream out;
-    out << ".TH " << shown(capitals(pageName(command))) << " 1 \"\" \"PhysVib " << PHYSVIB_VERSION
+    out << ".TH " << manText(upperCase(pageName(command))) << " 1 \"\" \"PhysVib " << PHYSVIB_VERSION
         << "\" \"PhysVib\"\n.SH NAME\n"
-        << shown(pageName(command)) << " \\- " << shown(command.meaning) << "\n.SH SYNOPSIS\n";
+        << manText(pageName(command)) << " \\- " << manText(command.meaning) << "\n.SH SYNOPSIS\n";
     writeCall(out, command);
     if (const auto text = descriptionOf(pageName(command)); !text.empty())
-        out << ".SH DESCRIPTION\n" << shown(text) << '\n';
+        out << ".SH DESCRIPTION\n" << manText(text) << '\n';
     if (std::ranges::any_of(command.options, [](const auto& option) { return !option.meaning.empty(); }))
         out << ".SH OPTIONS\n";
     writeOptions(out, command);
@@ -216,20 +218,20 @@ std::string manPage(const OptionTable& command, const std::vector<std::string>& 
     std::string others;
     for (const std::string& page : pages)
         if (page != pageName(command))
-            others += (others.empty() ? "\\fB" : ", \\fB") + shown(page) + "\\fR(1)";
+            others += (others.empty() ? "\\fB" : ", \\fB") + manText(page) + "\\fR(1)";
     out << others << (others.empty() ? "" : ".\n.br\n")
         << "The pages in \\fI/usr/share/doc/physvib/Docs\\fR.\n";
     return out.str();
 }
 
-// Completion scripts for bash, zsh and fish; values without a list complete to files. The bash and zsh
-// scripts determine the command from the words typed so far.
+// Completion scripts for bash, zsh and fish. Values without choices complete to file names. The bash and zsh
+// scripts find the command among the words typed so far.
 
-using Visit = std::function<void(const OptionTable&)>;
+using CommandVisitor = std::function<void(const OptionTable&)>;
 
-void each(const OptionTable& command, const Visit& visit) {
+void forEachCommand(const OptionTable& command, const CommandVisitor& visit) {
     visit(command);
-    for (const OptionTable& inner : command.commands) each(inner, visit);
+    for (const OptionTable& inner : command.commands) forEachCommand(inner, visit);
 }
 
 std::string bracketed(const std::vector<std::string>& words) { return '(' + joined(words, " ") + ')'; }
@@ -250,13 +252,13 @@ std::string functionOf(const OptionTable& program) {
 /// "physvib render"|"physvib play": a pattern of all calls of commands.
 std::string allCalls(const OptionTable& program) {
     std::string calls;
-    each(program, [&](const OptionTable& command) {
+    forEachCommand(program, [&](const OptionTable& command) {
         if (&command != &program) (calls += calls.empty() ? "" : "|") += shellWord(command.words);
     });
     return calls.empty() ? "''" : calls;
 }
 
-void heading(std::ostream& out, const OptionTable& program) {
+void writeHeading(std::ostream& out, const OptionTable& program) {
     out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n";
 }
 
@@ -274,11 +276,11 @@ std::string zshOption(const Option& option, const std::string& spelling) {
     return shellWord(text);
 }
 
-std::string zshPlace(const OptionTable& command) {
+std::string zshArguments(const OptionTable& command) {
     if (!command.commands.empty())
         return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
     for (const Option& option : command.options)
-        if (option.isPlace && !option.choices.empty())
+        if (option.isPositional && !option.choices.empty())
             return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) +
                              "\" \"f: :_files\"}");
     return "'*: :_files'";
@@ -300,14 +302,14 @@ std::string fishCondition(const OptionTable& program, const OptionTable& command
 
 std::string fishOption(const Option& option) {
     std::string words;
-    if (!option.isPlace)
+    if (!option.isPositional)
         for (const std::string& name : option.spellings)
             words += name.starts_with("--") ? std::string{" -l "}.append(name, 2)
                                             : std::string{" -s "}.append(name, 1);
     if (!option.choices.empty())
-        words +=
-            std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joined(option.choices, " ")));
-    else if (!option.isPlace && !option.value().empty())
+        words += std::string{option.isPositional ? " -a " : " -x -a "}.append(
+            shellWord(joined(option.choices, " ")));
+    else if (!option.isPositional && !option.value().empty())
         words += " -r";
     if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
     return words;
@@ -315,16 +317,16 @@ std::string fishOption(const Option& option) {
 
 std::string bashCompletion(const OptionTable& program) {
     std::ostringstream out;
-    heading(out, program);
+    writeHeading(out, program);
     out << functionOf(program) << "() {\n    local word call=" << program.words << " choices=\n"
         << "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
         << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in "
         << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
         << "    case \"$call $previous\" in\n";
-    each(program, [&](const OptionTable& command) {
+    forEachCommand(program, [&](const OptionTable& command) {
         for (const Option& option : command.options)
             for (const std::string& name : option.spellings)
-                if (!option.isPlace && !option.value().empty())
+                if (!option.isPositional && !option.value().empty())
                     out << "        " << shellWord(command.words + ' ' + name) << ") "
                         << (option.choices.empty()
                                 ? "return"
@@ -332,10 +334,10 @@ std::string bashCompletion(const OptionTable& program) {
                         << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
-    each(program, [&](const OptionTable& command) {
+    forEachCommand(program, [&](const OptionTable& command) {
         std::vector<std::string> words = namesWithin(command);
         for (const Option& option : command.options) {
-            const auto& more = option.isPlace ? option.choices : option.spellings;
+            const auto& more = option.isPositional ? option.choices : option.spellings;
             words.insert(words.end(), more.begin(), more.end());
         }
         out << "        " << shellWord(command.words) << ") choices=" << shellWord(joined(words, " "))
@@ -349,26 +351,26 @@ std::string bashCompletion(const OptionTable& program) {
 std::string zshCompletion(const OptionTable& program) {
     std::ostringstream out;
     out << "#compdef " << program.words << '\n';
-    heading(out, program);
+    writeHeading(out, program);
     out << "local word call=" << program.words
         << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
         << ") call=\"$call $word\" ;; esac\ndone\ncase $call in\n";
-    each(program, [&](const OptionTable& command) {
+    forEachCommand(program, [&](const OptionTable& command) {
         out << "    (" << shellWord(command.words) << ") _arguments";
         for (const Option& option : command.options)
             for (const std::string& name : option.spellings)
-                if (!option.isPlace) out << " \\\n        " << zshOption(option, name);
-        out << " \\\n        " << zshPlace(command) << " ;;\n";
+                if (!option.isPositional) out << " \\\n        " << zshOption(option, name);
+        out << " \\\n        " << zshArguments(command) << " ;;\n";
     });
     out << "esac\n";
     return out.str();
 }
 
-// Fish evaluates a condition for each proposal: a command's apply after its words, until a subcommand.
+// Fish has a condition for each proposal: those of a command apply after its words and before a subcommand.
 std::string fishCompletion(const OptionTable& program) {
     std::ostringstream out;
-    heading(out, program);
-    each(program, [&](const OptionTable& command) {
+    writeHeading(out, program);
+    forEachCommand(program, [&](const OptionTable& command) {
         const std::string begin = "complete -c " + program.words + fishCondition(program, command);
         for (const OptionTable& inner : command.commands)
             out << begin << " -f -a " << inner.name() << " -d " << shellWord(inner.meaning) << '\n';
@@ -393,11 +395,11 @@ std::string writeReference(const OptionTable& program, const std::filesystem::pa
     }
     files["man1/" + ownPage + ".1"] = manPage(program, pages);
     for (const auto& [name, text] : files) {
-        std::error_code error;
-        const auto into = (folder / name).parent_path();
-        std::filesystem::create_directories(into, error);
-        if (error) return into.string() + ": cannot be made: " + error.message();
-        if (auto fault = writeFile(folder / name, text); !fault.empty()) return fault;
+        std::error_code code;
+        const auto folderPath = (folder / name).parent_path();
+        std::filesystem::create_directories(folderPath, code);
+        if (code) return folderPath.string() + ": cannot be made: " + code.message();
+        if (auto error = writeFile(folder / name, text); !error.empty()) return error;
     }
     return {};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Main program of `physvib-render`: renders a scene or an event list on any system, with the library only.
+// Main program of `physvib-render`, which renders a scene or an event list to a WAV file, an event list and a
+// picture; it needs only the library, no windows or audio devices.
 #include "Core/CollisionEvent.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
@@ -24,11 +25,9 @@
 #include "Pictures/RenderPicture.h"
 #endif
 
-// Range check for numeric options that rejects "nan", which CLI11's own checks accept, and whose message has
-// the expected range.
-
 namespace physvib {
-/// Inclusive range; `unit` starts with a space.
+/// Check of an inclusive range. Unlike CLI11's own it rejects "nan", and its message has the range with
+/// `unit`, which begins with a space.
 template <class T>
 CLI::Validator inRange(T low, T high, const std::string& unit = "") {
     const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;
@@ -56,12 +55,12 @@ struct Options {
     RunSettings run;
 
     bool isList() const { return input.ends_with(".csv"); }
-    FieldSize told() const { return parseField(field).value_or(FieldSize{}); }
+    FieldSize statedField() const { return parseField(field).value_or(FieldSize{}); }
     std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds * sampleRateHz)); }
 };
 
-/// Prints one line on stderr, with unprintable characters replaced.
-int leave(int code, std::string_view reason) {
+/// Prints one line on stderr, with unprintable characters replaced, and returns `code`.
+int reportExit(int code, std::string_view reason) {
     std::cerr << "physvib-render: " + cleanLine(reason) + '\n';
     return code;
 }
@@ -76,23 +75,23 @@ struct Source {
     Provenance provenance{PHYSVIB_VERSION, {}};
 };
 
-Result<Source> sourceOf(const Options& o) {
+Result<Source> loadSource(const Options& o) {
     Source source;
     if (o.isList()) {
         auto events = loadEventsCsv(o.input);
         if (!events) return Failure{events.error};
         source.events = std::move(events.value.events);
         source.names = std::move(events.value.names);
-        source.field = o.told().isKnown() ? o.told() : events.value.field;
+        source.field = o.statedField().isKnown() ? o.statedField() : events.value.field;
         source.provenance.entries.emplace_back("events", std::to_string(source.events.size()));
         return source;
     }
     const auto scene = findScene(o.input);
     if (!scene) return Failure{scene.error};
-    auto made = runScene(scene.value, o.run, std::llround(o.seconds * 1e9));
-    source.events = std::move(made.events);
-    source.drops = made.drops;
-    source.field = o.told();
+    auto simulated = simulateScene(scene.value, o.run, std::llround(o.seconds * 1e9));
+    source.events = std::move(simulated.events);
+    source.drops = simulated.drops;
+    source.field = o.statedField();
     if (!source.field.isKnown()) source.field = {scene.value.fieldWidthMetres, scene.value.fieldHeightMetres};
     source.provenance.entries = {{"scene", scene.value.name},
                                  {"seed", std::to_string(o.run.seed)},
@@ -104,36 +103,37 @@ Result<Source> sourceOf(const Options& o) {
     return source;
 }
 
-InstructionSet setNamed(const std::string& name) {
+InstructionSet instructionSetNamed(const std::string& name) {
     return static_cast<InstructionSet>(std::ranges::find(instructionSetNames, name) -
                                        instructionSetNames.begin());
 }
 
-RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
+RendererSettings settingsOf(const Options& o, const ActuatorLayout& layout, const Source& source) {
     const FieldSize field = source.field.isKnown() ? source.field : extentOf(layout);
     RendererSettings settings{
         .sampleRateHz = o.sampleRateHz,
         .panner = {layout, PanningLaw::automatic, 1.0, field.widthMetres, field.heightMetres}};
-    settings.instructions = setNamed(o.instructions);
+    settings.instructions = instructionSetNamed(o.instructions);
     return settings;
 }
 
-/// Warns if anything was lost or altered.
-void warn(std::uint64_t count, const char* what) {
-    if (count > 0) leave(0, "warning: " + std::string{what} + ": " + std::to_string(count));
+/// Prints a warning with a count of lost or altered items, if it is above 0.
+void warnIfAny(std::uint64_t count, const char* what) {
+    if (count > 0) reportExit(0, "warning: " + std::string{what} + ": " + std::to_string(count));
 }
 
 /// Warns why nothing can be felt, or which events of a list lie outside the field.
-void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t endNs) {
+void warnIfNotFelt(const Source& source, const PhantomPanner& panner, std::int64_t endNs) {
     const bool isGuessed = !source.field.isKnown();
-    const std::string silent = silentWords(source.events, panner, isGuessed, endNs);
-    if (!silent.empty()) return void(leave(0, "warning: silent: " + silent));
-    const std::string outside = source.scene ? "" : outsideWarning(source.events, fieldOf(panner), isGuessed);
-    if (!outside.empty()) leave(0, "warning: " + outside);
+    const std::string reason = silenceReason(source.events, panner, isGuessed, endNs);
+    if (!reason.empty()) return void(reportExit(0, "warning: silent: " + reason));
+    const std::string outside =
+        source.scene ? "" : outsideFieldWarning(source.events, fieldOf(panner), isGuessed);
+    if (!outside.empty()) reportExit(0, "warning: " + outside);
 }
 
 #if PHYSVIB_PICTURES
-/// The picture of a render, from its samples as they are rendered. M only.
+/// The picture of a render, from its samples as they are rendered. Message thread only.
 struct RenderedPicture {
     RenderedPicture(const Options& o, const Source& source, int channels)
         : file{o.picturePath}
@@ -141,7 +141,7 @@ struct RenderedPicture {
         , whole{channels, 0, o.frames()}
         , zoom{channels, window.firstFrame, window.frameCount} {}
 
-    void take(const float* const* channels, int frames) {
+    void addSamples(const float* const* channels, int frames) {
         whole.add(channels, frames);
         zoom.add(channels, frames);
     }
@@ -150,7 +150,7 @@ struct RenderedPicture {
     std::string draw(const Options& o, const Source& source, const LayoutDescription& layout,
                      const PhantomPanner& panner) {
         PictureInput picture;
-        picture.title = source.scene ? source.scene->name : leafOf(o.input);
+        picture.title = source.scene ? source.scene->name : fileNameOf(o.input);
         picture.subtitle = source.scene ? source.scene->description : "an event list";
         picture.fieldWidthMetres = panner.fieldWidthMetres();
         picture.fieldHeightMetres = panner.fieldHeightMetres();
@@ -159,7 +159,7 @@ struct RenderedPicture {
             picture.poses = posesAtStrongest(*source.scene, o.run, source.events);
         }
         picture.layout = layout.geometry;
-        for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
+        for (const auto& actuator : layout.actuators) picture.labels.push_back(actuator.label);
         picture.law = std::string{nameOf(panner.law())} + " law";
         picture.provenance = provenanceLine(source.provenance);
         picture.events = source.events;
@@ -176,8 +176,8 @@ struct RenderedPicture {
 };
 #endif
 
-/// Writes the WAV file and the picture, as requested.
-std::string writeSound(const Options& o, const Source& source, const LayoutDescription& layout) {
+/// Renders the events to the WAV file and the picture that the options request; empty, or one error line.
+std::string writeSamples(const Options& o, const Source& source, const LayoutDescription& layout) {
     const RendererSettings settings = settingsOf(o, layout.geometry, source);
     std::optional<WavSink> wav;
     if (!o.wavPath.empty() &&
@@ -193,14 +193,15 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
     const auto status =
         renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) {
 #if PHYSVIB_PICTURES
-            if (picture) picture->take(channels, frames);
+            if (picture) picture->addSamples(channels, frames);
 #endif
             return !wav || wav->write(channels, frames);
         });
-    warn(status.rejected, "events that could not be played");
-    warn(status.withoutPart, "events of a part of the body that no actuator has, felt by their place on all");
-    warn(status.stolen, "modes faded out early because too many different ones sounded at once");
-    tellOutside(source, settings.panner, std::llround(o.seconds * 1e9));
+    warnIfAny(status.rejected, "events that could not be played");
+    warnIfAny(status.withoutPart,
+              "events of a part of the body that no actuator has, felt by their place on all");
+    warnIfAny(status.stolen, "modes faded out early because too many different ones sounded at once");
+    warnIfNotFelt(source, settings.panner, std::llround(o.seconds * 1e9));
     std::string error;
 #if PHYSVIB_PICTURES
     if (picture) error = picture->draw(o, source, layout, settings.panner);
@@ -218,18 +219,19 @@ std::string render(const Options& o) {
     if (!layout) return layout.error;
     if (!o.wavPath.empty() && !fitsWav(layout.value.geometry.count, o.frames()))
         return "--seconds: too long; a WAV file holds at most 4 GB of samples";
-    std::optional<AtomicFile> list;
-    if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty()) return list->error();
-    const auto source = sourceOf(o);
+    std::optional<AtomicFile> eventsFile;
+    if (!o.eventsPath.empty() && !eventsFile.emplace(o.eventsPath).error().empty())
+        return eventsFile->error();
+    const auto source = loadSource(o);
     if (!source) return source.error;
-    warn(source.value.drops, "collisions lost because too many began in one physics step");
+    warnIfAny(source.value.drops, "collisions lost because too many began in one physics step");
     std::string error;
-    if (list)
-        error = list->write(
+    if (eventsFile)
+        error = eventsFile->write(
             eventsCsv(source.value.events, source.value.field, source.value.provenance, source.value.names));
     if (error.empty() && !(o.wavPath.empty() && o.picturePath.empty()))
-        error = writeSound(o, source.value, layout.value);
-    if (error.empty() && list) error = list->commit();
+        error = writeSamples(o, source.value, layout.value);
+    if (error.empty() && eventsFile) error = eventsFile->commit();
     if (error.empty()) std::cout << source.value.events.size() << " events\n";
     return error;
 }
@@ -249,7 +251,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--field", o.field,
                    "metres that x and y span (scene: its field; events: as they say, or the layout's extent)")
         ->check([](const std::string& word) {
-            return parseField(word) ? std::string{} : std::string{expectedField} + inQuotes(word);
+            return parseField(word) ? std::string{} : std::string{expectedFieldText} + inQuotes(word);
         })
         ->type_name("W,H");
     app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")
@@ -260,7 +262,8 @@ void declare(CLI::App& app, Options& o) {
         ->check(
             CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))
         ->check([](const std::string& name) {
-            return isAvailable(setNamed(name)) ? std::string{} : "this build or processor has no " + name;
+            return isAvailable(instructionSetNamed(name)) ? std::string{}
+                                                          : "this build or processor has no " + name;
         })
         ->capture_default_str();
     app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per actuator")->type_name("FILE.wav");
@@ -268,12 +271,12 @@ void declare(CLI::App& app, Options& o) {
 #if PHYSVIB_PICTURES
     app.add_option("--picture", o.picturePath, "the world, every channel and every hit")
         ->type_name("FILE.png")
-        ->check([](const std::string& path) { return endingFault(path, {".png"}); });
+        ->check([](const std::string& path) { return fileExtensionError(path, {".png"}); });
 #endif
 }
 
-extern "C" void endNow(int signal) {
-    removeAllOnEnd();
+extern "C" void exitOnSignal(int signal) {
+    removeFilesOnSignal();
     std::_Exit(128 + signal);
 }
 
@@ -281,7 +284,7 @@ extern "C" void endNow(int signal) {
 
 int main(int argc, char** argv) {
     for (const int signal : endingSignals())
-        if (std::signal(signal, endNow) == SIG_IGN) std::signal(signal, SIG_IGN); // so that nohup works
+        if (std::signal(signal, exitOnSignal) == SIG_IGN) std::signal(signal, SIG_IGN); // so that nohup works
     Options o;
     CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without "
                  "windows and devices."};
@@ -289,17 +292,18 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
-        return end.get_exit_code() == 0 ? app.exit(end) : leave(exitUsage, end.what());
+        return end.get_exit_code() == 0 ? app.exit(end) : reportExit(exitUsage, end.what());
     }
     const std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath}, inputs{o.input};
     if (std::ranges::all_of(outputs, &std::string::empty))
-        return leave(exitUsage, PHYSVIB_PICTURES ? "expected --out, --events or --picture"
-                                                 : "expected --out or --events");
-    if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
+        return reportExit(exitUsage, PHYSVIB_PICTURES ? "expected --out, --events or --picture"
+                                                      : "expected --out or --events");
+    if (const std::string clash = fileClashError(outputs, inputs); !clash.empty())
+        return reportExit(exitUsage, clash);
     try {
         const std::string error = render(o);
-        return error.empty() ? 0 : leave(exitFailed, error);
+        return error.empty() ? 0 : reportExit(exitFailed, error);
     } catch (const std::exception& e) {
-        return leave(exitFailed, e.what());
+        return reportExit(exitFailed, e.what());
     }
 }

@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-struct FeltStimulus {
+struct PlayableStimulus {
     Stimulus stimulus; ///< times start at 0
     LayoutDescription layout;
     std::vector<float> gains; ///< per actuator: from the events' unit (g, or shares) to full scale
@@ -20,7 +20,7 @@ struct FeltStimulus {
 };
 
 /// A scene to be seen and felt.
-struct FeltWorld {
+struct PlayableWorld {
     SessionSetup setup;
     LayoutDescription layout;
     double seconds = 0.0; ///< duration in the call
@@ -28,19 +28,20 @@ struct FeltWorld {
 
 /// A built-in protocol, or the one of a file (see findProtocol) whose calls write no files; or one error
 /// line. Message thread.
-Result<Protocol> protocolNamed(const std::string& nameOrPath);
+Result<Protocol> loadCheckedProtocol(const std::string& nameOrPath);
 
 /// Checks layouts, names and calls, which reading the protocol cannot check. Empty, or one line that starts
 /// with `name`. Message thread.
-std::string protocolFault(const Protocol& protocol, const std::string& name);
+std::string protocolError(const Protocol& protocol, const std::string& name);
 
 /// The stimulus, or one error line. Files are searched in `folder` first, if it is not empty. Like `physvib
 /// stimulus`, it rejects stimuli that are too strong for the layout at `sampleRateHz`. It also rejects
 /// phantoms with recordings, which are samples and not events. Message thread.
-Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder = {});
+Result<PlayableStimulus> makePlayableStimulus(const TrialJob& job, int sampleRateHz,
+                                              const std::string& folder = {});
 
 /// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line.
 /// Message thread.
-Result<FeltWorld> feltWorld(const WrittenCall& call, const std::string& folder = {});
+Result<PlayableWorld> makePlayableWorld(const ResolvedCall& call, const std::string& folder = {});
 
 } // namespace physvib

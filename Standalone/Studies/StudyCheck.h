@@ -15,17 +15,17 @@ struct CheckedStimulus : PlannedStimulus {
     double seconds = 0.0;     ///< duration
     double frequencyHz = 0.0; ///< of the strongest impact or pulse
     double peakShare = 0.0; ///< of the actuator with the largest share of its full scale; without the limiter
-    double neededG = 0.0;   ///< full scale that this actuator needs
-    double peakG = 0.0, rmsG = 0.0; ///< of the strongest actuator; rmsG over the duration
-    double squareGSeconds = 0.0;    ///< hand-weighted sum over all actuators: see Exposure.h
-    double guardGain = 1.0;         ///< minimum gain of OutputGuard; 1: unchanged
-    bool isOpenEnded = false;       ///< an interactive world, measured with its own script
-    std::uint64_t print = 0;        ///< hash of what every actuator gets: equal samples, equal prints
-    std::string error;              ///< why it cannot be played, in one line
+    double requiredFullScaleG = 0.0; ///< full scale that this actuator needs
+    double peakG = 0.0, rmsG = 0.0;  ///< of the strongest actuator; rmsG over the duration
+    double squareGSeconds = 0.0;     ///< hand-weighted sum over all actuators: see Exposure.h
+    double minGuardGain = 1.0;       ///< minimum gain of OutputGuard; 1: unchanged
+    bool isOpenEnded = false;        ///< an interactive world, measured with its own script
+    std::uint64_t samplesHash = 0;   ///< hash of all actuators' samples: equal for equal samples
+    std::string error;               ///< why it cannot be played, in one line
 };
 
-/// Hash of the call of a stimulus, used as its print if it is not rendered. Any thread.
-std::uint64_t printOfCall(const TrialJob& job);
+/// Hash of the call of a stimulus, used as its samplesHash if it is not rendered. Any thread.
+std::uint64_t callHash(const TrialJob& job);
 
 /// Results of a check. Message thread.
 struct StudyCheck {
@@ -42,20 +42,21 @@ std::string textOf(const StudyCheck& check, const Protocol& protocol);
 /// The check as a self-contained HTML page. Any thread (allocates).
 std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
 
-/// Renders every stimulus that a session can reach (see plannedStimuli). Orders are judged for so many
-/// participants; 0: not at all. Ends early once `goesOn` returns false. One thread at a time.
-StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn = {});
+/// Renders every stimulus that a session can reach (see plannedStimuli), and judges the balance of orders for
+/// so many participants (0: does not). Ends early once `keepGoing` returns false. One thread at a time.
+StudyCheck checkStudy(const Protocol& protocol, int participants,
+                      const std::function<bool()>& keepGoing = {});
 
 /// The first error that checkStudy() would find; empty if there is none. Faster: lower levels of the same
 /// samples, and interactive worlds, whose levels depend on the participant, are not rendered, and pulses and
 /// phantoms only where their gains exceed the layout. Message thread.
-std::string studyFault(const Protocol& protocol);
+std::string findStudyError(const Protocol& protocol);
 
 // Rules of a study's check: stimuli that render alike, and settings that cannot take effect.
 
-/// Adds to the errors and warnings of a check whose stimuli have their prints. Errors: a level, a factor,
+/// Adds to the errors and warnings of a check whose stimuli have their hashes. Errors: a level, a factor,
 /// alternatives or objects that change no sample; reversals, steps and times that cannot be reached.
-/// Warnings: single stimuli or conditions that are the same samples, and what may be meant. Message thread.
-void judgeRules(const Protocol& protocol, StudyCheck& check);
+/// Warnings: stimuli or conditions with the same samples, and settings that may be a mistake. Message thread.
+void checkRules(const Protocol& protocol, StudyCheck& check);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POSIX implementation: descriptors 0 to 2, signals, processes.
+// Process.h on POSIX: standard descriptors, signals that end the program, child processes.
 #if !defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "Io/Text/CleanText.h"
@@ -27,8 +27,8 @@ extern char** environ;
 namespace physvib {
 namespace {
 
-// A file opened while a standard descriptor is closed would get its number and be mistaken for it. /dev/null
-// is opened in the wrong direction, so that reading standard input and writing the others still fail.
+// A file that is opened while a standard descriptor is closed would get its number and be mistaken for it.
+// Opens /dev/null instead, in the wrong direction, so that reading input and writing output still fail.
 void openStandardDescriptors() {
     for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; ++standard)
         if (fcntl(standard, F_GETFD) < 0 &&
@@ -36,24 +36,24 @@ void openStandardDescriptors() {
             std::_Exit(1);
 }
 
-Result<pid_t> start(std::string& name, std::vector<std::string>& arguments,
+Result<pid_t> spawn(std::string& name, std::vector<std::string>& arguments,
                     const posix_spawn_file_actions_t* actions) {
     std::vector<char*> words{name.data()};
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
     pid_t child = 0;
     std::cout.flush();
-    if (const int fault = posix_spawnp(&child, name.c_str(), actions, nullptr, words.data(), environ))
-        return Failure{name + ": " + std::generic_category().message(fault)};
+    if (const int errorNumber = posix_spawnp(&child, name.c_str(), actions, nullptr, words.data(), environ))
+        return Failure{name + ": " + std::generic_category().message(errorNumber)};
     return child;
 }
 
 std::string lastLine(const std::string& text) {
     const auto end = text.find_last_not_of("\r\n ");
     if (end == std::string::npos) return {};
-    const auto before = text.find_last_of("\r\n", end);
-    return text.substr(before == std::string::npos ? 0 : before + 1,
-                       end - (before == std::string::npos ? std::size_t{0} : before + 1) + 1);
+    const auto lineEnd = text.find_last_of("\r\n", end);
+    return text.substr(lineEnd == std::string::npos ? 0 : lineEnd + 1,
+                       end - (lineEnd == std::string::npos ? std::size_t{0} : lineEnd + 1) + 1);
 }
 
 } // namespace
@@ -61,16 +61,17 @@ std::string lastLine(const std::string& text) {
 void beginProcess() {
     openStandardDescriptors();
     std::signal(SIGXFSZ, SIG_IGN);
-    catchEnding(endBySignal, KeepIgnored::all);
-    rlimit stack{}; // renders need most of 128 kB; an overflow could not be reported
+    handleEndingSignals(terminateBySignal, IgnoredSignals::all);
+    rlimit stack{}; // renders need about 128 kB, and an overflow could not be reported
     if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < 128 * 1024)
         std::cerr << "physvib: ulimit -s: expected at least 128\n", std::_Exit(1);
 }
 
-void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
+void handleEndingSignals(void (*handler)(int signal), IgnoredSignals stayIgnored) noexcept {
     for (const int signal : endingSignals()) {
         const bool wasIgnored = std::signal(signal, handler) == SIG_IGN;
-        if (wasIgnored && (kept == KeepIgnored::all || signal == SIGHUP)) std::signal(signal, SIG_IGN);
+        if (wasIgnored && (stayIgnored == IgnoredSignals::all || signal == SIGHUP))
+            std::signal(signal, SIG_IGN);
     }
 }
 
@@ -86,7 +87,7 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-// A ready pipe accepts this many bytes without blocking.
+// A pipe that is ready accepts PIPE_BUF bytes without blocking.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
     pollfd out{standard == Standard::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
     if (poll(&out, 1, 0) <= 0) return 0;
@@ -96,7 +97,7 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
 }
 
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
-    const auto child = start(name, arguments, nullptr);
+    const auto child = spawn(name, arguments, nullptr);
     if (!child) return Failure{child.error};
     int status = 0;
     while (waitpid(child.value, &status, 0) < 0 && errno == EINTR) {
@@ -106,47 +107,48 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
 
 Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
                                const std::function<bool()>& keepGoing) {
-    constexpr int lookMs = 100;
-    constexpr std::size_t mostKept = 4096;
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return Failure{name + ": " + std::generic_category().message(errno)};
-    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC); // another program may start meanwhile
+    constexpr int pollMs = 100;
+    constexpr std::size_t maxKeptBytes = 4096;
+    std::array<int, 2> pipeEnds{};
+    if (pipe(pipeEnds.data()) != 0) return Failure{name + ": " + std::generic_category().message(errno)};
+    for (const int end : pipeEnds)
+        fcntl(end, F_SETFD, FD_CLOEXEC); // so that other child processes do not inherit it
     posix_spawn_file_actions_t errors;
     posix_spawn_file_actions_init(&errors);
-    posix_spawn_file_actions_adddup2(&errors, ends[1], STDERR_FILENO);
-    const auto child = start(name, arguments, &errors);
+    posix_spawn_file_actions_adddup2(&errors, pipeEnds[1], STDERR_FILENO);
+    const auto child = spawn(name, arguments, &errors);
     posix_spawn_file_actions_destroy(&errors);
-    close(ends[1]);
-    std::string said;
+    close(pipeEnds[1]);
+    std::string errorOutput;
     int status = 0;
-    bool isWanted = true, isTold = true;
+    bool isWanted = true, hasStatus = true;
     for (bool hasEnded = !child; !hasEnded;) {
-        pollfd words{ends[0], POLLIN, 0};
-        poll(&words, 1, lookMs);
+        pollfd errorPipe{pipeEnds[0], POLLIN, 0};
+        poll(&errorPipe, 1, pollMs);
         const pid_t ended = waitpid(child.value, &status, WNOHANG);
         hasEnded = ended != 0;
-        isTold = ended == child.value; // false if the parent process had SIGCHLD ignored
-        std::array<char, 1024> some{};
-        while (poll(&words, 1, 0) > 0) {
-            const ssize_t count = read(ends[0], some.data(), some.size());
+        hasStatus = ended == child.value; // false if the parent process had SIGCHLD ignored
+        std::array<char, 1024> block{};
+        while (poll(&errorPipe, 1, 0) > 0) {
+            const ssize_t count = read(pipeEnds[0], block.data(), block.size());
             if (count <= 0) break;
-            said.append(some.data(), static_cast<std::size_t>(count));
-            if (said.size() > mostKept) said.erase(0, said.size() - mostKept);
+            errorOutput.append(block.data(), static_cast<std::size_t>(count));
+            if (errorOutput.size() > maxKeptBytes) errorOutput.erase(0, errorOutput.size() - maxKeptBytes);
         }
-        if ((words.revents & POLLHUP) != 0 && !hasEnded)
-            poll(nullptr, 0, lookMs / 10); // all its output was read
+        if ((errorPipe.revents & POLLHUP) != 0 && !hasEnded)
+            poll(nullptr, 0, pollMs / 10); // it closed its output: waits briefly for its end
         if (isWanted && !keepGoing()) {
             isWanted = false;
             kill(child.value, SIGKILL);
         }
     }
-    close(ends[0]);
+    close(pipeEnds[0]);
     if (!child) return Failure{child.error};
-    if (!isTold) return Failure{name + ": the system does not tell how it ended"};
+    if (!hasStatus) return Failure{name + ": the system does not tell how it ended"};
     if (WIFSIGNALED(status)) return "it was ended by signal " + std::to_string(WTERMSIG(status));
     if (WEXITSTATUS(status) == 0) return std::string{};
-    const auto last = lastLine(said);
-    return last.empty() ? "it ended with code " + std::to_string(WEXITSTATUS(status)) : cleanLine(last);
+    const auto message = lastLine(errorOutput);
+    return message.empty() ? "it ended with code " + std::to_string(WEXITSTATUS(status)) : cleanLine(message);
 }
 
 bool hasProgram(const std::string& name) {
@@ -166,10 +168,10 @@ bool hasDisplay() noexcept {
 #endif
 }
 
-std::string ownProgram(const std::string& name) {
-    std::error_code none;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).replace_filename(name);
-    return !none && std::filesystem::exists(beside, none) ? beside.string() : name;
+std::string siblingProgram(const std::string& name) {
+    std::error_code code;
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", code).replace_filename(name);
+    return !code && std::filesystem::exists(beside, code) ? beside.string() : name;
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows implementation: handles, console signals, processes.
+// Process.h on Windows: standard handles, console signals, child processes.
 #if defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
 #include "Io/Disk/SystemWindows.h"
@@ -20,37 +20,38 @@
 namespace physvib {
 namespace {
 
-/// Windows cannot wait for a pipe, so it is polled every millisecond.
-std::optional<DWORD> waitingInPipe(HANDLE pipe, int milliseconds) noexcept {
-    for (int waited = 0;; ++waited) {
-        DWORD waiting = 0;
-        // the other end is closed
-        if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &waiting, nullptr) == 0) return 0;
-        if (waiting > 0) return waiting;
-        if (waited >= milliseconds) return std::nullopt;
+/// Number of bytes in the pipe, 0 if its other end is closed, nullopt after `milliseconds`. Windows cannot
+/// wait for a pipe, so it is polled every millisecond.
+std::optional<DWORD> bytesInPipe(HANDLE pipe, int milliseconds) noexcept {
+    for (int waitedMs = 0;; ++waitedMs) {
+        DWORD available = 0;
+        if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &available, nullptr) == 0) return 0;
+        if (available > 0) return available;
+        if (waitedMs >= milliseconds) return std::nullopt;
         Sleep(1);
     }
 }
 
 } // namespace
 
-void beginProcess() { catchEnding(endBySignal, KeepIgnored::all); }
+void beginProcess() { handleEndingSignals(terminateBySignal, IgnoredSignals::all); }
 
-void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
+void handleEndingSignals(void (*handler)(int signal), IgnoredSignals stayIgnored) noexcept {
     for (const int signal : endingSignals())
-        if (std::signal(signal, handler) == SIG_IGN && kept == KeepIgnored::all) std::signal(signal, SIG_IGN);
+        if (std::signal(signal, handler) == SIG_IGN && stayIgnored == IgnoredSignals::all)
+            std::signal(signal, SIG_IGN);
 }
 
 void ignoreLostReader() noexcept {} // on Windows, writing to a closed reader is an error and not a signal
 
 bool isErrorTerminal() noexcept { return _isatty(_fileno(stderr)) != 0; }
 
-// At a console, this waits for the end of a started line.
+// At a console this waits until a line that was begun is complete.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept {
     const HANDLE input = GetStdHandle(STD_INPUT_HANDLE);
     if (GetFileType(input) == FILE_TYPE_PIPE) {
-        const auto waiting = waitingInPipe(input, milliseconds);
-        if (!waiting || *waiting == 0) return waiting;
+        const auto available = bytesInPipe(input, milliseconds);
+        if (!available || *available == 0) return available;
     } else if (GetFileType(input) == FILE_TYPE_CHAR &&
                WaitForSingleObject(input, static_cast<DWORD>(milliseconds)) == WAIT_TIMEOUT) {
         return std::nullopt;
@@ -81,9 +82,9 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
 
 Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
                                const std::function<bool()>&) {
-    const auto ran = runProgram(std::move(name), std::move(arguments));
-    if (!ran) return Failure{ran.error};
-    return std::string{ran.value ? "" : "for the reason on standard error"};
+    const auto result = runProgram(std::move(name), std::move(arguments));
+    if (!result) return Failure{result.error};
+    return std::string{result.value ? "" : "for the reason on standard error"};
 }
 
 bool hasProgram(const std::string& name) {
@@ -93,7 +94,7 @@ bool hasProgram(const std::string& name) {
 bool hasDisplay() noexcept { return true; }
 
 // Windows searches the folder of the running program first.
-std::string ownProgram(const std::string& name) { return name; }
+std::string siblingProgram(const std::string& name) { return name; }
 
 } // namespace physvib
 #endif

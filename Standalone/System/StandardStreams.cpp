@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stream buffers for std::cout and std::cerr that pass on complete lines.
+// Redirects std::cout and std::cerr, by complete lines, to the queues of OutputWriter.
 #include "System/Process.h"
 #include <array>
 #include <cerrno>
@@ -24,27 +24,27 @@ public:
         , standard_{standard} {}
 
 private:
-    static std::string& begunOn(Standard standard) {
-        thread_local std::array<std::string, 2> begun;
-        return begun[standard == Standard::error];
+    static std::string& partialLineOf(Standard standard) {
+        thread_local std::array<std::string, 2> partialLine;
+        return partialLine[standard == Standard::error];
     }
     std::streamsize xsputn(const char* text, std::streamsize size) override {
-        std::string& begun = begunOn(standard_);
-        begun.append(text, static_cast<std::size_t>(size));
-        for (auto end = begun.find('\n'); end != std::string::npos; end = begun.find('\n')) {
-            writer_.say(standard_, begun.substr(0, end + 1));
-            begun.erase(0, end + 1);
+        std::string& partialLine = partialLineOf(standard_);
+        partialLine.append(text, static_cast<std::size_t>(size));
+        for (auto end = partialLine.find('\n'); end != std::string::npos; end = partialLine.find('\n')) {
+            writer_.writeLine(standard_, partialLine.substr(0, end + 1));
+            partialLine.erase(0, end + 1);
         }
         return size;
     }
     int overflow(int c) override {
-        const char one = static_cast<char>(c);
-        if (c != EOF) xsputn(&one, 1);
+        const char character = static_cast<char>(c);
+        if (c != EOF) xsputn(&character, 1);
         return c == EOF ? 0 : c;
     }
     int sync() override {
-        if (std::string& begun = begunOn(standard_); !begun.empty())
-            writer_.say(standard_, std::exchange(begun, {}));
+        if (std::string& partialLine = partialLineOf(standard_); !partialLine.empty())
+            writer_.writeLine(standard_, std::exchange(partialLine, {}));
         return 0;
     }
 
@@ -52,15 +52,16 @@ private:
     const Standard standard_;
 };
 
-class ErrorVoice {
+/// While it exists, std::cout and std::cerr write to an OutputWriter.
+class StreamRedirection {
 public:
-    ErrorVoice() {
+    StreamRedirection() {
         std::cout.flush();
         out_ = std::cout.rdbuf(&outLines_);
         error_ = std::cerr.rdbuf(&errorLines_);
         std::cerr << std::nounitbuf;
     }
-    ~ErrorVoice() {
+    ~StreamRedirection() {
         std::cout.flush();
         std::cerr.flush();
         std::cout.rdbuf(out_);
@@ -75,35 +76,37 @@ private:
     std::streambuf *out_ = nullptr, *error_ = nullptr;
 };
 
-std::unique_ptr<ErrorVoice> voice; // changed by the message thread only, while no other thread prints
+std::unique_ptr<StreamRedirection> redirection; // changed by the message thread only, while no other thread
+                                                // prints
 
 } // namespace
 
-void sayWithoutWaiting() {
-    if (!voice) voice = std::make_unique<ErrorVoice>();
+void beginNonBlockingOutput() {
+    if (!redirection) redirection = std::make_unique<StreamRedirection>();
 }
 
-std::uint64_t droppedLines(Standard standard) { return voice ? voice->writer.dropped(standard) : 0; }
+std::uint64_t droppedLines(Standard standard) {
+    return redirection ? redirection->writer.dropped(standard) : 0;
+}
 
 std::optional<std::string> finishOutput() {
-    return voice ? std::optional{voice->writer.finish(Standard::output)} : std::nullopt;
+    return redirection ? std::optional{redirection->writer.finish(Standard::output)} : std::nullopt;
 }
 
-void endOutput() { voice.reset(); }
+void endNonBlockingOutput() { redirection.reset(); }
 
-// Two bounded queues of lines and one thread that writes them in the order in which they were queued.
-// Problem: writing to a full pipe blocks, and playback must not wait for a reader.
-// Steps: say() only queues, or drops and counts. The thread writes the oldest line of a stream that is not
-// blocked. A blocked stream is tried again after `retryTime`, and does not delay the other one.
+// OutputWriter: writing to a full pipe blocks, but playback must not wait for a reader. Therefore writeLine()
+// only queues a line, or drops and counts it. The thread writes the oldest line of a stream that is not
+// blocked; it tries a blocked stream again after `retryInterval`, and that does not delay the other one.
 
 namespace {
 
-constexpr std::chrono::milliseconds retryTime{20}; // polling interval for a reader whose pipe is full
+constexpr std::chrono::milliseconds retryInterval{20}; // polling interval for a reader whose pipe is full
 constexpr std::array bothStandards{Standard::output, Standard::error};
 
-std::size_t index(Standard standard) { return static_cast<std::size_t>(standard); }
+std::size_t indexOf(Standard standard) { return static_cast<std::size_t>(standard); }
 
-std::string lineCount(std::uint64_t lines) {
+std::string unreadText(std::uint64_t lines) {
     return std::to_string(lines) + (lines == 1 ? " line was" : " lines were") + " not read";
 }
 
@@ -114,10 +117,10 @@ struct Line {
 
 struct Stream {
     std::deque<Line> lines;
-    std::size_t bytes = 0, written = 0; // bytes waiting; written bytes of the first line
-    std::uint64_t dropped = 0, untold = 0;
-    int fault = 0;         // an errno
-    bool isHeldUp = false; // the pipe was full
+    std::size_t bytes = 0, written = 0; // bytes in the queue; bytes of the first line that were written
+    std::uint64_t dropped = 0, unreported = 0;
+    int errorNumber = 0;    // an errno
+    bool isBlocked = false; // the pipe was full
 
     void push(std::uint64_t number, std::string text) {
         bytes += text.size();
@@ -125,17 +128,17 @@ struct Stream {
     }
     void drop(std::uint64_t count) {
         dropped += count;
-        untold += count;
+        unreported += count;
     }
-    void take(std::size_t count) {
+    void removeBytes(std::size_t count) {
         written += count;
         bytes -= count;
         if (written < lines.front().text.size()) return;
         lines.pop_front();
         written = 0;
     }
-    void fail(int why) {
-        fault = why;
+    void fail(int number) {
+        errorNumber = number;
         drop(lines.size());
         lines.clear();
         bytes = written = 0;
@@ -145,18 +148,18 @@ struct Stream {
 } // namespace
 
 struct OutputWriter::State {
-    explicit State(Sink to)
-        : sink{std::move(to)} {}
+    explicit State(Sink writeSink)
+        : sink{std::move(writeSink)} {}
 
-    Stream& of(Standard standard) { return streams[index(standard)]; }
+    Stream& streamFor(Standard standard) { return streams[indexOf(standard)]; }
 
     /// The stream with the oldest first line, among those that are not blocked.
-    std::optional<Standard> next() const {
+    std::optional<Standard> nextStream() const {
         std::optional<Standard> found;
         std::uint64_t first = UINT64_MAX;
         for (const Standard standard : bothStandards) {
-            const Stream& stream = streams[index(standard)];
-            if (stream.isHeldUp || stream.lines.empty() || stream.lines.front().number >= first) continue;
+            const Stream& stream = streams[indexOf(standard)];
+            if (stream.isBlocked || stream.lines.empty() || stream.lines.front().number >= first) continue;
             first = stream.lines.front().number;
             found = standard;
         }
@@ -166,47 +169,47 @@ struct OutputWriter::State {
     void run() {
         std::unique_lock lock{mutex};
         while (!isEnding) {
-            if (const auto standard = next())
+            if (const auto standard = nextStream())
                 write(*standard, lock);
             else
-                rest(lock);
+                waitForWork(lock);
         }
         isDone = true;
-        changed.notify_all();
+        stateChanged.notify_all();
     }
 
     // Only this thread removes lines, so the first line stays valid while unlocked.
     void write(Standard standard, std::unique_lock<std::mutex>& lock) {
-        Stream& stream = of(standard);
+        Stream& stream = streamFor(standard);
         const auto text = std::string_view{stream.lines.front().text}.substr(stream.written);
         lock.unlock();
         const auto count = sink(standard, text);
-        const int why = errno;
+        const int errorNumber = errno;
         lock.lock();
         if (!count)
-            stream.fail(why);
+            stream.fail(errorNumber);
         else if (*count > 0)
-            stream.take(*count);
+            stream.removeBytes(*count);
         else
-            stream.isHeldUp = true;
-        changed.notify_all();
+            stream.isBlocked = true;
+        stateChanged.notify_all();
     }
 
-    void rest(std::unique_lock<std::mutex>& lock) {
-        bool isHeldUp = false;
-        for (Stream& stream : streams) isHeldUp = isHeldUp || stream.isHeldUp;
-        if (isHeldUp)
-            woken.wait_for(lock, retryTime);
+    void waitForWork(std::unique_lock<std::mutex>& lock) {
+        bool isBlocked = false;
+        for (Stream& stream : streams) isBlocked = isBlocked || stream.isBlocked;
+        if (isBlocked)
+            workChanged.wait_for(lock, retryInterval);
         else
-            woken.wait(lock);
-        for (Stream& stream : streams) stream.isHeldUp = false;
+            workChanged.wait(lock);
+        for (Stream& stream : streams) stream.isBlocked = false;
     }
 
     const Sink sink;
     std::mutex mutex; // guards the members below
-    std::condition_variable woken, changed;
+    std::condition_variable workChanged, stateChanged;
     std::array<Stream, 2> streams;
-    std::uint64_t said = 0;
+    std::uint64_t nextNumber = 0;
     bool isEnding = false, isDone = false;
 };
 
@@ -217,35 +220,35 @@ OutputWriter::OutputWriter(Sink sink)
 OutputWriter::~OutputWriter() {
     std::unique_lock lock{state_->mutex};
     state_->isEnding = true;
-    state_->woken.notify_all();
-    const bool isDone = state_->changed.wait_for(lock, patience, [this] { return state_->isDone; });
+    state_->workChanged.notify_all();
+    const bool isDone = state_->stateChanged.wait_for(lock, finishTimeout, [this] { return state_->isDone; });
     lock.unlock();
     isDone ? thread_.join() : thread_.detach();
 }
 
-void OutputWriter::say(Standard standard, std::string line) {
+void OutputWriter::writeLine(Standard standard, std::string line) {
     const std::lock_guard lock{state_->mutex};
-    Stream& stream = state_->of(standard);
-    if (standard == Standard::error && stream.untold > 0)
-        line = "physvib: standard error: " + lineCount(stream.untold) + '\n' + line;
-    if (stream.fault != 0 || stream.bytes + line.size() > mostBytes) return stream.drop(1);
-    stream.untold = 0;
-    stream.push(state_->said++, std::move(line));
-    state_->woken.notify_all();
+    Stream& stream = state_->streamFor(standard);
+    if (standard == Standard::error && stream.unreported > 0)
+        line = "physvib: standard error: " + unreadText(stream.unreported) + '\n' + line;
+    if (stream.errorNumber != 0 || stream.bytes + line.size() > maxQueuedBytes) return stream.drop(1);
+    stream.unreported = 0;
+    stream.push(state_->nextNumber++, std::move(line));
+    state_->workChanged.notify_all();
 }
 
 std::uint64_t OutputWriter::dropped(Standard standard) const {
     const std::lock_guard lock{state_->mutex};
-    return state_->of(standard).dropped;
+    return state_->streamFor(standard).dropped;
 }
 
 std::string OutputWriter::finish(Standard standard) {
     std::unique_lock lock{state_->mutex};
-    const Stream& stream = state_->of(standard);
-    state_->changed.wait_for(lock, patience, [&stream] { return stream.lines.empty(); });
-    if (stream.fault != 0) return std::generic_category().message(stream.fault);
+    const Stream& stream = state_->streamFor(standard);
+    state_->stateChanged.wait_for(lock, finishTimeout, [&stream] { return stream.lines.empty(); });
+    if (stream.errorNumber != 0) return std::generic_category().message(stream.errorNumber);
     const std::uint64_t unread = stream.dropped + stream.lines.size();
-    return unread > 0 ? lineCount(unread) : "";
+    return unread > 0 ? unreadText(unread) : "";
 }
 
 } // namespace physvib

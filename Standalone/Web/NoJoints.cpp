@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stubs for Box2D joint types that no scene uses, so that their code is not linked.
+// Replaces the code of Box2D joint types that no scene uses by stubs, to keep the module small.
 #include <box2d/box2d.h>
 #include <cstdlib>
 

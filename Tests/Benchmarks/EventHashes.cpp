@@ -25,14 +25,14 @@ public:
                 e.sound);
             add(e.source.fixture, e.source.other, e.source.impulseNewtonSeconds, e.source.massKg,
                 e.source.kind, e.source.part);
-            add(e.course.toX, e.course.toY, e.course.toZ, e.course.travelNs, e.course.sinceNs);
+            add(e.course.toX, e.course.toY, e.course.toZ, e.course.travelNs, e.course.toneAgeNs);
         }
         count_ += events.size();
     }
     void add(const ContactCounts& c) {
         add(c.contacts, c.belowThreshold, c.withoutSource, c.unplayable, c.muted, c.settling, c.dropped,
             c.events, c.immovable);
-        add(c.leastX, c.leastY, c.mostX, c.mostY, c.strongestBelow, c.fastestApproach,
+        add(c.minX, c.minY, c.maxX, c.maxY, c.strongestBelowMetresPerSecond, c.fastestApproachMetresPerSecond,
             c.thresholdMetresPerSecond);
     }
     void add(const std::string& text) {

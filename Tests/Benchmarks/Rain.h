@@ -14,7 +14,7 @@ constexpr int rate = 48000, blockFrames = 64;
 
 /// Actuators in two rows.
 inline RendererSettings settingsFor(int channels, InstructionSet set) {
-    EnchanterLayout layout{1, 1, channels, {}};
+    ActuatorLayout layout{1, 1, channels, {}};
     for (int j = 0; j < channels; ++j)
         layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
     return {.sampleRateHz = rate,

@@ -15,7 +15,7 @@ using namespace physvib;
 constexpr int rateHz = 48000;
 
 OfflineSettings settingsFor(const Scene& scene, int seconds) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
                                scene.fieldHeightMetres};
@@ -33,7 +33,7 @@ void count(benchmark::State& state, int seconds) {
 void sceneToWav(benchmark::State& state, const Scene& scene, int seconds) {
     const auto path = (std::filesystem::temp_directory_path() / "physvib-bench.wav").string();
     for (auto _ : state) {
-        const SceneEvents made = runScene(scene, {}, nanoseconds(seconds));
+        const SceneEvents made = simulateScene(scene, {}, nanoseconds(seconds));
         WavSink wav{path, 4, rateHz};
         renderOffline(made.events, settingsFor(scene, seconds),
                       [&](const float* const* block, int frames) { return wav.write(block, frames); });
@@ -56,13 +56,13 @@ const int registered = [] {
 const Scene& shakeTheBox() { return *findBuiltInScene("shake-the-box"); }
 
 void physicsOnly(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(runScene(shakeTheBox(), {}, nanoseconds(60)));
+    for (auto _ : state) benchmark::DoNotOptimize(simulateScene(shakeTheBox(), {}, nanoseconds(60)));
     count(state, 60);
 }
 BENCHMARK(physicsOnly)->Unit(benchmark::kMillisecond);
 
 void samplesOnly(benchmark::State& state) {
-    const SceneEvents made = runScene(shakeTheBox(), {}, nanoseconds(60));
+    const SceneEvents made = simulateScene(shakeTheBox(), {}, nanoseconds(60));
     for (auto _ : state)
         renderOffline(made.events, settingsFor(shakeTheBox(), 60),
                       [](const float* const*, int) { return true; });

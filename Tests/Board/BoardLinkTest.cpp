@@ -61,7 +61,7 @@ TEST_F(BoardLinkTest, APulledPlugIsToldAndPlayGoesOnWhenItIsBack) {
     ASSERT_TRUE(test::comesTrue([this] { return link.status().state == State::searching; }));
     strikeFor(5);
     EXPECT_EQ(link.status().state, State::searching);
-    EXPECT_NE(link.status().trouble, "");
+    EXPECT_NE(link.status().error, "");
     const double silentAfterMs = static_cast<double>(board.last("silence") - board.last("unplugged")) / ms;
     std::cout << "at mid-scale " << silentAfterMs << " ms after the plug was pulled\n";
     EXPECT_GT(silentAfterMs, 300) << "it was to ring on for half a minute";
@@ -70,7 +70,7 @@ TEST_F(BoardLinkTest, APulledPlugIsToldAndPlayGoesOnWhenItIsBack) {
 
     board.movePlug();
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
-    EXPECT_EQ(link.status().trouble, "");
+    EXPECT_EQ(link.status().error, "");
     EXPECT_EQ(link.status().connections, 2u);
     EXPECT_EQ(link.status().board.resets, 0);
     const auto sentBefore = link.status().sent;
@@ -89,7 +89,7 @@ TEST_F(BoardLinkTest, APulledPlugIsToldAndPlayGoesOnWhenItIsBack) {
 TEST_F(BoardLinkTest, ABoardThatSaysNothingIsConnectedAnew) {
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
     board.halt(true);
-    ASSERT_TRUE(test::comesTrue([this] { return link.status().trouble.ends_with("no answer"); }));
+    ASSERT_TRUE(test::comesTrue([this] { return link.status().error.ends_with("no answer"); }));
     board.halt(false);
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
     EXPECT_EQ(link.status().connections, 2u)

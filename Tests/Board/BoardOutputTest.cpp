@@ -104,7 +104,7 @@ protected:
     Session session{setup};
     test::FakeInterface interface;
     AudioOutput device{session, test::fakeDrivers({&interface})};
-    std::optional<Following> together;
+    std::optional<ScopedFollow> together;
     std::optional<Hands> hands;
     std::optional<ThreadDriver> driver;
     int pushes = 0;
@@ -129,7 +129,7 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_EQ(output.untold(), 0u);
+    EXPECT_EQ(output.droppedInQueues(), 0u);
 }
 
 TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {

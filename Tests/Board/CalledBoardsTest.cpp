@@ -68,7 +68,7 @@ TEST_F(CalledBoards, GrainsOfAListAreSpreadAsOnADevice) {
     grain.source.kind = ContactKind::roll;
     (void)play({grain});
     ASSERT_EQ(board.strikes().size(), 1U);
-    const auto layout = layoutNamed("phone4");
+    const auto layout = resolveLayout("phone4");
     ASSERT_TRUE(layout);
     PhantomPanner::Gains gains{};
     PhantomPanner{layout.value.geometry, PanningLaw::automatic, 1.0, 0.12, 0.06}.gainsAt(grain, gains);
@@ -80,7 +80,7 @@ TEST_F(CalledBoards, GrainsOfAListAreSpreadAsOnADevice) {
 struct StillClock final : OutputClock {
     StillClock() {
         setLevel(1.0f);
-        tell({0, BoardLink::nowNs(), 0, 48000});
+        publish({0, BoardLink::nowNs(), 0, 48000});
     }
 };
 
@@ -90,11 +90,11 @@ TEST_F(CalledBoards, ATonesSecondMinuteIsPlayedToo) {
     ASSERT_EQ(output.awaitReady([] { return true; }), "");
     StillClock clock;
     output.follow(&clock);
-    output.made(tone(0.3, 65.535));
-    output.made(tone(0.3, 120.0));
+    output.onCollision(tone(0.3, 65.535));
+    output.onCollision(tone(0.3, 120.0));
     CollisionEvent decayed = tone(0.3, 120.0);
     decayed.decayPerSecond = 20.0;
-    output.made(decayed);
+    output.onCollision(decayed);
     ASSERT_TRUE(test::comesTrue([&] { return board.segments().size() > 20; }));
     output.follow(nullptr);
     EXPECT_EQ(board.strikes().size(), 2U) << "what a strike can hold is one";

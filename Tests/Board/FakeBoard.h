@@ -147,7 +147,7 @@ struct BesideDevice {
     std::optional<Session> session;
     test::FakeInterface hands;
     std::optional<AudioOutput> output;
-    std::optional<Following> together;
+    std::optional<ScopedFollow> together;
     std::chrono::steady_clock::time_point due; // of the next block
 };
 

@@ -25,8 +25,8 @@ TEST(BoardLinkWithAFakeBoard, OneThatIsNotOursIsRefusedAndTold) {
         one.change(reply);
         FakeBoard board{reply, 0};
         BoardLink link{board.port()};
-        EXPECT_TRUE(test::comesTrue([&] { return link.status().trouble == board.port() + one.told; }))
-            << link.status().trouble;
+        EXPECT_TRUE(test::comesTrue([&] { return link.status().error == board.port() + one.told; }))
+            << link.status().error;
         EXPECT_EQ(link.status().connections, 0u);
     }
 }
@@ -57,7 +57,7 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
     test::FakeInterface hands;
     AudioOutput output{session, test::fakeDrivers({&hands}), &interrupt};
     output.setLevel(0.5f);
-    const Following together{session.sinks(), output};
+    const ScopedFollow together{session.sinks(), output};
     const int half = limits::board::amplitudeUnit / 2;
     EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
     output.setSilent(true);

@@ -38,13 +38,14 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     ASSERT_TRUE(runUntil([&] { return beside(window.model()).isReady; }));
     ASSERT_TRUE(runUntil([&] { return beside(window.model()).sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
-    ASSERT_TRUE(runUntil([&] { return window.model().trouble().isEmpty(); })) << window.model().trouble();
+    ASSERT_TRUE(runUntil([&] { return window.model().messageText().isEmpty(); }))
+        << window.model().messageText();
 
     board.stop();
     ASSERT_TRUE(runUntil([&] {
-        return window.model().trouble().contains(board.port()) &&
-               window.model().trouble().contains("is gone");
-    })) << window.model().trouble();
+        return window.model().messageText().contains(board.port()) &&
+               window.model().messageText().contains("is gone");
+    })) << window.model().messageText();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("No board"); }));
     EXPECT_FALSE(beside(window.model()).isReady);
     auto& outputs = dynamic_cast<juce::ComboBox&>(*find(window.view(), "Device"));
@@ -61,8 +62,8 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     ASSERT_TRUE(runUntil([&] { return beside(window.model()).isReady; }));
     const auto sent = beside(window.model()).sent;
     ASSERT_TRUE(runUntil([&] {
-        return beside(window.model()).sent > sent + 3 && window.model().trouble().isEmpty();
-    })) << window.model().trouble();
+        return beside(window.model()).sent > sent + 3 && window.model().messageText().isEmpty();
+    })) << window.model().messageText();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
 }
 
@@ -75,7 +76,7 @@ TEST(MixerBoard, OneThatIsNotThereDelaysNothingUntilItComes) {
     const double before = latency();
     DeviceChoice choice = window.model().device().choice();
     choice.sinks = {{"BOARD", board.port()}};
-    window.model().device().onSinksWanted(choice);
+    window.model().device().onSinksRequested(choice);
     ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
     runFor(0.5);
     EXPECT_DOUBLE_EQ(latency(), before);
@@ -92,15 +93,15 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
     DeviceChoice choice = noDevice;
     choice.sinks = {{"BOARD", board.port()}};
     window.view().setFirstStart(std::make_unique<FirstStart>(
-        window.model(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
+        window.model(), std::vector<PlaybackChoice>{{"Four-channel board", choice, 4, true}}));
     window.view().firstStart()->onSink = [&](const DeviceChoice& chosen) {
-        window.model().device().onSinksWanted(chosen);
+        window.model().device().onSinksRequested(chosen);
     };
     ASSERT_TRUE(window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey})) << "one key";
     ASSERT_TRUE(runUntil(
         [&] { return window.view().firstStart() != nullptr && window.view().firstStart()->tested() == 0; }));
     EXPECT_EQ(window.model().mix().count(), 4);
-    EXPECT_EQ(window.model().mix().levelDb, FirstStart::firstDb) << "quiet";
+    EXPECT_EQ(window.model().mix().levelDb, FirstStart::startDb) << "quiet";
     ASSERT_TRUE(runUntil([&] { return board.last("sound") > 0; })) << "the pulse waited for the board";
     window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
     EXPECT_EQ(window.view().firstStart()->tested(), 1);
@@ -109,11 +110,11 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
     MixerModel model{onlyNoDevice(), {noDevice.name, 48000, 128, {{"BOARD", "/nowhere/port"}}}};
     EXPECT_TRUE(runUntil([&] {
-        return model.look(),
-               model.trouble().startsWith(
+        return model.poll(),
+               model.messageText().startsWith(
                    "The board at /nowhere/port does not answer; it is looked for twice a second (");
-    })) << model.trouble();
-    EXPECT_TRUE(model.look().device.isRunning) << "the device plays on";
+    })) << model.messageText();
+    EXPECT_TRUE(model.poll().device.isRunning) << "the device plays on";
 }
 
 } // namespace physvib::mixer_board_test

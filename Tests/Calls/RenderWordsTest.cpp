@@ -15,7 +15,7 @@ Result<RenderJob> jobOf(const std::string& call) {
     RenderJob job;
     declareRenderOptions(table, job);
     const auto parsed = parseText(table, call);
-    return parsed.fault.empty() ? Result<RenderJob>{job} : Failure{parsed.reason()};
+    return parsed.error.empty() ? Result<RenderJob>{job} : Failure{parsed.reason()};
 }
 
 /// A word that the option takes, other than what it is if nobody says one.
@@ -30,7 +30,8 @@ std::string otherWord(const Option& option) {
     if (option.check == Option::Check::choice)
         return option.choices.front() == option.initial ? option.choices.back() : option.choices.front();
     if (option.check == Option::Check::range)
-        return plainNumber(option.initial == plainNumber(option.low) ? option.high : option.low);
+        return plainNumber(option.initial == plainNumber(option.minValue) ? option.maxValue
+                                                                          : option.minValue);
     if (option.check == Option::Check::ending) return "other" + option.type.substr(option.type.rfind('.'));
     return "other";
 }
@@ -43,7 +44,7 @@ TEST(RenderWords, EveryOptionChangesTheJob) {
     for (const Option& option : table.options) {
         if (option.spellings.back() == "--help") continue;
         const std::string name = option.spellings.front(),
-                          call = option.isPlace ? otherWord(option) : name + '=' + otherWord(option);
+                          call = option.isPositional ? otherWord(option) : name + '=' + otherWord(option);
         const auto once = jobOf(call), again = jobOf(call);
         ASSERT_TRUE(once) << call << ": " << once.error;
         EXPECT_EQ(once.value, again.value) << call;
@@ -91,16 +92,16 @@ TEST(RenderWords, WrongTextIsRefusedWithItsOption) {
 
 TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     RenderJob job;
-    EXPECT_EQ(renderInputFault(job), "render: give either a scene or --from-events EVENTS.csv");
+    EXPECT_EQ(inputOptionsError(job), "render: give either a scene or --from-events EVENTS.csv");
     job.scene = "drop";
-    EXPECT_EQ(renderInputFault(job), "");
-    EXPECT_EQ(renderFault(job), "render: nothing to write; give --out, --events, --picture, --movie, "
-                                "--pattern, --contact-sound or --marker");
+    EXPECT_EQ(inputOptionsError(job), "");
+    EXPECT_EQ(renderOptionsError(job), "render: nothing to write; give --out, --events, --picture, --movie, "
+                                       "--pattern, --contact-sound or --marker");
     job.isRemapped = true;
-    EXPECT_EQ(sceneFault(job), "--remap: expected an --actuator, whose band is to be used");
+    EXPECT_EQ(sceneOptionsError(job), "--remap: expected an --actuator, whose band is to be used");
     job = {};
     job.playsRecordings = true;
-    EXPECT_EQ(sceneFault(job), "--method SV: expected a --sound for each material");
+    EXPECT_EQ(sceneOptionsError(job), "--method SV: expected a --sound for each material");
 }
 
 // What a row of a study says is read as the value that it was written from.
@@ -110,7 +111,7 @@ Result<StimulusJob> read(const std::string& call) {
     StimulusOptions options;
     OptionTable& stimulus = words.addCommand("stimulus", {});
     declareStimulus(stimulus, options);
-    if (const auto parsed = parseText(words, call); !parsed.fault.empty()) return Failure{parsed.fault};
+    if (const auto parsed = parseText(words, call); !parsed.error.empty()) return Failure{parsed.error};
     return readStimulus(stimulus, options);
 }
 
@@ -131,11 +132,11 @@ TEST(StimulusWords, SoIsEveryStimulusOfTheBuiltInProtocols) {
     std::size_t jobs = 0;
     for (const Protocol& protocol : builtInProtocols())
         for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
-            for (const StimulusItem& item : stimuliOf(protocol.conditions[c])) {
+            for (const StimulusItem& item : conditionStimuli(protocol.conditions[c])) {
                 TrialRecord record;
                 record.trial.condition = c;
                 record.trial.stimulus = item.label;
-                for (const TrialJob& job : jobsOf(protocol, record))
+                for (const TrialJob& job : trialJobs(protocol, record))
                     if (const auto* const stimulus = std::get_if<StimulusJob>(&job))
                         expectBack(*stimulus), ++jobs;
             }
@@ -205,7 +206,7 @@ TEST(OptionTables, ADeprecatedOptionSaysSoOnce) {
         std::string run = "run";
         char* words[]{program.data(), run.data(), quick.data()};
         testing::internal::CaptureStderr();
-        EXPECT_EQ(parseArguments(table, expected.empty() ? 2 : 3, words).fault, "");
+        EXPECT_EQ(parseArguments(table, expected.empty() ? 2 : 3, words).error, "");
         EXPECT_EQ(testing::internal::GetCapturedStderr(), expected);
         EXPECT_EQ(isQuick, !expected.empty());
     }
@@ -255,7 +256,7 @@ TEST(OptionTables, WhatACallSaidIsKnownAfterwards) {
     ASSERT_EQ(rig.fault("--count 4 --light on"), "");
     for (const Option& option : rig.table.options) {
         const bool isSaid = option.spellings.front() == "--count" || option.spellings.front() == "--light";
-        EXPECT_EQ(!option.said.empty(), isSaid) << option.spellings.front();
+        EXPECT_EQ(!option.arguments.empty(), isSaid) << option.spellings.front();
     }
 }
 
@@ -281,7 +282,7 @@ TEST(OptionTables, TheCommandOfACallIsKnown) {
     EXPECT_EQ(parseText(program, "put --to there").reason(), "");
     EXPECT_TRUE(program.isCalled("put"));
     EXPECT_EQ(to, "there");
-    EXPECT_NE(parseText(program, "").fault, "");
+    EXPECT_NE(parseText(program, "").error, "");
 }
 
 } // namespace physvib::render_words_test

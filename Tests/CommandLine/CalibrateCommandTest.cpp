@@ -47,9 +47,9 @@ TEST_F(CalibrateCommand, WritesTheProfileOfWhatWasRecorded) {
     EXPECT_NEAR(*p.q, 9.0, 0.45);
     EXPECT_NEAR(*p.fullScaleG, 2.0, 0.1);
     EXPECT_EQ(p.driveLimitVolts, 2.5);
-    EXPECT_EQ(equaliserFault(p), "");
+    EXPECT_EQ(equaliserError(p), "");
     runs(std::string{pair} + "--band 150-300");
-    EXPECT_EQ(loadActuator(folder_ / "mine.json").value.bandOrNone(), (FrequencyBand{150, 300}));
+    EXPECT_EQ(loadActuator(folder_ / "mine.json").value.bandOrUnknown(), (FrequencyBand{150, 300}));
     EXPECT_FALSE(loadActuator(folder_ / "mine.json").value.fullScaleG); // nobody said what a sample is
 }
 
@@ -71,9 +71,9 @@ TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     runs(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
     const auto layout = loadLayout(folder_ / "four.json");
     ASSERT_TRUE(layout) << layout.error;
-    EXPECT_NEAR(layout.value.enchanters[1].fullScaleG, 5.0, 0.25);
-    EXPECT_EQ(layout.value.enchanters[1].actuator, "mine.json");
-    EXPECT_EQ(layout.value.enchanters[0].fullScaleG, 1.0);
+    EXPECT_NEAR(layout.value.actuators[1].fullScaleG, 5.0, 0.25);
+    EXPECT_EQ(layout.value.actuators[1].actuator, "mine.json");
+    EXPECT_EQ(layout.value.actuators[0].fullScaleG, 1.0);
     refuses(std::string{pair} + "--layout phone4 --layout-out five.json", 2,
             "--layout-out: expected --g-per-unit", 4);
     refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --place Z --layout-out five.json", 1,

@@ -38,7 +38,7 @@ protected:
         if (experiment.isDone()) return false;
         Answer answer = observer.answer(experiment);
         answer.apparatus = usual();
-        return study.take(std::move(answer));
+        return study.acceptAnswer(std::move(answer));
     }
     /// After which numbers of trials another session or condition begins; then the number of all.
     std::vector<int> phasesOfTheWhole() const {
@@ -49,11 +49,11 @@ protected:
         int session = 0;
         while (!study.experiment().isDone()) {
             if (const int now = study.experiment().sessionNumber(); std::exchange(session, now) != now)
-                phases.push_back(study.experiment().trialsTaken());
+                phases.push_back(study.experiment().answeredTrials());
             if (!takeOne(study, observer)) break;
         }
         EXPECT_EQ(study.error(), "");
-        phases.push_back(study.experiment().trialsTaken());
+        phases.push_back(study.experiment().answeredTrials());
         return phases;
     }
     /// In a process of its own: goes on with the study until so many trials are taken, and is killed.
@@ -64,8 +64,8 @@ protected:
             const StudyRun killed = run("killed");
             StudyInProgress study{killed};
             const SimulatedObserver observer{{}, killed.protocol, killed.participant};
-            if (!study.error().empty() || !study.apparatusFault(usual()).empty()) _exit(3);
-            while (study.experiment().trialsTaken() < trials)
+            if (!study.error().empty() || !study.apparatusError(usual()).empty()) _exit(3);
+            while (study.experiment().answeredTrials() < trials)
                 if (!takeOne(study, observer)) break;
             std::raise(SIGKILL);
         }
@@ -84,7 +84,7 @@ protected:
             change(changed);
             const StudyInProgress study{run("killed")};
             EXPECT_EQ(study.error(), "");
-            return study.apparatusFault(changed);
+            return study.apparatusError(changed);
         };
         EXPECT_EQ(faultOf([](Apparatus&) {}), "");
         EXPECT_EQ(faultOf([](Apparatus& a) { a.version = "2.0"; }), "") << "rows say which";

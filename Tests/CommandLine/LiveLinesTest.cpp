@@ -214,7 +214,7 @@ std::vector<std::string> linesOf(const std::string& text, std::size_t atOnce) {
     const auto take = [&](std::string_view line, bool isWhole) {
         lines.push_back(isWhole ? std::string{line} : markOfLong + std::string{line});
     };
-    LineCutter cutter;
+    LineSplitter cutter;
     for (std::size_t at = 0; at < text.size(); at += atOnce)
         cutter.add(std::string_view{text}.substr(at, atOnce), take);
     cutter.end(take);
@@ -236,8 +236,8 @@ TEST(LineCutter, NothingOfALineThatIsTooLongIsTakenForAnother) {
         EXPECT_EQ(linesOf(control + std::string(69'632, 'x') + "\n", atOnce)[0], markOfLong + "silence");
         EXPECT_EQ(linesOf(control + "\n" + std::string(200'000, 'x'), atOnce),
                   (std::vector<std::string>{control, markOfLong}));
-        EXPECT_EQ(linesOf(std::string(LineCutter::longest, 'x') + "\n", atOnce)[0].size(),
-                  LineCutter::longest);
+        EXPECT_EQ(linesOf(std::string(LineSplitter::maxLineBytes, 'x') + "\n", atOnce)[0].size(),
+                  LineSplitter::maxLineBytes);
     }
 }
 

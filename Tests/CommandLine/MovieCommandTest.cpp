@@ -60,7 +60,7 @@ TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
         WaveformEnvelope waveform(2, 0, rateHz);
         waveform.add(block.data(), rateHz);
         input.waveform = &waveform;
-        images.push_back(RenderMovie{input}.at(500'000'000, {}));
+        images.push_back(RenderMovie{input}.draw(500'000'000, {}));
     }
     std::array<double, 3> centre{};
     for (const std::size_t which : {1u, 2u}) {

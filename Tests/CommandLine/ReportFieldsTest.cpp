@@ -198,7 +198,7 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
         Protocol protocol = example(name);
         for (SessionPlan& session : protocol.sessions)
             if (session.adjustment)
-                session.adjustment->leastDb = session.adjustment->startDb = 10.0; // felt as strong at its end
+                session.adjustment->minDb = session.adjustment->startDb = 10.0; // felt as strong at its end
         writeThree(protocol);
         std::filesystem::remove(folder_ / "analysis.R");
         const auto plan = call("study plan study.json --participants 4 --out plan.txt");

@@ -65,7 +65,7 @@ std::vector<Sentence> sentences() {
     twoReferences.name = "two-references";
     twoReferences.sessions.back().alternatives.front().levelDb = -3.0;
     Protocol cut = interleaved;
-    cut.name = "cut", cut.sessions.back().staircase->mostTrials = 6;
+    cut.name = "cut", cut.sessions.back().staircase->maxTrials = 6;
     Protocol unknown = steps;
     unknown.seed = 77; // no built-in one has its hash
     const Edit device = both(both(set("device", "JACK:x"), set("version", "0.2.0")),
@@ -253,10 +253,9 @@ bool isKnown(const std::string& said, const std::vector<Sentence>& all, const st
 
 /// What a protocol says of itself (ProtocolWordsTest).
 std::set<std::string> wordsOf(const Protocol& protocol) {
-    std::set<std::string> words{withoutNumbers(protocolWords(protocol)),
-                                withoutNumbers(fullScales(protocol))};
-    for (const auto& one : protocol.conditions) words.insert(withoutNumbers(conditionWords(one)));
-    for (const auto& one : protocol.sessions) words.insert(withoutNumbers(sessionWords(one)));
+    std::set<std::string> words{withoutNumbers(protocolText(protocol)), withoutNumbers(fullScales(protocol))};
+    for (const auto& one : protocol.conditions) words.insert(withoutNumbers(conditionText(one)));
+    for (const auto& one : protocol.sessions) words.insert(withoutNumbers(sessionText(one)));
     return words;
 }
 
@@ -264,13 +263,13 @@ TEST(ReportSentences, APlanStandsBesideWhatWasDone) {
     const std::string plan = "# physvib 1 plan=study hash=7 participants=4\n- test: a\n- test by group: b\n";
     const auto facts = readPlan(plan, "plan").value;
     EXPECT_EQ(facts.tests, std::vector<std::string>{"a"});
-    EXPECT_EQ(facts.grouped, std::vector<std::string>{"b"});
+    EXPECT_EQ(facts.groupTests, std::vector<std::string>{"b"});
     EXPECT_TRUE(facts.isListed);
     auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
     trials.facts.plan = plan;
     const std::string page = studyReport(trials).files.at("index.html");
     EXPECT_TRUE(hasAll(
-        page, {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.common("hash"),
+        page, {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.commonValue("hash"),
                std::string{"<td>participants</td><td class=\"number\">4</td><td class=\"number\">1</td>"},
                std::string{"<td>a</td><td>yes</td><td>no</td>"}}))
         << page.substr(page.find("Planned and done"));

@@ -22,7 +22,7 @@ ContactCounts tenContacts() {
     return counts;
 }
 
-void made(ContactCounts& counts, double x, double y = 0.5) { counts.made({1, x, y, x, y}); }
+void addEvent(ContactCounts& counts, double x, double y = 0.5) { counts.addEvents({1, x, y, x, y}); }
 
 void expectSays(const std::string& text, const std::string& words) {
     EXPECT_NE(text.find(words), std::string::npos) << text;
@@ -61,20 +61,20 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
     ContactCounts unfelt = tenContacts();
     unfelt.hasSources = false;
     expectSays(explain(unfelt), "haptic source: set is_camera");
-    expectSays(inNames(explain(unfelt), Names::cpp), "haptic source: set isCamera");
-    expectSays(inNames(explain(unfelt), Names::scene), "haptic source: set camera");
-    expectSays(inNames(explain(unfelt), Names::mixer), "with Select, tick 'haptic source' of");
+    expectSays(replaceNames(explain(unfelt), Names::cpp), "haptic source: set isCamera");
+    expectSays(replaceNames(explain(unfelt), Names::scene), "haptic source: set camera");
+    expectSays(replaceNames(explain(unfelt), Names::mixer), "with Select, tick 'haptic source' of");
 }
 
 TEST(ContactCounts, NameTheOptionOfTheCommandLine) {
-    EXPECT_EQ(inNames("set field_width_m and field_height_m of the renderer", Names::scene),
+    EXPECT_EQ(replaceNames("set field_width_m and field_height_m of the renderer", Names::scene),
               "set the field (--field) of the renderer");
-    EXPECT_EQ(inNames("set field_width_m", Names::cpp), "set fieldWidthMetres");
+    EXPECT_EQ(replaceNames("set field_width_m", Names::cpp), "set fieldWidthMetres");
 }
 
 TEST(ContactCounts, ExplainWhatCameSince) {
     ContactCounts ever = tenContacts(), since;
-    made(ever, 0.5, 0.5);
+    addEvent(ever, 0.5, 0.5);
     EXPECT_EQ(explain(since, ever).find("Nothing was stepped since the last explanation; before: 1 event"),
               0u)
         << explain(since, ever);
@@ -91,20 +91,20 @@ TEST(ContactCounts, ExplainWhatCameSince) {
 TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     ContactCounts counts = tenContacts(), other = tenContacts();
     counts.fieldWidthMetres = 20.0;
-    made(counts, 3.0, 0.5);
-    made(counts, 19.8, 0.25);
+    addEvent(counts, 3.0, 0.5);
+    addEvent(counts, 19.8, 0.25);
     expectSays(explain(counts), "2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: nothing is "
                                 "wrong in this world. What plays it was not looked at: the field of the "
                                 "renderer or device must span these places");
     other.fieldWidthMetres = 200.0;
-    made(other, -1.0, 9.0);
+    addEvent(other, -1.0, 9.0);
     EXPECT_EQ((counts += tenContacts()).events, 2u);
     counts += other;
     EXPECT_EQ(counts.events, 3u);
     expectSays(explain(counts), "at x -1 to 19.8 m, y 0.25 to 9 m");
     counts.events = ~std::uint64_t{0};
-    counts.leastX = counts.leastY = -1.23456e-100;
-    counts.mostX = counts.mostY = -1.23456e-101;
+    counts.minX = counts.minY = -1.23456e-100;
+    counts.maxX = counts.maxY = -1.23456e-101;
     EXPECT_LT(explain(counts).size(), 512u) << "as physvib.h promises";
 }
 
@@ -135,7 +135,7 @@ ContactCounts but(Change change) {
     ContactCounts counts = tenContacts();
     counts.longestStepSeconds = 0.01;
     counts.gravityMetresPerSecond2 = 9.81;
-    counts.wantedThreshold = 0.15;
+    counts.configuredThresholdMetresPerSecond = 0.15;
     counts.fieldWidthMetres = 1.0;
     change(counts);
     return counts;
@@ -165,12 +165,12 @@ std::vector<ContactCounts> allReasons() {
         but([](C& c) { c.belowThreshold = c.motionless = 1; }),
         but([](C& c) { c.belowThreshold = c.parting = 1; }),
         but([](C& c) { c.belowThreshold = 1, c.gravityMetresPerSecond2 = 981.0; }),
-        but([](C& c) { made(c, 400.0); }),
-        but([](C& c) { made(c, 3.0); }),
-        but([](C& c) { made(c, 3.0), c.fieldWidthMetres = 2.0; }),
-        but([](C& c) { made(c, 0.5), c.longestStepSeconds = 0.1; }),
-        but([](C& c) { made(c, 0.5), c.fastestApproach = 100.0; }),
-        but([](C& c) { made(c, 0.5); }),
+        but([](C& c) { addEvent(c, 400.0); }),
+        but([](C& c) { addEvent(c, 3.0); }),
+        but([](C& c) { addEvent(c, 3.0), c.fieldWidthMetres = 2.0; }),
+        but([](C& c) { addEvent(c, 0.5), c.longestStepSeconds = 0.1; }),
+        but([](C& c) { addEvent(c, 0.5), c.fastestApproachMetresPerSecond = 100.0; }),
+        but([](C& c) { addEvent(c, 0.5); }),
     };
 }
 
@@ -188,7 +188,7 @@ TEST(GodotsWords, HaveNoNameOfC) {
     outputs[2].isSilent = true;
     for (const ContactCounts& reason : allReasons())
         for (const OutputFacts& output : outputs) {
-            const std::string inC = explain(reason, reason, &output), inGodot = godot::inGodotsWords(inC);
+            const std::string inC = explain(reason, reason, &output), inGodot = godot::translateForGodot(inC);
             said.merge(namesOf(inC));
             for (const std::string& name : namesOf(inGodot)) EXPECT_TRUE(godots.contains(name)) << inGodot;
             for (const char* word : {"haptic source", "renderer", "physvib", "layout"})

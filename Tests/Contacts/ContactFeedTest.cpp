@@ -309,7 +309,7 @@ TEST_F(ContactFeedTest, ABodyThatGoesKeepsItsHitsAndItsNumberIsFree) {
     contact.impulseNewtonSeconds = 6.0;
     step({contact});
     EXPECT_EQ(feed.remove(ball), "");
-    EXPECT_EQ(feed.remove(ball), "body: expected one that has been told");
+    EXPECT_EQ(feed.remove(ball), "body: expected one that was set");
     EXPECT_EQ(events().size(), 1U);
     set(ball, {.massKg = 1.0}, source);
     step();
@@ -321,24 +321,24 @@ TEST_F(ContactFeedTest, RefusesWhatCannotBeAndNothingIsChanged) {
     EXPECT_EQ(feed.set(-1, {}, {}), "body: expected a number from 0 on");
     EXPECT_EQ(feed.set(7, {.massKg = nan}, {}), "mass: expected 0 to 10^12 kg");
     EXPECT_EQ(feed.set(7, {}, {.frequencyHz = nan}), "frequency: expected 0 to 20000 Hz");
-    EXPECT_EQ(feed.move(7, {}, {}), "body: expected one that has been told");
+    EXPECT_EQ(feed.move(7, {}, {}), "body: expected one that was set");
     EXPECT_EQ(feed.touch(landing()), "step: expected to be within one");
     EXPECT_EQ(feed.endStep(), "step: expected to be within one");
     EXPECT_EQ(feed.beginStep(-1, g), "time: expected not to go back, and less than 10^17 ns");
     begin();
     EXPECT_EQ(feed.beginStep(20'000'000, g), "step: expected not to be within one");
     EXPECT_EQ(feed.remove(ball), "step: expected not to be within one");
-    const auto faultOf = [&](auto change) {
+    const auto errorOf = [&](auto change) {
         FedContact contact = landing();
         change(contact);
         return feed.touch(contact);
     };
-    EXPECT_EQ(faultOf([](auto& c) { c.normal = {0.0F, 0.0F}; }), "normal: expected a length of 1");
-    EXPECT_EQ(faultOf([=](auto& c) { c.approachMetresPerSecond = nan; }),
+    EXPECT_EQ(errorOf([](auto& c) { c.normal = {0.0F, 0.0F}; }), "normal: expected a length of 1");
+    EXPECT_EQ(errorOf([=](auto& c) { c.approachMetresPerSecond = nan; }),
               "approach: expected a number of m/s");
-    EXPECT_EQ(faultOf([=](auto& c) { c.alongBMetresPerSecond = nan; }),
+    EXPECT_EQ(errorOf([=](auto& c) { c.alongBMetresPerSecond = nan; }),
               "speed along a surface: expected a number of m/s");
-    EXPECT_EQ(faultOf([](auto& c) { c.b = ground; }), "bodies: expected two");
+    EXPECT_EQ(errorOf([](auto& c) { c.b = ground; }), "bodies: expected two");
     end();
     EXPECT_TRUE(events().empty());
     ImpactSettings release;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Components and reach against a plain breadth-first search, as the thesis has it; and whom what comes
 // through contacts reaches.
-#include "Contacts/CollisionCatcher.h"
+#include "Contacts/CollisionRecorder.h"
 #include "Contacts/FixtureTable.h"
 #include <array>
 #include <cmath>
@@ -139,18 +139,18 @@ TEST(ChainLoads, ASourceReceivesOnceHoweverWeakItsFirstImpulseIs) {
     ContactGraph graph;
     std::array<std::int32_t, 3> slots{};
     for (std::size_t i = 0; i < slots.size(); ++i)
-        slots[i] = table.know(11 + i, {21 + i, 1.0, 1.0F, true, true});
+        slots[i] = table.findOrAdd(11 + i, {21 + i, 1.0, 1.0F, true, true});
     table.set(slots[0], {.isCamera = true}, {});
-    ChainLoads loads{table, graph.pairs()};
-    std::vector<TouchingPairs::Name> contacts;
+    TransmittedImpulses loads{table, graph.pairs()};
+    std::vector<TouchingPairs::Handle> contacts;
     for (const std::int32_t other : {slots[1], slots[2]}) {
         contacts.push_back({other, slots[0], graph.insert(other, slots[0])});
         loads.begin(contacts.back());
     }
     const auto push = [&](float one, float other) {
-        loads.add(contacts[0], graph.pairs()[contacts[0].number].load, {one, 0.0F, 0.0F});
-        loads.add(contacts[1], graph.pairs()[contacts[1].number].load, {other, 0.0F, 0.0F});
-        loads.settle();
+        loads.add(contacts[0], graph.pairs()[contacts[0].number].loadIndex, {one, 0.0F, 0.0F});
+        loads.add(contacts[1], graph.pairs()[contacts[1].number].loadIndex, {other, 0.0F, 0.0F});
+        loads.endReports();
     };
     for (int step = 0; step < 4; ++step) {
         push(weak, weak);
@@ -158,8 +158,8 @@ TEST(ChainLoads, ASourceReceivesOnceHoweverWeakItsFirstImpulseIs) {
     }
     push(std::nextafter(weak, 1.0F), 1.0F);
     EXPECT_EQ(loads.receivers(), std::vector{slots[0]});
-    EXPECT_EQ(loads.passed(slots[0]).strongest, 1.0F);
-    EXPECT_EQ(loads.passed(slots[0]).other, slots[2]);
+    EXPECT_EQ(loads.transmittedTo(slots[0]).strongest, 1.0F);
+    EXPECT_EQ(loads.transmittedTo(slots[0]).other, slots[2]);
 }
 
 } // namespace physvib::contact_graph_test

@@ -249,7 +249,7 @@ TEST_F(ContactSpace, AnEventHasThePartOfItsSource) {
 
 TEST_F(ContactSpace, WhatIsNoMotionInSpaceIsNamed) {
     const float nan = std::nanf("");
-    EXPECT_EQ(feed.moveInSpace(9, {}, {}), "body: expected one that has been told");
+    EXPECT_EQ(feed.moveInSpace(9, {}, {}), "body: expected one that was set");
     EXPECT_EQ(feed.moveInSpace(1, {0.0F, 0.0F, nan}, {}), "place: expected numbers");
     EXPECT_EQ(feed.moveInSpace(1, {}, {{}, {nan, 0.0F, 0.0F}}), "velocity: expected numbers");
     const std::string_view fault =

@@ -79,10 +79,10 @@ TEST(EventSorter, WithdrawsEventsOfAFixtureAndOnDemandThoseItGave) {
     sorter.push(event(1, 5));
     sorter.push(given);
     sorter.push(event(3, 1));
-    sorter.withdraw(5, false);
+    sorter.removeEventsOf(5, false);
     EXPECT_EQ(released(sorter, 3), std::vector{given});
     sorter.push(given);
-    sorter.withdraw(5, true);
+    sorter.removeEventsOf(5, true);
     EXPECT_EQ(released(sorter, 10), std::vector{event(3, 1)});
 }
 
@@ -117,35 +117,35 @@ TEST(IntegerMap, EqualsAStandardMapThroughRandomEdits) {
 std::uint64_t address(int i) { return 0x7F0000001000U + 16U * static_cast<std::uint64_t>(i); }
 
 TEST(NameSketch, NeverDeniesWhatIsThere) {
-    NameSketch sketch;
+    CountingFilter sketch;
     for (int i = 0; i < 50'000; ++i) sketch.add(address(i));
     for (int i = 100; i < 50'000; ++i) sketch.remove(address(i));
-    for (int i = 0; i < 100; ++i) EXPECT_TRUE(sketch.mayHave(address(i))) << i;
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(sketch.mayContain(address(i))) << i;
 }
 
 TEST(NameSketch, SeldomAffirmsWhatIsNot) {
-    NameSketch sketch;
+    CountingFilter sketch;
     for (int i = 0; i < 100; ++i) sketch.add(address(i));
     int affirmed = 0;
-    for (int i = 100; i < 10'100; ++i) affirmed += sketch.mayHave(address(i)) ? 1 : 0;
+    for (int i = 100; i < 10'100; ++i) affirmed += sketch.mayContain(address(i)) ? 1 : 0;
     EXPECT_LT(affirmed, 1000); // 100 of 2,048 places are taken: 1 in 20
 }
 
 TEST(NameSketch, OfCamerasFollowsTheTable) {
     FixtureTable table;
     const HapticFixture camera{.isCamera = true}, other{};
-    const std::int32_t slot = table.know(address(1), {});
-    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    const std::int32_t slot = table.findOrAdd(address(1), {});
+    EXPECT_FALSE(table.mayBeSource(address(1)));
     for (int i = 0; i < 2; ++i) table.set(slot, camera, {});
-    EXPECT_TRUE(table.mayBeCamera(address(1)));
+    EXPECT_TRUE(table.mayBeSource(address(1)));
     table.set(slot, other, {});
-    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    EXPECT_FALSE(table.mayBeSource(address(1)));
     table.set(slot, camera, {});
-    table.unset(slot);
-    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    table.removeValues(slot);
+    EXPECT_FALSE(table.mayBeSource(address(1)));
     table.set(slot, camera, {});
     table.release(slot);
-    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    EXPECT_FALSE(table.mayBeSource(address(1)));
 }
 
 } // namespace physvib::event_sorter_test

@@ -127,12 +127,12 @@ TEST(FullScale, GrainsDoNotRaiseTheLevelAndMutedSourcesDoNotCount) {
     FixtureTable table;
     const BodyFacts body{.body = 1, .massKg = 2.0, .isDynamic = true};
     HapticFixture values = source;
-    const std::int32_t heard = table.set(table.know(std::uint64_t{1}, body), values, {}, 0);
+    const std::int32_t heard = table.set(table.findOrAdd(std::uint64_t{1}, body), values, {}, 0);
     values.gain = 0.0;
-    const std::int32_t muted = table.set(table.know(std::uint64_t{2}, body), values, {}, 1);
+    const std::int32_t muted = table.set(table.findOrAdd(std::uint64_t{2}, body), values, {}, 1);
     StepSpan step;
     step.endNs = 10'000'000;
-    step.leastMetresPerSecond = 0.15;
+    step.minThresholdMetresPerSecond = 0.15;
     const auto impact = [](std::int32_t fixture, double newtonSeconds, ContactKind kind) {
         return Impact{fixture, FixtureTable::none, 0, newtonSeconds, {}, kind};
     };
@@ -148,11 +148,11 @@ TEST(FullScale, RefusesWhatCannotBe) {
     for (const double bad : {-2.0, nan, std::numeric_limits<double>::infinity()}) {
         ImpactSettings settings;
         settings.fullScaleNewtonSeconds = bad;
-        EXPECT_EQ(faultOf(settings),
+        EXPECT_EQ(errorOf(settings),
                   "full-scale impulse: expected 0 (off), more than 0 N s, or -1 (automatic)");
         settings = {};
         settings.settlingSeconds = bad;
-        EXPECT_EQ(faultOf(settings), "settling: expected 0 s or more");
+        EXPECT_EQ(errorOf(settings), "settling: expected 0 s or more");
     }
 }
 

@@ -19,7 +19,7 @@ struct Pass {
 
 std::vector<Pass> passes(const Grains& grains, const SurfaceMotion& motion, std::int64_t every = 1) {
     std::vector<Pass> all;
-    grains.along(motion, every, nullptr, [&](std::int64_t index, double t) { all.push_back({index, t}); });
+    grains.visit(motion, every, nullptr, [&](std::int64_t index, double t) { all.push_back({index, t}); });
     return all;
 }
 
@@ -75,7 +75,7 @@ TEST(Grains, ThinnedOnesAreSomeOfThem) {
 std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, std::int64_t every) {
     constexpr double rate = 5000.0, length = 32.0; // four times the thinned grains: their tones fold back
     std::vector<double> impulses(static_cast<std::size_t>(rate * length));
-    grains.along({0.0, metresPerSecond, 0.0, length}, every, nullptr, [&](std::int64_t index, double t) {
+    grains.visit({0.0, metresPerSecond, 0.0, length}, every, nullptr, [&](std::int64_t index, double t) {
         const auto at = std::min(static_cast<std::size_t>(t * rate), impulses.size() - 1);
         impulses[at] += grains.strengthOf(index) * std::sqrt(static_cast<double>(every));
     });
@@ -113,13 +113,13 @@ TEST(Grains, TheGapOfTheStepBeforeChangesNothingAndOftenTellsThatThereIsNone) {
     for (int i = 0; i < 4000; ++i) { // to and fro
         const SurfaceMotion motion{at, (i % 7 == 0 ? 40.0 : 0.9) * std::sin(0.01 * i),
                                    0.3 * std::cos(0.3 * i), 0.01};
-        const bool holds = gap.holds(motion);
+        const bool holds = gap.contains(motion);
         Passed searched, known;
         const auto into = [](Passed& all) {
             return [&all](std::int64_t index, double t) { all.emplace_back(index, t); };
         };
-        grains.along(motion, 1, nullptr, into(searched));
-        gap = grains.along(motion, 1, &gap, into(known));
+        grains.visit(motion, 1, nullptr, into(searched));
+        gap = grains.visit(motion, 1, &gap, into(known));
         held += holds ? 1 : 0;
         EXPECT_EQ(searched, known) << i;
         EXPECT_TRUE(!holds || known.empty()) << i;
@@ -129,13 +129,13 @@ TEST(Grains, TheGapOfTheStepBeforeChangesNothingAndOftenTellsThatThereIsNone) {
 }
 
 TEST(Textures, WhatCannotBeFeltIsRefused) {
-    EXPECT_EQ(faultOf(Texture{}), "");
-    EXPECT_EQ(faultOf(Texture{0.002}), "");
+    EXPECT_EQ(errorOf(Texture{}), "");
+    EXPECT_EQ(errorOf(Texture{0.002}), "");
     EXPECT_FALSE(Texture{1.0e-6}.isRough());
     for (const double grain : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()})
-        EXPECT_NE(faultOf(Texture{grain}), "") << grain;
-    EXPECT_NE(faultOf(Texture{0.002, -1.0}), "");
-    EXPECT_NE(faultOf(Texture{0.002, 1.0, GrainPattern::random, 1.5}), "");
+        EXPECT_NE(errorOf(Texture{grain}), "") << grain;
+    EXPECT_NE(errorOf(Texture{0.002, -1.0}), "");
+    EXPECT_NE(errorOf(Texture{0.002, 1.0, GrainPattern::random, 1.5}), "");
 }
 
 /// A point of two slots, told as an engine would that has no Box2D.
@@ -144,9 +144,9 @@ protected:
     LastingStream() {
         HapticFixture ground{250.0, 20.0, true, 10.0};
         ground.texture = {0.002};
-        groundSlot = table.know(std::uint64_t{11}, {.body = 1});
+        groundSlot = table.findOrAdd(std::uint64_t{11}, {.body = 1});
         table.set(groundSlot, ground, {});
-        ballSlot = table.know(std::uint64_t{12}, {.body = 2, .massKg = 1.0, .isDynamic = true});
+        ballSlot = table.findOrAdd(std::uint64_t{12}, {.body = 2, .massKg = 1.0, .isDynamic = true});
     }
     /// A step of 10 ms with this load and speed, sliding.
     std::vector<Impact> step(double newtons, double metresPerSecond) {
@@ -230,7 +230,7 @@ TEST_F(LastingStream, ManyTogetherStayBelowTheirBound) {
             touch(k, 1.0, 3.0, 0.03 * n + 0.0137 * static_cast<double>(k));
         impacts = endStep();
     }
-    EXPECT_LE(impacts.size(), 1000U); // of mostTogetherPerSecond, but for what lies at both ends
+    EXPECT_LE(impacts.size(), 1000U); // of maxTotalGrainsPerSecond, but for what lies at both ends
     EXPECT_GT(impacts.size(), 200U);
 }
 

@@ -67,11 +67,11 @@ TEST(EventShaping, CutsADecayWhereItsEnvelopeFallsToGamma) {
 TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
     EventShaping shaping{
         .method = {}, .remap = {{180, 230}}, .gain = 0.5, .perceived = {true}, .truncation = 0.1};
-    ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
+    ASSERT_TRUE(parseRenderingMethod("AF-FV-DRV", shaping.method));
     shaping.method.holdsLevel = true;
     CollisionEvent hit = collision, clip = hit;
     hit.durationNs = clip.durationNs = 9;
-    clip.sound = soundOfClip(mostClips - 1);
+    clip.sound = soundOfClip(maxClips - 1);
     EventShaper shaper{shaping};
     EXPECT_EQ(shaping(clip), clip);
     EXPECT_EQ(shaper(clip), clip);
@@ -90,9 +90,9 @@ TEST(EventShaping, CutsALaterSegmentWhereItsToneEnds) {
     shaping.truncation = 0.1;
     CollisionEvent e = collision;
     const std::int64_t whole = shaping(e).durationNs;
-    e.course.sinceNs = 10'000'000;
+    e.course.toneAgeNs = 10'000'000;
     EXPECT_EQ(shaping(e).durationNs, whole - 10'000'000);
-    e.course.sinceNs = whole + 5;
+    e.course.toneAgeNs = whole + 5;
     EXPECT_EQ(shaping(e).durationNs, 1) << "a duration of 0 would be endless";
 }
 
@@ -111,7 +111,7 @@ TEST(ToneEnd, IsACrossingAQuarterPeriodAwayAtMost) {
     for (int i = 0; i < 100'000; ++i) {
         const double hz = std::uniform_real_distribution{5.0, 2000.0}(random);
         const auto wanted = std::uniform_int_distribution<std::int64_t>{1'000'000, 3'600'000'000'000}(random);
-        const std::int64_t end = softEndNs(hz, wanted);
+        const std::int64_t end = toneEndNs(hz, wanted);
         const double halfNs = 0.5e9 / hz;
         ASSERT_GE(end, 1);
         if (static_cast<double>(wanted) >= halfNs)
@@ -125,8 +125,8 @@ TEST(ToneEnd, IsACrossingAQuarterPeriodAwayAtMost) {
 
 TEST(ToneEnd, StaysWhereItIsACrossing) {
     for (const std::int64_t ms : {2, 20, 250, 1000})
-        EXPECT_EQ(softEndNs(250.0, ms * 1'000'000), ms * 1'000'000);
-    EXPECT_EQ(softEndNs(205.0, 250'000'000), 251'219'512) << "ABA-250: 103 half periods";
+        EXPECT_EQ(toneEndNs(250.0, ms * 1'000'000), ms * 1'000'000);
+    EXPECT_EQ(toneEndNs(205.0, 250'000'000), 251'219'512) << "ABA-250: 103 half periods";
     EXPECT_EQ(nearestCrossingNs(205.0, 1'000'000), 0);
 }
 
@@ -168,8 +168,8 @@ TEST(SoundNumber, AMaterialKeepsItsNumberInFilesOfAllVersions) {
     EXPECT_EQ(soundOfMaterial("steel"), 2095187368);
     EXPECT_FALSE(isClip(soundOfMaterial("wood")));
     EXPECT_FALSE(isClip(0));
-    for (int k = 0; k < mostClips; ++k) EXPECT_TRUE(isClip(soundOfClip(k))) << k;
-    EXPECT_FALSE(isClip(soundOfClip(mostClips)));
+    for (int k = 0; k < maxClips; ++k) EXPECT_TRUE(isClip(soundOfClip(k))) << k;
+    EXPECT_FALSE(isClip(soundOfClip(maxClips)));
 }
 
 TEST(CollisionEvent, NothingThatIsNotANumberIsPlayable) {

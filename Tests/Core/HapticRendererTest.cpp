@@ -13,12 +13,12 @@ using test::gridLayout;
 using test::randomEvents;
 using test::renderEvents;
 
-RendererSettings settingsFor(const EnchanterLayout& layout, PanningLaw law, int rate, bool limiter = false) {
+RendererSettings settingsFor(const ActuatorLayout& layout, PanningLaw law, int rate, bool limiter = false) {
     return {rate, layout.count, PhantomPanner{layout, law, 1.0, 1.0, 1.0}, limiter};
 }
 
-EnchanterLayout layoutOf(int channels) {
-    EnchanterLayout corners{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}};
+ActuatorLayout layoutOf(int channels) {
+    ActuatorLayout corners{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}};
     return channels == 4   ? corners
            : channels == 2 ? gridLayout(2, 1)
            : channels == 1 ? gridLayout(1, 1)

@@ -265,7 +265,7 @@ TEST(GainRamp, MovesOnThroughSilence) {
         ramp->prepare(48000, 0.01, 1.0f);
         ramp->moveTo(-0.5f);
     }
-    passed.pass(100);
+    passed.skip(100);
     applied.apply(&silence, 1, 100);
     passed.apply(&atA, 1, 100);
     applied.apply(&atB, 1, 100);
@@ -298,13 +298,13 @@ TEST(ChannelDelay, ChangesWithoutAStep) {
     auto io = sine(4000);
     ChannelDelay<500> delay;
     delay.prepare(200, 0);
-    EXPECT_TRUE(delay.isOut());
+    EXPECT_TRUE(delay.isBypassed());
     delay.process(io.data(), 1000, false);
     delay.moveTo(400);
     delay.process(io.data() + 1000, 1500, false);
     delay.moveTo(0);
     delay.process(io.data() + 2500, 1500, false);
-    EXPECT_TRUE(delay.isOut());
+    EXPECT_TRUE(delay.isBypassed());
     for (std::size_t n = 1; n < io.size(); ++n) ASSERT_LT(std::abs(io[n] - io[n - 1]), 0.04f) << n;
 }
 

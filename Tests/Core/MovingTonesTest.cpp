@@ -18,17 +18,17 @@ constexpr int rate = 48000;
 constexpr double hz = 205.0;
 
 RendererSettings phone4(PanningLaw law = PanningLaw::linear) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {rate, 4, PhantomPanner{layout, law, 1, layout.extentWidthMetres, layout.extentHeightMetres},
             false};
 }
 
-EnchanterPlace placeOf(char letter) {
+ActuatorPlace placeOf(char letter) {
     return phone4().panner.layout().places[static_cast<std::size_t>(letter - 'A')];
 }
 
-CollisionEvent segment(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
+CollisionEvent segment(ActuatorPlace from, ActuatorPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
     return {.timeNs = fromNs,
             .frequencyHz = hz,
             .amplitude = 0.5,
@@ -102,7 +102,7 @@ TEST(MovingTones, TheCentreOfWhatIsFeltFollowsThePathAtEqualStrength) {
             y += a * a * places[j].yMetres;
         }
         const double share = (static_cast<double>(first) + 0.5 * window) / rate;
-        const EnchanterPlace a = placeOf('A'), d = placeOf('D');
+        const ActuatorPlace a = placeOf('A'), d = placeOf('D');
         const double away = std::hypot(x / energy - std::lerp(a.xMetres, d.xMetres, share),
                                        y / energy - std::lerp(a.yMetres, d.yMetres, share));
         EXPECT_LE(away, 0.02 * std::hypot(d.xMetres - a.xMetres, d.yMetres - a.yMetres)) << share;
@@ -122,7 +122,7 @@ TEST(MovingTones, SegmentsOfOnePathJoinWithoutAStep) {
     CollisionEvent first = segment(placeOf('A'), placeOf('B'), 0, 400'123'457),
                    second = segment(placeOf('B'), placeOf('D'), first.durationNs,
                                     1'000'000'000 - first.durationNs);
-    second.course.sinceNs = second.timeNs;
+    second.course.toneAgeNs = second.timeNs;
     const auto felt = test::renderEvents({first, second}, phone4(), rate).channels;
     float steepest = 0.0f;
     for (const auto& channel : felt)
@@ -165,10 +165,10 @@ TEST(MovingTones, TheRestOfALongerToneGoesOnWhereThatOneIs) {
     whole.course = {};
     whole.spread = Spread::layout;
     whole.decayPerSecond = rest.decayPerSecond = 3.0;
-    rest.course = {.sinceNs = 300'000'017};
+    rest.course = {.toneAgeNs = 300'000'017};
     rest.spread = Spread::layout;
-    rest.timeNs = rest.course.sinceNs;
-    rest.durationNs -= rest.course.sinceNs;
+    rest.timeNs = rest.course.toneAgeNs;
+    rest.durationNs -= rest.course.toneAgeNs;
     const auto a = test::renderEvents({whole}, phone4(), rate).channels,
                b = test::renderEvents({rest}, phone4(), rate).channels;
     for (std::size_t n = 14'401; n < a[0].size(); ++n) ASSERT_NEAR(a[0][n], b[0][n], 1e-6) << n;
@@ -195,7 +195,7 @@ TEST(MovingTones, TooManyAtOnceAreRefused) {
 
 TEST(Spread, EqualKeepsTheEnergyOnAnyLayoutAndAloneIsOne) {
     for (const int count : {1, 2, 3, 4, 7}) {
-        EnchanterLayout layout{1.0, 0.5, count, {}};
+        ActuatorLayout layout{1.0, 0.5, count, {}};
         for (int j = 0; j < count; ++j)
             layout.places[static_cast<std::size_t>(j)] = {count == 3 ? 0.5 * j : std::abs(std::sin(j * 1.7)),
                                                           count == 3 ? 0.2
@@ -208,7 +208,7 @@ TEST(Spread, EqualKeepsTheEnergyOnAnyLayoutAndAloneIsOne) {
             for (int j = 0; j < count; ++j)
                 energy += gains[static_cast<std::size_t>(j)] * gains[static_cast<std::size_t>(j)];
             EXPECT_NEAR(energy, 1.0, 1e-9) << count << ' ' << x;
-            panner.gainsAt(x, 0.3, Spread::alone, gains);
+            panner.gainsAt(x, 0.3, Spread::nearest, gains);
             EXPECT_EQ(std::count(gains.begin(), gains.begin() + count, 0.0), count - 1);
         }
     }
@@ -223,17 +223,17 @@ constexpr int travelRate = 16000;
 /// A layout and the way over it, as a function of the share that has passed; `gap` in units of the way.
 struct Journey {
     std::string name;
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     bool isBelt = false;
     double gap = 1.0;
 
     static double angleAt(double share) { return 2 * std::numbers::pi * share - 2.0; }
-    EnchanterPlace at(double share) const {
+    ActuatorPlace at(double share) const {
         if (!isBelt) return {share * layout.extentWidthMetres, 0.3 * layout.extentHeightMetres};
         return {0.5 + 0.5 * std::cos(angleAt(share)), 0.5 + 0.5 * std::sin(angleAt(share))};
     }
     /// How far along the way a place is felt, as a share; on a belt only its direction is.
-    double shareOf(const EnchanterPlace& felt, double near) const {
+    double shareOf(const ActuatorPlace& felt, double near) const {
         if (!isBelt) return felt.xMetres / layout.extentWidthMetres;
         const double angle = std::atan2(felt.yMetres - 0.5, felt.xMetres - 0.5) - angleAt(near);
         return near + std::remainder(angle, 2 * std::numbers::pi) / (2 * std::numbers::pi);
@@ -245,7 +245,7 @@ std::vector<Journey> journeys() {
     for (const int count : {2, 3, 4, 8, 16})
         all.push_back(
             {"row of " + std::to_string(count), test::gridLayout(count, 1), false, 1.0 / (count - 1)});
-    all.push_back({"belt of 8", EnchanterLayout{1.0, 1.0, 8, {}}, true, 1.0 / 8});
+    all.push_back({"belt of 8", ActuatorLayout{1.0, 1.0, 8, {}}, true, 1.0 / 8});
     Journey& belt = all.back();
     for (std::size_t j = 0; j < 8; ++j) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(j) / 8;
@@ -263,8 +263,8 @@ std::vector<CollisionEvent> eventsOf(const Journey& journey, Kind kind, Spread s
     std::vector<CollisionEvent> events;
     for (std::int64_t from = 0; from < ns; from += each) {
         const auto shareAt = [](std::int64_t at) { return static_cast<double>(at) / ns; };
-        const EnchanterPlace at = journey.at(shareAt(kind == Kind::phantom ? from : from + each / 2)),
-                             to = journey.at(shareAt(from + each));
+        const ActuatorPlace at = journey.at(shareAt(kind == Kind::phantom ? from : from + each / 2)),
+                            to = journey.at(shareAt(from + each));
         CollisionEvent& event = events.emplace_back();
         event.timeNs = from;
         event.durationNs = each;
@@ -295,7 +295,7 @@ Travel travelOf(const Journey& journey, Kind kind, const PhantomPanner& panner, 
     double moment = 0.0, square = 0.0;
     Travel travel;
     for (int w = 0; w < windows; ++w) {
-        EnchanterPlace felt;
+        ActuatorPlace felt;
         double energy = 0.0;
         for (std::size_t j = 0; j < channels.size(); ++j)
             for (int n = w * frames; n < (w + 1) * frames; ++n) {

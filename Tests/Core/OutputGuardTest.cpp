@@ -300,7 +300,7 @@ double weightedSquare(int rate, double hz, double seconds, int block) {
         for (int n = 0; n < block; ++n)
             samples[static_cast<std::size_t>(n)] = static_cast<float>(
                 std::sin(2.0 * std::numbers::pi * hz * static_cast<double>((done + n) % rate) / rate));
-        meter.take(0, samples.data(), static_cast<int>(std::min<std::int64_t>(block, frames - done)));
+        meter.add(0, samples.data(), static_cast<int>(std::min<std::int64_t>(block, frames - done)));
     }
     meter.publish();
     return meter.read().weighted[0];
@@ -325,12 +325,12 @@ TEST(ExposureMeter, AddsNothingToSilence) {
     ExposureMeter meter;
     meter.prepare(48000);
     const std::vector<float> click{1.0f}, none(4800, 0.0f);
-    meter.take(0, click.data(), 1);
-    for (int i = 0; i < 100; ++i) meter.take(0, none.data(), 4800);
+    meter.add(0, click.data(), 1);
+    for (int i = 0; i < 100; ++i) meter.add(0, none.data(), 4800);
     meter.publish();
     const double weighted = meter.read().weighted[0];
     EXPECT_GT(weighted, 0.0);
-    for (int i = 0; i < 100; ++i) meter.take(0, none.data(), 4800);
+    for (int i = 0; i < 100; ++i) meter.add(0, none.data(), 4800);
     meter.publish();
     EXPECT_EQ(meter.read().weighted[0], weighted);
 }

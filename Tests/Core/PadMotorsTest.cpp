@@ -11,7 +11,7 @@ namespace physvib::pad_motors_test {
 constexpr std::int64_t ms = 1'000'000;
 
 PhantomPanner grips() {
-    EnchanterLayout phone;
+    ActuatorLayout phone;
     layoutPreset("phone4", phone);
     return PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
 }
@@ -134,7 +134,7 @@ TEST(PadMotors, WhatIsToBeFeltIsFeltHoweverShortAndWeak) {
                 PadLaw law;
                 law.commandsPerSecond = perSecond;
                 const Felt felt = feltOf(law, commandsOf(law, {pulse(0.1, 0.02, amplitude, frequencyHz)}));
-                EXPECT_GE(std::max(felt.low, felt.high), 0.9 * PadMotors::leastFelt)
+                EXPECT_GE(std::max(felt.low, felt.high), 0.9 * PadMotors::minPerceptibleStrength)
                     << perSecond << ' ' << frequencyHz << ' ' << amplitude;
             }
     EXPECT_TRUE(commandsOf({}, {pulse(0.1, 0.02, 0.0099, 50.0)}).back().isSame({}))
@@ -169,7 +169,7 @@ TEST(PadMotors, FrequencyAndPlaceShareAHitBetweenTheMotors) {
     EXPECT_GT(felt(250.0, 0.5).high, 1.5 * felt(250.0, 0.5).low);
     EXPECT_GT(felt(100.0, 0.0).low, felt(100.0, 0.0).high);
     EXPECT_GT(felt(100.0, 1.0).high, felt(100.0, 1.0).low);
-    EXPECT_GE(felt(250.0, 0.0).high, PadMotors::leastFelt * 0.9)
+    EXPECT_GE(felt(250.0, 0.0).high, PadMotors::minPerceptibleStrength * 0.9)
         << "a high hit at the left is felt all the same";
 }
 

@@ -18,15 +18,15 @@ namespace physvib::phantom_panner_test {
 
 constexpr double W = 6.4, H = 3.6; // field metres
 
-PhantomPanner::Gains gainsOf(const EnchanterLayout& layout, PanningLaw law, double x, double y,
+PhantomPanner::Gains gainsOf(const ActuatorLayout& layout, PanningLaw law, double x, double y,
                              double exponent = 1) {
     PhantomPanner::Gains gains{};
     PhantomPanner{layout, law, exponent, W, H}.gainsAt(x, y, gains);
     return gains;
 }
 
-EnchanterLayout preset(std::string_view name) {
-    EnchanterLayout layout;
+ActuatorLayout preset(std::string_view name) {
+    ActuatorLayout layout;
     EXPECT_TRUE(layoutPreset(name, layout)) << name;
     return layout;
 }
@@ -44,12 +44,12 @@ TEST(PhantomPanner, OneEnchanterPlaysEverythingFully) {
 // Equations 4.2, with its gamma, and 4.3 in its two reconstructions; two follow the line only.
 TEST(PhantomPanner, GainsAreThoseOfTheEquationsUpperLeftFirst) {
     struct Case {
-        EnchanterLayout layout;
+        ActuatorLayout layout;
         PanningLaw law;
         double x, y, exponent;
         std::vector<std::pair<std::size_t, double>> gains;
     };
-    EnchanterLayout diagonal{1, 1, 2, {}};
+    ActuatorLayout diagonal{1, 1, 2, {}};
     diagonal.places[1] = {1, 1};
     std::vector<Case> cases{{preset("phone4"),
                              PanningLaw::linear,
@@ -127,10 +127,10 @@ TEST(PhantomPanner, EnergySquaresSumToOneAndNoGainLeavesZeroToOne) {
 
 TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
     for (const auto& one : panningLaws) {
-        EXPECT_EQ(one.factor(0.0), 1.0) << one.name;
-        EXPECT_EQ(one.factor(1.0), 0.0) << one.name;
+        EXPECT_EQ(one.gain(0.0), 1.0) << one.name;
+        EXPECT_EQ(one.gain(1.0), 0.0) << one.name;
         for (int i = 1; i <= 64; ++i)
-            EXPECT_LT(one.factor(i / 64.0), one.factor((i - 1) / 64.0)) << one.name << ' ' << i;
+            EXPECT_LT(one.gain(i / 64.0), one.gain((i - 1) / 64.0)) << one.name << ' ' << i;
     }
 }
 
@@ -185,7 +185,7 @@ TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
         for (const double u : {0.25, 0.5, 0.75}) {
             double gain = 0.0;
             gains >> gain;
-            EXPECT_NEAR(gain, one.factor(u), 5.1e-5) << one.name << ' ' << u;
+            EXPECT_NEAR(gain, one.gain(u), 5.1e-5) << one.name << ' ' << u;
         }
     }
     std::getline(page, line);
@@ -198,7 +198,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 void expectPlaces(std::string_view name, const std::vector<std::pair<double, double>>& expected) {
-    const EnchanterLayout layout = preset(name);
+    const ActuatorLayout layout = preset(name);
     ASSERT_EQ(layout.count, static_cast<int>(expected.size())) << name;
     for (std::size_t j = 0; j < expected.size(); ++j) {
         EXPECT_DOUBLE_EQ(layout.places[j].xMetres, expected[j].first) << name << " " << j;
@@ -206,16 +206,16 @@ void expectPlaces(std::string_view name, const std::vector<std::pair<double, dou
     }
 }
 
-TEST(EnchanterLayout, EveryPresetIsValidAndHasTheCountInItsName) {
+TEST(ActuatorLayout, EveryPresetIsValidAndHasTheCountInItsName) {
     for (const std::string_view name : layoutPresetNames) {
-        const EnchanterLayout layout = preset(name);
+        const ActuatorLayout layout = preset(name);
         EXPECT_TRUE(isValid(layout)) << name;
         EXPECT_EQ(std::to_string(layout.count), name.substr(name.find_first_of("0123456789"))) << name;
     }
 }
 
 // Corners upper left first; a cabinet has its front below and first; a pad for a Pico is read in lines.
-TEST(EnchanterLayout, PresetsStandWhereThePageSays) {
+TEST(ActuatorLayout, PresetsStandWhereThePageSays) {
     expectPlaces("phone1", {{0.06, 0.03}});
     expectPlaces("phone2", {{0.0, 0.03}, {0.12, 0.03}});
     expectPlaces("ring3", {{0.0, 0.08}, {0.16, 0.08}, {0.08, 0.0}});
@@ -233,9 +233,9 @@ TEST(EnchanterLayout, PresetsStandWhereThePageSays) {
     EXPECT_EQ(preset("ring4").extentHeightMetres, 0.08);
 }
 
-TEST(EnchanterLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
+TEST(ActuatorLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
     for (const char* name : {"glove5", "sleeve8", "vest16"}) {
-        const EnchanterLayout layout = preset(name);
+        const ActuatorLayout layout = preset(name);
         EXPECT_FALSE(isFlat(layout)) << name;
         for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
             const auto& at = layout.places[j];
@@ -250,18 +250,18 @@ TEST(EnchanterLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
     EXPECT_TRUE(isFlat(preset("cabinet4")));
 }
 
-TEST(EnchanterLayout, UnknownPresetLeavesTheLayoutUntouched) {
+TEST(ActuatorLayout, UnknownPresetLeavesTheLayoutUntouched) {
     for (const std::string_view name : {"", "phone", "phone0", "phone65", "PHONE4", "phone4 ", "ring44"}) {
-        EnchanterLayout layout = preset("ring2");
+        ActuatorLayout layout = preset("ring2");
         EXPECT_FALSE(layoutPreset(name, layout)) << name;
         EXPECT_EQ(layout.count, 2) << name;
         EXPECT_EQ(layout.extentWidthMetres, 0.16) << name;
     }
 }
 
-TEST(EnchanterLayout, CountExtentsAndTheFirstCountPlacesMustBeValid) {
+TEST(ActuatorLayout, CountExtentsAndTheFirstCountPlacesMustBeValid) {
     const auto with = [](auto change) {
-        EnchanterLayout layout = preset("phone3");
+        ActuatorLayout layout = preset("phone3");
         change(layout);
         return isValid(layout);
     };

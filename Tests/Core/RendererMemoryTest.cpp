@@ -96,7 +96,7 @@ TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
 
 /// One block of a hit, on as many outputs as there are at most, which held something before.
 test::Channels blockOf(HapticRenderer& renderer) {
-    test::Channels channels(static_cast<std::size_t>(limits::maxEnchanters), std::vector<float>(256, 7.0f));
+    test::Channels channels(static_cast<std::size_t>(limits::maxActuators), std::vector<float>(256, 7.0f));
     std::vector<float*> at;
     for (auto& channel : channels) at.push_back(channel.data());
     const std::vector<CollisionEvent> events{{0, 205.0, 30.0, 0.5, 0.0, 0.0, 0, {}}};
@@ -122,8 +122,7 @@ void expectRefused(const RendererSettings& settings, const char* why) {
     ASSERT_TRUE(renderer->prepare(settingsOf(2)));
     EXPECT_FALSE(isSilent(blockOf(*renderer), 2));
     EXPECT_FALSE(renderer->prepare(settings)) << why;
-    EXPECT_TRUE(isSilent(blockOf(*renderer), std::clamp(settings.outputs(), 0, limits::maxEnchanters)))
-        << why;
+    EXPECT_TRUE(isSilent(blockOf(*renderer), std::clamp(settings.outputs(), 0, limits::maxActuators))) << why;
     EXPECT_EQ(renderer->status().framesRendered, 0) << why;
     EXPECT_FALSE(renderer->moveTo(8000, 100)) << why;
     EXPECT_TRUE(renderer->prepare(settingsOf(2))) << why;

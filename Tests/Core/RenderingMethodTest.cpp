@@ -19,12 +19,12 @@ constexpr int rate = 48000;
 
 RenderingMethod named(const std::string& name) {
     RenderingMethod method;
-    EXPECT_TRUE(renderingMethodNamed(name, method)) << name;
+    EXPECT_TRUE(parseRenderingMethod(name, method)) << name;
     return method;
 }
 
 RendererSettings oneEnchanter() {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone1", layout);
     return {rate, 1, PhantomPanner{layout, PanningLaw::linear, 1.0, 1.0, 1.0}, false};
 }
@@ -80,7 +80,7 @@ TEST(RenderingMethod, OtherNamesAreNone) {
     const RenderingMethod before = method;
     for (const char* name : {"", "AV", "AV-FV-DR", "AV-FV-DRX", "AX-FV-DRV", "av-fv-drv", "AVFFVFDRV",
                              "AV-FV-DRVV", "FV-AV-DRV", "AV-FF-DFV", "SV"})
-        EXPECT_FALSE(renderingMethodNamed(name, method)) << name;
+        EXPECT_FALSE(parseRenderingMethod(name, method)) << name;
     EXPECT_EQ(method, before);
 }
 
@@ -184,7 +184,7 @@ TEST(CoupledRenderer, DrivesOfAnotherNumberOfEnchantersAreNotUsed) {
 
 EventShaping heldAt(double level, const char* name) {
     EventShaping shaping;
-    EXPECT_TRUE(renderingMethodNamed(name, shaping.method));
+    EXPECT_TRUE(parseRenderingMethod(name, shaping.method));
     shaping.method.fixedAmplitude = level;
     shaping.method.holdsLevel = true;
     return shaping;
@@ -248,7 +248,7 @@ TEST(FixedLevel, OfEachHitHasNoMeanWhereTheGuardWouldAct) {
         EventShaper{each}.shape(hits, 1);
         ASSERT_EQ(hits.size(), 5U) << "rubber alone, and not before `first`";
         EXPECT_EQ(hits[2], each(rubber)) << "the hit itself stays";
-        EXPECT_TRUE(isMeanOff(hits[3]) && hits[3].timeNs == rubber.timeNs);
+        EXPECT_TRUE(isMeanCompensation(hits[3]) && hits[3].timeNs == rubber.timeNs);
         double area = 0.0;
         for (double t = 0.0; t < 1e-9 * static_cast<double>(hits[2].durationNs); t += 1e-6)
             for (const CollisionEvent& e : {hits[2], hits[3]})

@@ -81,7 +81,7 @@ TEST(SamplePlayer, WhatHasNoRecordingOrNoRoomIsRejectedAndCounted) {
 TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list of what a session played
     CollisionEvent clip = hit(0, 1.0, 0.0, 1.0);
     clip.frequencyHz = clipFrequencyHz;
-    clip.sound = soundOfClip(mostClips - 1);
+    clip.sound = soundOfClip(maxClips - 1);
     clip.decayPerSecond = 0.0;
     clip.durationNs = 10'000'000'000;
     const auto [all, status] = test::renderEvents({clip}, square(), 8 * 48000);

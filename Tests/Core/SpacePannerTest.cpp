@@ -15,8 +15,8 @@
 
 namespace physvib::space_panner_test {
 
-EnchanterLayout preset(std::string_view name) {
-    EnchanterLayout layout;
+ActuatorLayout preset(std::string_view name) {
+    ActuatorLayout layout;
     EXPECT_TRUE(layoutPreset(name, layout)) << name;
     return layout;
 }
@@ -29,7 +29,7 @@ ActuatorLayout layoutAt(const Places& places) {
     return layout;
 }
 
-PhantomPanner pannerOf(const EnchanterLayout& layout, PanningLaw law = PanningLaw::automatic) {
+PhantomPanner pannerOf(const ActuatorLayout& layout, PanningLaw law = PanningLaw::automatic) {
     return {layout, law, 1.0, layout.extentWidthMetres, layout.extentHeightMetres};
 }
 
@@ -66,16 +66,16 @@ double energyOf(const PhantomPanner::Gains& gains) {
 ActuatorPlace centroidOf(const ActuatorLayout& layout, const PhantomPanner::Gains& gains) {
     ActuatorPlace felt;
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j)
-        felt = sumOf(felt, layout.places[j], gains[j] * gains[j]);
+        felt = addScaled(felt, layout.places[j], gains[j] * gains[j]);
     return felt;
 }
 
 double distance(const ActuatorPlace& a, const ActuatorPlace& b) {
-    const ActuatorPlace d = vectorFrom(a, b);
+    const ActuatorPlace d = vectorBetween(a, b);
     return std::sqrt(scalarProduct(d, d));
 }
 
-EnchanterLayout octahedron() {
+ActuatorLayout octahedron() {
     return layoutAt({{0.5, 0.5, 0.5},
                      {0.5, 0.5, -0.5},
                      {0.0, 0.5, 0.0},
@@ -97,7 +97,7 @@ const Places unevenRow{{0.3, 0.2}, {0.9, 0.2}, {0.1, 0.2}, {0.45, 0.2}};
 const Places slantedRow{{0.1, 0.1}, {0.3, 0.3}, {0.5, 0.5}, {0.9, 0.9}};
 const Places unevenGrid{{0.0, 0.0}, {0.2, 0.0}, {1.0, 0.0}, {0.0, 0.3}, {0.2, 0.3}, {1.0, 0.3}};
 
-std::vector<EnchanterLayout> flatShapes() {
+std::vector<ActuatorLayout> flatShapes() {
     return {layoutAt(unevenRow),
             layoutAt(slantedRow),
             layoutAt(unevenGrid),
@@ -119,7 +119,7 @@ TEST(SpacePanner, TheShapeChoosesTheLaw) {
     EXPECT_EQ(pannerOf(test::gridLayout(4, 1)).law(), PanningLaw::neighbours);
     EXPECT_EQ((PhantomPanner{preset("vest16"), PanningLaw::automatic, 2.0, 0.2, 0.36}.law()),
               PanningLaw::linear);
-    EnchanterLayout open = octahedron(); // a shallow bowl: its rim and its bottom
+    ActuatorLayout open = octahedron(); // a shallow bowl: its rim and its bottom
     open.places[0] = open.places[4], open.count = 5;
     open.places[1].zMetres = -0.1, open.places[4] = {0.2, 0.2, 0.0};
     EXPECT_EQ(pannerOf(open).law(), PanningLaw::distance);
@@ -141,7 +141,7 @@ TEST(SpacePanner, AnActuatorsOwnPlaceIsThatOneAlone) {
 
 TEST(SpacePanner, EnergyIsConstantAndTheCentroidIsThePlaceWithinTheShape) {
     test::Random random{7};
-    const auto expectWithin = [&](const EnchanterLayout& layout, PanningLaw law, double tolerance) {
+    const auto expectWithin = [&](const ActuatorLayout& layout, PanningLaw law, double tolerance) {
         const PhantomPanner panner = pannerOf(layout);
         ASSERT_EQ(panner.law(), law) << layout.count;
         for (int i = 0; i < 1000; ++i) { // between three of the actuators, so within
@@ -150,8 +150,8 @@ TEST(SpacePanner, EnergyIsConstantAndTheCentroidIsThePlaceWithinTheShape) {
             for (int k = 0; k < 3; ++k) {
                 const double share = k == 2 ? left : random.uniform(0, left);
                 left -= share;
-                place = sumOf(place, layout.places[static_cast<std::size_t>(random.uniform(0, layout.count))],
-                              share);
+                place = addScaled(
+                    place, layout.places[static_cast<std::size_t>(random.uniform(0, layout.count))], share);
             }
             const auto gains = gainsAtPlace(panner, place);
             ASSERT_LE(distance(centroidOf(layout, gains), place), std::sqrt(3.0) * tolerance) << layout.count;
@@ -169,9 +169,9 @@ TEST(SpacePanner, GainsAreContinuousInsideAndOutside) {
     for (const auto& layout : {octahedron(), preset("sleeve8"), preset("vest16"), preset("glove5")})
         for (int line = 0; line < 5; ++line) {
             const auto end = [&] {
-                return EnchanterPlace{layout.extentWidthMetres * random.uniform(-1, 2),
-                                      layout.extentHeightMetres * random.uniform(-1, 2),
-                                      layout.extentWidthMetres * random.uniform(-1.5, 1.5)};
+                return ActuatorPlace{layout.extentWidthMetres * random.uniform(-1, 2),
+                                     layout.extentHeightMetres * random.uniform(-1, 2),
+                                     layout.extentWidthMetres * random.uniform(-1.5, 1.5)};
             };
             const auto from = end(), to = end();
             const PhantomPanner panner = pannerOf(layout);
@@ -208,7 +208,7 @@ TEST(SpacePanner, APartPlaysOnItsActuatorsAlone) {
 
 TEST(SpacePanner, APartInSpaceHasTrianglesOfItsOwn) {
     // two octahedra side by side
-    EnchanterLayout both = octahedron();
+    ActuatorLayout both = octahedron();
     both.count = 12;
     for (std::size_t j = 0; j < 6; ++j) {
         both.places[j + 6] = both.places[j];
@@ -242,7 +242,7 @@ TEST(SpacePanner, APartThatNoActuatorHasIsFeltByPlaceAndCounted) {
 }
 
 TEST(SpacePanner, PlanesIgnoreDepthAndDistanceIsAvailableThere) {
-    EnchanterLayout raised = preset("phone4");
+    ActuatorLayout raised = preset("phone4");
     for (auto& place : raised.places) place.zMetres = 0.3;
     const PhantomPanner flat = pannerOf(preset("phone4")), up = pannerOf(raised);
     const auto gains = gainsFor(flat, eventAt(0.03, 0.02, 0.0));
@@ -308,7 +308,7 @@ void expectSameGains(const PhantomPanner& a, const PhantomPanner& b, const std::
 
 // Five with one in the middle, two at one place, and a triangle have no cells.
 TEST(NeighbourCells, ElsewhereTheDefaultIsWhatItWasToTheBit) {
-    std::vector<std::pair<std::string, EnchanterLayout>> layouts{
+    std::vector<std::pair<std::string, ActuatorLayout>> layouts{
         {"two of three quarters", layoutAt({{0.1, 0.5}, {0.8, 0.5}})},
         {"a rectangle with a margin", layoutAt({{0.1, 0.1}, {0.8, 0.1}, {0.1, 0.9}, {0.8, 0.9}})},
         {"two at one place", layoutAt({{0.1, 0.5}, {0.1, 0.5}, {0.8, 0.5}})},
@@ -328,7 +328,7 @@ TEST(NeighbourCells, ElsewhereTheDefaultIsWhatItWasToTheBit) {
 }
 
 TEST(NeighbourCells, AnExponentIsThatOfTheLinearLaw) {
-    const EnchanterLayout row = test::gridLayout(4, 1);
+    const ActuatorLayout row = test::gridLayout(4, 1);
     const PhantomPanner now{row, PanningLaw::automatic, 2.0, 1.0, 1.0},
         before{row, PanningLaw::linear, 2.0, 1.0, 1.0};
     EXPECT_EQ(now.grains(), Spread::layout);
@@ -347,7 +347,7 @@ TEST(NeighbourCells, ThePlacesOfAFileMayBeRounded) {
 
 // The law can be named for any layout, and a message or an event can name it too.
 TEST(NeighbourCells, TheLawIsEnergyWhereThereAreNoCells) {
-    const EnchanterLayout phone3 = preset("phone3");
+    const ActuatorLayout phone3 = preset("phone3");
     expectSameGains(pannerOf(phone3, PanningLaw::neighbours), pannerOf(phone3, PanningLaw::energy), "phone3");
     const PhantomPanner row = pannerOf(test::gridLayout(4, 1), PanningLaw::linear);
     PhantomPanner::Gains named{}, chosen{}, law{};
@@ -365,8 +365,8 @@ struct Frame {
     ActuatorPlace origin, right, up;
 
     ActuatorPlace at(const ActuatorPlace& flat, double off = 0.0) const {
-        return sumOf(sumOf(sumOf(origin, right, flat.xMetres), up, flat.yMetres), vectorProduct(right, up),
-                     off);
+        return addScaled(addScaled(addScaled(origin, right, flat.xMetres), up, flat.yMetres),
+                         vectorProduct(right, up), off);
     }
     Places of(const Places& flat) const {
         Places places;
@@ -379,8 +379,8 @@ Frame randomFrame(test::Random& random) {
     const auto vector = [&] {
         return ActuatorPlace{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     };
-    const ActuatorPlace right = directionOf(vector());
-    return {vector(), right, directionOf(vectorProduct(right, vector()))};
+    const ActuatorPlace right = normalised(vector());
+    return {vector(), right, normalised(vectorProduct(right, vector()))};
 }
 
 Places row(int count) {
@@ -422,7 +422,7 @@ TEST(TiltedCells, ThePlaceIsTheCentroidInAnyPlaneAndWhatIsBesideIsMovedOntoIt) {
                         random.uniform(0, static_cast<double>(flat.size())))];
                 };
                 const double share = random.uniform(0, 1);
-                const ActuatorPlace p = sumOf(sumOf({}, any(), share), any(), 1.0 - share);
+                const ActuatorPlace p = addScaled(addScaled({}, any(), share), any(), 1.0 - share);
                 const auto gains = gainsAtPlace(panner, frame.at(p, random.uniform(-1, 1)));
                 EXPECT_NEAR(distance(centroidOf(panner.layout(), gains), frame.at(p)), 0.0, 1e-9)
                     << flat.size();
@@ -474,7 +474,7 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
     ASSERT_EQ(panner.law(), PanningLaw::distance);
     EXPECT_EQ(panner.requestedLaw(), PanningLaw::automatic);
     EXPECT_EQ(panner.pannerOf(partNamed("index")).law(), PanningLaw::neighbours);
-    const ActuatorPlace between = sumOf(sumOf({}, places[1], 0.7), places[5], 0.3);
+    const ActuatorPlace between = addScaled(addScaled({}, places[1], 0.7), places[5], 0.3);
     const auto gains = gainsAtPlace(panner, between, "index");
     EXPECT_NEAR(gains[1] * gains[1], 0.7, 1e-9);
     EXPECT_NEAR(gains[5] * gains[5], 0.3, 1e-9);
@@ -490,7 +490,7 @@ TEST(TiltedCells, KeptPannersOfPartsGiveTheSameGainsAndFollowTheLayout) {
             {0.01 * j, 0.3 * std::sin(j), 0.2 * std::cos(3 * j), partNamed(std::to_string(j / 3))});
     test::Random random{8};
     PartPanners kept, few; // few: prepared for less than there is
-    ASSERT_TRUE(kept.prepare(limits::maxEnchanters) && few.prepare(3));
+    ASSERT_TRUE(kept.prepare(limits::maxActuators) && few.prepare(3));
     const std::vector<PhantomPanner> panners{pannerOn(hand()), pannerOn(many),
                                              pannerOn(hand(), PanningLaw::linear)};
     for (int turn = 0; turn < 200; ++turn) {

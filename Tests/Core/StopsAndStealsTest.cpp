@@ -94,7 +94,7 @@ TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {
 
 TEST(ControlsOutOfRange, ALayoutOfMoreActuatorsThanOutputsIsNotTaken) {
     const auto plain = renderedWith({});
-    for (const int count : {1, 2, 3, 4, 5, 6, 9, limits::maxEnchanters}) {
+    for (const int count : {1, 2, 3, 4, 5, 6, 9, limits::maxActuators}) {
         RenderControl layout = control(RenderControl::Kind::panner, 0, 0.0f);
         const PhantomPanner panner{test::gridLayout(count, 1), PanningLaw::linear, 1.0, 1.0, 1.0};
         layout.panner = &panner;

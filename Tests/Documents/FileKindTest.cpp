@@ -20,11 +20,11 @@ protected:
 TEST_F(FileKindTest, IsToldByWhatWeWrite) {
     SavedSession session;
     session.channels = 1;
-    session.log.takes.push_back({0, 0, 1, std::make_shared<const Scene>(*findBuiltInScene("drop")), {}, {}});
+    session.log.runs.push_back({0, 0, 1, std::make_shared<const Scene>(*findBuiltInScene("drop")), {}, {}});
     session.mix = mixOf(session);
     EXPECT_EQ(kindOf(sessionJson(session)), FileKind::session) << "though its desk has a layout";
     EXPECT_EQ(kindOf(sceneJson(*findBuiltInScene("drop"))), FileKind::scene);
-    EnchanterLayout ring;
+    ActuatorLayout ring;
     layoutPreset("ring3", ring);
     EXPECT_EQ(kindOf(layoutJson(describeLayout("ring", ring))), FileKind::layout);
 }
@@ -46,7 +46,7 @@ struct NewestField {
 
     void version(std::string_view, int) {}
     void field(std::string_view, const auto&, const auto&, Need need = Need::required) { see(need); }
-    void formerly(std::string_view, const auto&, const auto&) {}
+    void legacyField(std::string_view, const auto&, const auto&) {}
     void part(std::string_view, Need need = Need::required) { see(need); }
     bool has(std::string_view, const auto&) { return true; }
     void see(Need need) { since = std::max(since, need.since); }
@@ -187,14 +187,14 @@ TEST(InputLine, WhatNamesSilenceAndIsNoOffInItsRightFormAsksForIt) {
           R"({"control": "\u0073ilence"})", R"({"control": ["silence"]})", R"({"message": "silence"})",
           R"({"message": "stop", "control": "silence"})", R"({"control": "silence", "on": fal)", "SILENCE",
           R"("silence")"})
-        EXPECT_TRUE(asksForSilence(asks)) << asks;
+        EXPECT_TRUE(requestsSilence(asks)) << asks;
     for (const char* other :
          {R"({"control": "silence", "on": false})", R"({"id": 7, "control": "silence", "on": false})",
           R"({"message": "clip", "file": "silence.wav"})",
           R"({"input": "impulse", "body": "silence", "impulse_ns": [0, 1]})",
           R"({"input": "remove", "body": "silence"})", R"({"input": "spawn", "body": {"name": "silence"}})",
           R"({"control": "gain", "channel": 3, "silence": 1})", R"({"control": "sil)", ""})
-        EXPECT_FALSE(asksForSilence(other)) << other;
+        EXPECT_FALSE(requestsSilence(other)) << other;
 }
 
 } // namespace physvib::file_kind_test

@@ -23,21 +23,21 @@ TEST(GainLane, IsALineBetweenItsPointsAndHoldsAtItsEnds) {
     EXPECT_EQ(laneDbAt(lane, 9.0), -60.0);
     EXPECT_EQ(laneDbAt({{1.0, -12.0}, {3.0, 0.0}}, 0.0), -12.0) << "before its first point, too";
     EXPECT_EQ(laneDbAt({}, 9.0), 0.0);
-    EXPECT_EQ(sumDb({-60.0, 6.0}), leastStripDb) << "silence stays silence";
-    EXPECT_EQ(sumDb({5.0, 5.0}), mostStripDb);
+    EXPECT_EQ(sumDb({-60.0, 6.0}), minStripDb) << "silence stays silence";
+    EXPECT_EQ(sumDb({5.0, 5.0}), maxStripDb);
 }
 
 TEST(GainLane, SparesPointsThatNobodyFeels) {
     GainLane drawn;
     for (int i = 0; i <= 3000; ++i) drawn.push_back({0.01 * i, -10.0 + 10.0 * std::sin(0.002 * i)});
-    const GainLane kept = thinned(drawn);
+    const GainLane kept = simplified(drawn);
     EXPECT_LT(kept.size(), 60u);
     for (const GainPoint& point : drawn) EXPECT_NEAR(laneDbAt(kept, point.seconds), point.db, 0.31);
     std::mt19937 random{1};
     GainLane noise;
     for (int i = 0; i < 9000; ++i) noise.push_back({0.01 * i, -static_cast<double>(random() % 60)});
-    EXPECT_LE(thinned(noise).size(), mostGainPoints);
-    EXPECT_EQ(thinned({{1.0, -3.0}, {2.0, -3.0}}).size(), 1u);
+    EXPECT_LE(simplified(noise).size(), maxGainPoints);
+    EXPECT_EQ(simplified({{1.0, -3.0}, {2.0, -3.0}}).size(), 1u);
 }
 
 TEST(StripGroups, AFaderAndAMuteActOnTheirStripsAlone) {
@@ -45,13 +45,13 @@ TEST(StripGroups, AFaderAndAMuteActOnTheirStripsAlone) {
     mix.strips[1].group = mix.strips[2].group = addGroup(mix, "Left hand");
     mix.groups[0].gainDb = -6.0;
     mix.strips[2].gainDb = -3.0;
-    EXPECT_EQ(feltStrips(mix)[0].gainDb, 0.0);
-    EXPECT_EQ(feltStrips(mix)[1].gainDb, -6.0);
-    EXPECT_EQ(feltStrips(mix)[2].gainDb, -9.0);
+    EXPECT_EQ(effectiveStrips(mix)[0].gainDb, 0.0);
+    EXPECT_EQ(effectiveStrips(mix)[1].gainDb, -6.0);
+    EXPECT_EQ(effectiveStrips(mix)[2].gainDb, -9.0);
     mix.groups[0].isMuted = true;
     EXPECT_FALSE(mix.isSilent(0));
     EXPECT_TRUE(mix.isSilent(1));
-    EXPECT_TRUE(isSilent(feltStrips(mix), 2));
+    EXPECT_TRUE(isSilent(effectiveStrips(mix), 2));
     mix.groups[0].isMuted = false;
     mix.groups[0].lane = {{0.0, 0.0}, {1.0, -10.0}};
     mix.strips[2].lane = {{0.0, -1.0}};
@@ -59,7 +59,7 @@ TEST(StripGroups, AFaderAndAMuteActOnTheirStripsAlone) {
     EXPECT_EQ(gainDbAt(mix, 0, 1.0), 0.0);
     EXPECT_TRUE(hasLane(mix, 1));
     EXPECT_FALSE(hasLane(mix, 0));
-    for (const Strip& felt : feltStrips(mix)) {
+    for (const Strip& felt : effectiveStrips(mix)) {
         EXPECT_EQ(felt.group, -1) << "its gain has the group's already";
         EXPECT_TRUE(felt.lane.empty());
     }
@@ -96,17 +96,17 @@ TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
     asked.strips[0].gainDb = 6.0;
     asked.strips[1].lane = {{0.0, -40.0}, {9.0, 5.0}};
     asked.strips[2].lane = {{0.0, -40.0}};
-    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked), "A gain 6.0 to -16.0 dB; B gain 0.0 to -15.0 dB");
-    EXPECT_EQ(loudestDb(asked, 0), -10.0);
-    EXPECT_EQ(loudestDb(asked, 1), -10.0);
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "A gain 6.0 to -16.0 dB; B gain 0.0 to -15.0 dB");
+    EXPECT_EQ(maxGainDb(asked, 0), -10.0);
+    EXPECT_EQ(maxGainDb(asked, 1), -10.0);
     Mix again = asked;
-    EXPECT_EQ(lowerTo(DeskLimits::of(asked), again), "") << "a desk allows what it plays";
-    EXPECT_EQ(DeskLimits::of(asked).strips[2].gainDb, -40.0);
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(asked), again), "") << "a desk allows what it plays";
+    EXPECT_EQ(MixerLimits::of(asked).strips[2].gainDb, -40.0);
     Mix lane = four();
     lane.strips[3].group = addGroup(lane, "lane");
     lane.groups[0].lane = {{0.0, -40.0}, {9.0, 5.0}};
-    EXPECT_EQ(loudestDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
-    EXPECT_EQ(lowerTo(DeskLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
+    EXPECT_EQ(maxGainDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
 }
 
 TEST(StripGroups, NewNamesAreTheUsualOnesThenNumbers) {
@@ -123,7 +123,7 @@ TEST(StripGroups, NewNamesAreTheUsualOnesThenNumbers) {
 
 Mix mixOn(const char* preset) {
     Mix mix;
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     EXPECT_TRUE(layoutPreset(preset, layout));
     mix.layout = describeLayout(preset, layout);
     mix.resizeStrips();
@@ -138,7 +138,7 @@ TEST(DeskLimits, NothingGetsLouder) {
     own.strips[2].isMuted = true;
     asked.levelDb = -3.0;
     for (Strip& strip : asked.strips) strip.gainDb = 3.0;
-    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked),
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked),
               "master -3.0 to -20.0 dB; A gain 3.0 to -6.0 dB; B gain 3.0 to 0.0 dB; B ceiling 0.0 to -12.0 "
               "dB; C gain 3.0 to 0.0 dB; C muted; D without output 4");
     EXPECT_EQ(asked.levelDb, -20.0);
@@ -155,7 +155,7 @@ TEST(DeskLimits, WhatIsQuieterStays) {
     asked.strips[0] = {-10.0, true, false, true, 3.0, -20.0, 1};
     asked.strips[1].output = -1;
     const Mix before = asked;
-    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked), "");
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "");
     EXPECT_EQ(asked.levelDb, before.levelDb);
     EXPECT_EQ(asked.strips, before.strips);
 }
@@ -164,7 +164,7 @@ TEST(DeskLimits, LimitsBelongToOutputsNotToNumbers) {
     Mix own = mixOn("phone2"), asked = mixOn("phone2");
     own.strips[1].ceilingDb = -40.0; // what hangs there is delicate
     std::swap(asked.strips[0].output, asked.strips[1].output);
-    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked), "A ceiling 0.0 to -40.0 dB");
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "A ceiling 0.0 to -40.0 dB");
     EXPECT_EQ(asked.strips[0].ceilingDb, -40.0);
     EXPECT_EQ(asked.strips[1].ceilingDb, 0.0);
 }
@@ -172,7 +172,7 @@ TEST(DeskLimits, LimitsBelongToOutputsNotToNumbers) {
 TEST(DeskLimits, OthersThatAreSoloMakeAStripSilent) {
     Mix own = mixOn("phone2"), asked = mixOn("phone2");
     own.strips[0].isSolo = true;
-    EXPECT_EQ(lowerTo(DeskLimits::of(own), asked), "B muted");
+    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "B muted");
     EXPECT_TRUE(asked.strips[1].isMuted);
 }
 
@@ -182,26 +182,26 @@ TEST(DeskLimits, TheLoudestOutputCountsAndOneThatIsNotInUseDoesNot) {
     own.strips[0].gainDb = -27.7;
     own.strips[1].gainDb = -6.0;
     own.strips[2].output = -1;
-    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -18.0);
+    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -18.0);
     own.strips[1].ceilingDb = -20.0;
-    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -32.0);
+    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -32.0);
     for (Strip& strip : own.strips) strip.output = -1;
-    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -12.0);
-    own.strips[0] = {.gainDb = leastStripDb, .output = 0};
-    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), leastStripDb) << "silent";
+    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -12.0);
+    own.strips[0] = {.gainDb = minStripDb, .output = 0};
+    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), minStripDb) << "silent";
 }
 
 TEST(DeskLimits, AreKeptAsText) {
     Mix own = mixOn("ring3");
     own.levelDb = -17.5;
     own.strips[2] = {-1.5, true, false, false, 2.0, -3.25, 7};
-    const auto again = readDeskLimits(deskLimitsText(DeskLimits::of(own)));
+    const auto again = readMixerLimits(mixerLimitsText(MixerLimits::of(own)));
     ASSERT_TRUE(again);
     EXPECT_EQ(again->levelDb, own.levelDb);
     EXPECT_EQ(again->strips, own.strips);
     for (const char* const text :
          {"", "{}", R"({"level_db": 3, "strips": []})", R"({"level_db": -3, "strips": [{}]})"})
-        EXPECT_FALSE(readDeskLimits(text)) << text;
+        EXPECT_FALSE(readMixerLimits(text)) << text;
 }
 
 } // namespace physvib::gain_lane_test

@@ -21,12 +21,12 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     PluginState s;
     s.scene = *findBuiltInScene(scene);
     s.scene.variables.clear();
-    EnchanterLayout ring;
+    ActuatorLayout ring;
     layoutPreset("ring3", ring);
     s.layout = describeLayout("ring3", ring);
     s.strips.resize(3);
     s.strips[0] = {-7.5, true, false, true, 12.5, -6.0, 0};
-    s.strips[1] = {leastStripDb, false, true, false, 0.0, 0.0, 1};
+    s.strips[1] = {minStripDb, false, true, false, 0.0, 0.0, 1};
     s.strips[2].output = 2;
     s.equalised[1] = {{205.0, 12.0}, {160.0, 260.0}};
     s.seed = 4294967295u;
@@ -164,7 +164,7 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // hosts keep such states f
     const auto read = readPluginState(text.value, "f");
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(read.value.scene.name, "drop");
-    EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
+    EXPECT_EQ(read.value.layout.actuators.size(), 3u);
     EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)}));
     EXPECT_EQ(read.value.parameters.size(), 2u);
     for (const Strip& s : read.value.strips)

@@ -158,8 +158,8 @@ TEST_F(SessionFileInAFolder, AFileElsewhereIsReadByItsHashOnly) {
 // The law of parts of the body in session files: what is rendered again is panned as it was live.
 
 /// A row of three on the index, tilted, beside the tips of a hand.
-EnchanterLayout gloveWithRow() {
-    EnchanterLayout layout;
+ActuatorLayout gloveWithRow() {
+    ActuatorLayout layout;
     EXPECT_TRUE(layoutPreset("glove5", layout));
     for (int j = 0; j < 2; ++j)
         layout.places[static_cast<std::size_t>(layout.count++)] = {
@@ -169,13 +169,13 @@ EnchanterLayout gloveWithRow() {
 
 OrderedJson written(const PhantomPanner& panner) {
     LayoutDescription described;
-    return writeKind(DescribedPanner<const LayoutDescription>{64, described}, panner);
+    return writeCustom(DescribedPanner<const LayoutDescription>{64, described}, panner);
 }
 
 PhantomPanner readBack(const OrderedJson& text) {
     LayoutDescription described;
     const Json json = Json::parse(text.dump());
-    return readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{64, described});
+    return readCustom(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{64, described});
 }
 
 PhantomPanner::Gains indexGains(const PhantomPanner& panner) {
@@ -205,7 +205,7 @@ TEST(PartLaw, IsTheLawOfAllWhereAFileNamesNone) {
     EXPECT_EQ(indexGains(readBack(before)), indexGains(named));
     EXPECT_NE(indexGains(readBack(before)), indexGains(live));
     EXPECT_FALSE(written(named).contains("part_law"));
-    EnchanterLayout phone;
+    ActuatorLayout phone;
     ASSERT_TRUE(layoutPreset("phone4", phone));
     EXPECT_FALSE(written({phone, PanningLaw::automatic, 1.0, 1.0, 0.5}).contains("part_law"))
         << "a layout without parts is written as before";
@@ -214,28 +214,28 @@ TEST(PartLaw, IsTheLawOfAllWhereAFileNamesNone) {
 // The law of grains in session files.
 
 TEST(GrainLaw, ComesBackAndIsTheLawOfAllElseWhereAFileNamesNone) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     ASSERT_TRUE(layoutPreset("phone4", layout));
     PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 0.5};
     LayoutDescription described;
     const DescribedPanner<const LayoutDescription> kind{4, described};
-    EXPECT_FALSE(writeKind(kind, panner).contains("grain_law")) << "as before";
+    EXPECT_FALSE(writeCustom(kind, panner).contains("grain_law")) << "as before";
     const auto back = [&](const OrderedJson& written) {
         LayoutDescription read;
         const Json json = Json::parse(written.dump());
-        return readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read}).grains();
+        return readCustom(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read}).grains();
     };
-    EXPECT_EQ(back(writeKind(kind, panner)), Spread::layout);
+    EXPECT_EQ(back(writeCustom(kind, panner)), Spread::layout);
     panner.setGrains(grainSpread);
-    EXPECT_EQ(writeKind(kind, panner)["grain_law"], "energy");
-    EXPECT_EQ(back(writeKind(kind, panner)), grainSpread);
+    EXPECT_EQ(writeCustom(kind, panner)["grain_law"], "energy");
+    EXPECT_EQ(back(writeCustom(kind, panner)), grainSpread);
     described = describeLayout("own", layout);
-    described.enchanters[1].fullScaleG = 2.5;
-    const Json json = Json::parse(writeKind(kind, panner).dump());
+    described.actuators[1].fullScaleG = 2.5;
+    const Json json = Json::parse(writeCustom(kind, panner).dump());
     LayoutDescription read;
-    readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read});
+    readCustom(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read});
     EXPECT_EQ(read.name, "own");
-    EXPECT_EQ(read.enchanters, described.enchanters) << "full scales too";
+    EXPECT_EQ(read.actuators, described.actuators) << "full scales too";
 }
 
 } // namespace physvib::session_file_test

@@ -27,7 +27,7 @@ int main() {
     physvib::Attachment haptics(world);
     // refused: it says why
     if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1;
-    physvib::EnchanterLayout layout;
+    physvib::ActuatorLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}}))

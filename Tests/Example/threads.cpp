@@ -68,7 +68,7 @@ void stepTheWorld() {
 } // namespace
 
 int main() {
-    physvib::EnchanterLayout layout;
+    physvib::ActuatorLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare({.sampleRateHz = rate,

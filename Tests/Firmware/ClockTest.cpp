@@ -59,8 +59,8 @@ TEST(BoardClock, OnsetsAreWithinTwoMillisecondsForThirtySeconds) {
         while (n < codes.size() && codes[n][0] == 128) ++n; // the first sample of a sine is zero
         ASSERT_LT(n, codes.size());
         ASSERT_EQ(n, frame + 1);
-        worst =
-            std::max(worst, std::abs(static_cast<double>(rig.board.io().frameCycles[n - 1]) / 72e6 - target));
+        worst = std::max(
+            worst, std::abs(static_cast<double>(rig.board.peripherals().frameCycles[n - 1]) / 72e6 - target));
     }
     const auto t = rig.telemetry();
     std::cout << wanted.size() << " onsets, worst " << worst * 1e3 << " ms, drift " << clock.drift() * 1e6

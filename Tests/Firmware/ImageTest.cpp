@@ -58,7 +58,7 @@ std::string mutant(const std::string& name) { return PHYSVIB_MUTANTS "/" + name 
 TEST(BoardMutants, WithoutSetUpDelayTheConvertersTimesAreViolated) {
     test::Rig rig(mutant("no-delay"));
     EXPECT_GT(play(rig).timingViolations, 1000);
-    const auto& t = rig.board.io().converters.timings();
+    const auto& t = rig.board.peripherals().converters.observedTimes();
     EXPECT_LT(t.writePulse, 50.0);
 }
 

@@ -71,8 +71,8 @@ public:
     wire::Telemetry telemetry() { return *ask<wire::Telemetry>(wire::TelemetryRequest{}); }
 
     /// The frame that is played next.
-    std::uint32_t frame() { return static_cast<std::uint32_t>(board.io().frames.size()); }
-    std::vector<BoardFrame>& codes() { return board.io().frames; }
+    std::uint32_t frame() { return static_cast<std::uint32_t>(board.peripherals().frames.size()); }
+    std::vector<BoardFrame>& codes() { return board.peripherals().frames; }
 
     /// Sends the events 60 ms before their onsets, or as the line lets them, and plays to frame `end`.
     void play(const std::vector<BoardEvent>& events, std::uint32_t end, bool compact = false) {
@@ -115,7 +115,7 @@ public:
     /// The renderer in the board's memory, between two blocks.
     BoardRenderer renderer() {
         while (!board.isAsleep()) board.runUntil(board.seconds() + 0.00001);
-        const auto symbol = image_.symbolLike("rendererMemory");
+        const auto symbol = image_.findSymbol("rendererMemory");
         static_assert(std::is_trivially_copyable_v<BoardRenderer>);
         if (symbol.size != sizeof(BoardRenderer))
             throw std::runtime_error("the renderer has another layout on the board");
@@ -179,7 +179,7 @@ inline Parity comparePlay(Rig& rig, const BoardListSettings& list, std::uint32_t
     parity.worstFromClosedForm = worstDifference(left, boardClosedForm(events, parity.frames, guard));
     parity.exactEpisodes = guard.episodes;
     parity.worstGivenLeft = worstDifference(left, boardClosedForm(events, parity.frames, fromLeft));
-    parity.timingViolations = rig.board.io().converters.timings().violations;
+    parity.timingViolations = rig.board.peripherals().converters.observedTimes().violations;
     return parity;
 }
 

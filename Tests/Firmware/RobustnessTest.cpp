@@ -170,7 +170,7 @@ TEST(BoardRobustness, StopAllIsSilenceWithinTwoMilliseconds) {
         rig.board.send(bytes, at);
         const auto last = static_cast<std::uint64_t>(at * 72e6) + bytes.size() * 6250;
         rig.board.runUntil(rig.board.seconds() + 0.05);
-        const auto& cycles = rig.board.io().frameCycles;
+        const auto& cycles = rig.board.peripherals().frameCycles;
         int checked = 0;
         for (std::size_t n = 0; n < cycles.size(); ++n)
             if (cycles[n] > last + 144'000 && cycles[n] < last + 2'000'000) {
@@ -187,27 +187,27 @@ TEST(BoardRobustness, AFaultIsSilenceAndARestart) {
     rig.connect();
     rig.play({tone(500)}, 900);
     EXPECT_NE(rig.codes().back(), silence);
-    const auto poll = rig.image().symbolLike("Link4poll").address & ~1u;
+    const auto poll = rig.image().findSymbol("Link4poll").address & ~1u;
     const auto whole = rig.board.memory(poll, 2);
     const std::vector<std::uint8_t> undefined{0x00, 0xDE}; // UDF #0
-    rig.board.poke(poll, undefined);
+    rig.board.writeMemory(poll, undefined);
     rig.board.runUntil(rig.board.seconds() + 0.002);
     EXPECT_EQ(rig.board.faults(), 1);
-    EXPECT_EQ(rig.board.io().converters.codes(), silence);
-    rig.board.poke(poll, whole);
+    EXPECT_EQ(rig.board.peripherals().converters.codes(), silence);
+    rig.board.writeMemory(poll, whole);
     rig.board.runUntil(rig.board.seconds() + 0.08);
     EXPECT_EQ(rig.board.resets(), 1);
     EXPECT_EQ(rig.connect().resets, 1);
-    EXPECT_EQ(rig.board.io().converters.codes(), silence);
+    EXPECT_EQ(rig.board.peripherals().converters.codes(), silence);
 }
 
 TEST(BoardRobustness, AFallingSupplyIsSilence) {
     test::Rig rig;
     rig.connect();
     rig.play({tone(500)}, 900);
-    rig.board.io().brownOut();
+    rig.board.peripherals().brownOut();
     rig.board.runUntil(rig.board.seconds() + 0.001);
-    EXPECT_EQ(rig.board.io().converters.codes(), silence);
+    EXPECT_EQ(rig.board.peripherals().converters.codes(), silence);
 }
 
 } // namespace physvib::robustness_test

@@ -14,20 +14,20 @@
 
 namespace physvib::test {
 
-constexpr int rateHz = StrikeClipSettings::ticksPerSecond;
+constexpr int rateHz = EventClipSettings::ticksPerSecond;
 
 inline PhantomPanner panner() {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
 }
 
 inline Clip clipOf(std::span<const CollisionEvent> events, double error,
                    const PhantomPanner& spread = panner()) {
-    StrikeClipSettings settings{
+    EventClipSettings settings{
         error, static_cast<std::size_t>(spread.channels()),
         [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { spread.gainsAt(e.x, e.y, gains); }};
-    return clipOfStrikes(events, settings);
+    return clipFromEvents(events, settings);
 }
 
 /// Two materials, hits that fall into each other's ringing, between ticks; every fourth is cut.

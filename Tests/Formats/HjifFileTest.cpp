@@ -20,7 +20,7 @@ Clip scene() {
     clip.extentHeightMetres = 0.06;
     for (std::size_t j = 0; j < 4; ++j) {
         clip.channels[j].label = std::string(1, static_cast<char>('A' + j));
-        clip.channels[j].place = EnchanterPlace{j % 2 == 0 ? 0.0 : 0.12, j < 2 ? 0.06 : 0.0};
+        clip.channels[j].place = ActuatorPlace{j % 2 == 0 ? 0.0 : 0.12, j < 2 ? 0.06 : 0.0};
     }
     return clip;
 }
@@ -238,7 +238,7 @@ TEST(AndroidEnvelope, WhatAPhonePlaysIsTheEnvelopeWithinATenthOfADecibel) {
     double worst = 0.0, pitch = 0.0;
     int compared = 0;
     for (int ms = 0; ms < 12500; ++ms) {
-        const EnvelopePoint is = pointAt(envelope, 1e-3 * ms);
+        const EnvelopePoint is = envelopeAt(envelope, 1e-3 * ms);
         const Moment plays = rendered(file, ms);
         if (is.amplitude < 0.02 || is.amplitude > 1.0 || plays.isRising) continue;
         ++compared;
@@ -256,17 +256,17 @@ TEST(AndroidEnvelope, EveryPhoneTakesItsPointsAndASilenceHasNone) {
     int last = 0;
     std::size_t points = 0;
     for (const AndroidEffect& effect : androidEffects(channel)) {
-        EXPECT_GE(effect.startMilliseconds, last) << "one effect ends another";
-        last = effect.startMilliseconds;
+        EXPECT_GE(effect.startMs, last) << "one effect ends another";
+        last = effect.startMs;
         EXPECT_GE(effect.points.size(), 1u);
         EXPECT_LE(effect.points.size(), 16u);
         for (const AndroidPoint& p : effect.points) {
-            EXPECT_GE(p.milliseconds, 1);
-            EXPECT_LE(p.milliseconds, 1000);
-            EXPECT_GE(p.hertz, 65.0);
-            EXPECT_LE(p.hertz, 300.0);
+            EXPECT_GE(p.durationMs, 1);
+            EXPECT_LE(p.durationMs, 1000);
+            EXPECT_GE(p.frequencyHz, 65.0);
+            EXPECT_LE(p.frequencyHz, 300.0);
             EXPECT_LE(p.amplitude, 1.0);
-            last += p.milliseconds;
+            last += p.durationMs;
         }
         points += effect.points.size();
     }
@@ -276,12 +276,12 @@ TEST(AndroidEnvelope, EveryPhoneTakesItsPointsAndASilenceHasNone) {
     apart.bands.push_back({{hit(0.5, 100.0, 0.5, 50.0), hit(3.0, 100.0, 0.5, 50.0)}});
     const auto two = androidEffects(apart);
     ASSERT_EQ(two.size(), 2u);
-    EXPECT_NEAR(two[1].startMilliseconds, 3000, 1);
+    EXPECT_NEAR(two[1].startMs, 3000, 1);
     EXPECT_EQ(two[0].points.back().amplitude, 0.0);
     ClipChannel held;
     held.bands.push_back({{{0.0, 0.0, ClipWaveform::sine, {{0.0, 0.5}, {5.0, 0.5}}, {{0.0, 20.0}}}}});
     EXPECT_EQ(androidEffects(held).front().points.size(), 7u) << "a second each, after the rise";
-    EXPECT_EQ(androidEffects(held).front().initialHertz, 65.0);
+    EXPECT_EQ(androidEffects(held).front().initialHz, 65.0);
 }
 
 TEST(AndroidEnvelope, ItIsWrittenAndNotRead) {

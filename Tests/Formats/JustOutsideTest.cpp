@@ -217,7 +217,7 @@ TEST(StrikeClip, SoundsAsTheClosedFormDoes) {
 TEST(StrikeClip, HasOneWaveOfAModeAtATime) {
     const Clip clip = clipOf(hits(60), 0.004);
     ASSERT_EQ(clip.channels.size(), 4u);
-    EXPECT_EQ(clipFault(clip), "");
+    EXPECT_EQ(clipError(clip), "");
     for (const ClipChannel& channel : clip.channels) {
         EXPECT_LE(channel.bands.size(), 2u); // two modes
         for (const ClipBand& band : channel.bands)

@@ -121,7 +121,7 @@ TEST(PhoneChain, KeepsEveryTransientWithinADecibelAndAMillisecond) {
 /// The least and the most of the envelope within a millisecond of `at`.
 std::array<double, 2> around(const std::vector<EnvelopePoint>& envelope, double at) {
     std::array<double, 2> range{1e9, 0.0};
-    for (const EnvelopePoint& p : partOf(envelope, std::max(0.0, at - 1e-3), at + 1e-3))
+    for (const EnvelopePoint& p : envelopeSlice(envelope, std::max(0.0, at - 1e-3), at + 1e-3))
         range = {std::min(range[0], p.amplitude), std::max(range[1], p.amplitude)};
     return range;
 }
@@ -134,7 +134,7 @@ TEST(PhoneChain, KeepsTheEnvelopeBesideTransients) {
                    is = envelopeOf(through(clip.value, ClipFormat::ahap).channels[0]);
         for (double t = 0.0; t < std::min(5.0, clip.value.seconds()); t += 0.0007) {
             const auto [least, most] = around(was, t);
-            const double found = pointAt(is, t).amplitude;
+            const double found = envelopeAt(is, t).amplitude;
             ASSERT_TRUE(found >= least - 0.01 && found <= most + 0.01)
                 << folder.path(k) << ": " << found << " at " << t << " s, expected " << least << " to "
                 << most;

@@ -75,7 +75,7 @@ std::string appleFault(const std::string& text) {
 
 /// On one actuator.
 ClipChannel channelOf(std::span<const CollisionEvent> events) {
-    EnchanterLayout one;
+    ActuatorLayout one;
     layoutPreset("phone1", one);
     return clipOf(events, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
 }
@@ -376,7 +376,7 @@ TEST(ClipFile, TellsWhatIsLost) {
               0.2,
               0.1,
               {ClipChannel{"A",
-                           EnchanterPlace{0.0333, 0.05},
+                           ActuatorPlace{0.0333, 0.05},
                            {},
                            {{{ClipWave{0, 0, {}, {{0, 2.0}, {1, 2.0}}, {{0, 80.5}}}}},
                             {{ClipWave{0, 0, {}, {{0, 1}, {1, 1}}, {{0, 349}}}}}},

@@ -13,7 +13,7 @@ inline void tryClip(std::string_view bytes, ClipFormat format) {
     const auto read = [=](std::string_view text) { return readClip(text, "f", format); };
     const auto clip = read(bytes);
     if (!clip) return demandClearRefusal(clip, clip.value == Clip{});
-    demand(clipFault(clip.value).empty(), "a clip with a fault", clipFault(clip.value));
+    demand(clipError(clip.value).empty(), "a clip with a fault", clipError(clip.value));
     for (const ClipFormat other : {ClipFormat::hjif, ClipFormat::haptic, ClipFormat::ahap}) {
         const auto again = readClip(clipBytes(clip.value, other), "f", other);
         // of one channel of several, or longer by a rise

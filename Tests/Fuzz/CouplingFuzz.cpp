@@ -18,8 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const CouplingMatrix& matrix : coupling.value.matrices)
         fuzz::demand(matrix.size == enchanters, "matrices of several sizes");
     if (enchanters > 4) return 0; // larger ones take longer and have nothing new
-    const double most = strongestDrive(compensationMatrix(coupling.value.matrices.front()));
-    fuzz::demand(std::isfinite(most) && most <= std::pow(10.0, mostExtraDriveDb / 20.0),
+    const double most = maxDrive(compensationMatrix(coupling.value.matrices.front()));
+    fuzz::demand(std::isfinite(most) && most <= std::pow(10.0, maxExtraDriveDb / 20.0),
                  "a drive above its limit");
     return 0;
 }

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     const auto* action = std::get_if<Action>(&read.value);
-    if (action == nullptr || !InputCheck(scene).take(*action).empty()) return 0;
+    if (action == nullptr || !InputCheck(scene).accept(*action).empty()) return 0;
     Simulation world(scene, 1, 100);
     world.addInput(0.0, *action);
     std::vector<CollisionEvent> events;

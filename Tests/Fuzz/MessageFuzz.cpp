@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     session->prepare(8000, 256);
     session->advance();
     MessageRouter router{*session};
-    const auto answer = router.take(*message, nullptr, fuzz::anyClip);
+    const auto answer = router.handle(*message, nullptr, fuzz::anyClip);
     fuzz::demandLine(answer.error);
     fuzz::demand(answer || session->world().size().strikes == 0, "refused, and half done", answer.error);
     for (int block = 0; block < 4; ++block) {

@@ -26,11 +26,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto read = readOscPacket(bytes);
     door.receive(bytes, clock, answers);
     const OscCounts& counts = door.counts();
-    fuzz::demand(counts.messages == read.value.size() && counts.bad == (read ? 0u : 1u),
-                 "counted otherwise than read", counts.fault);
+    fuzz::demand(counts.messages == read.value.size() && counts.malformed == (read ? 0u : 1u),
+                 "counted otherwise than read", counts.lastError);
     fuzz::demand(counts.refused != counts.messages || session->world().size().strikes == 0,
-                 "refused, and half done", counts.fault);
-    fuzz::demandLine(counts.fault);
+                 "refused, and half done", counts.lastError);
+    fuzz::demandLine(counts.lastError);
     for (const auto& answer : answers)
         fuzz::demand(static_cast<bool>(readOscPacket(answer)), "an answer that cannot be read");
     return 0;

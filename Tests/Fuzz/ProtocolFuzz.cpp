@@ -16,9 +16,9 @@ void tryExperiment(const Protocol& protocol) {
     std::string text = trialHeader(protocol, participant, "0");
     for (int i = 0; i < 20 && !experiment.isDone(); ++i) {
         const Answer answer = observer.answer(experiment);
-        fuzz::demand(experiment.refusal(answer).empty(), "the observer's answer is refused",
-                     experiment.refusal(answer));
-        text += trialRow(protocol, participant, experiment.take(answer));
+        fuzz::demand(experiment.answerError(answer).empty(), "the observer's answer is refused",
+                     experiment.answerError(answer));
+        text += trialRow(protocol, participant, experiment.acceptAnswer(answer));
     }
     const auto log = readTrialLog(text, "f", protocol, participant);
     fuzz::demand(static_cast<bool>(log), "its trials cannot be read", log.error);

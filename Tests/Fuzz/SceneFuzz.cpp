@@ -11,7 +11,7 @@ void simulate(const physvib::Scene& scene) {
     constexpr int steps = 4;
     physvib::SceneWorld world(scene, 1, {10});
     for (int step = 0; step < steps; ++step) {
-        world.act(step);
+        world.executeActions(step);
         world.world().Step(0.1F, 8, 3);
     }
 }

@@ -12,7 +12,7 @@ namespace physvib::fuzz {
 inline std::unique_ptr<Session> makeSession() {
     SessionSetup setup;
     setup.scene = *findBuiltInScene("drop");
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     setup.panner = {layout, PanningLaw::linear, 1.0, setup.scene.fieldWidthMetres,
                     setup.scene.fieldHeightMetres};

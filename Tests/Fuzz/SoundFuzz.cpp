@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // only read
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
         fmemopen(const_cast<std::uint8_t*>(data), size, "rb"), std::fclose);
-    SoundKeeper keeper;
+    SoundBuffer keeper;
     const auto fault = decodeSound(*file, static_cast<std::int64_t>(size), 10, keeper);
     std::size_t frames = 0;
     for (const auto& channel : keeper.sound.channels) frames = std::max(frames, channel.size());

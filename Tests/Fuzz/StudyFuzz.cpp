@@ -14,47 +14,47 @@ void demandNumbers(std::initializer_list<double> all) {
 }
 
 void analyse(const StudyData<IdentificationTrial>& data) {
-    for (const auto& condition : data.conditions) {
+    for (const auto& condition : data.groups) {
         const auto it = informationTransfer(ConfusionMatrix{withTolerance(condition.trials, 1)});
-        demandNumbers({it.bits, it.biasBits, it.leastBits, it.trialsPerCell});
+        demandNumbers({it.bits, it.biasBits, it.minBits, it.trialsPerCell});
     }
 }
 
 void analyse(const StudyData<LocationTrial>& data) {
-    for (const auto& condition : data.conditions) {
+    for (const auto& condition : data.groups) {
         const auto normals = responseNormals(condition.trials);
-        if (!normals.fault.empty()) continue;
+        if (!normals.error.empty()) continue;
         for (const double p : percentCounts(normals, likelihoodMap(normals, 31, 16), "c").percent)
             demandNumbers({p});
     }
 }
 
 void analyse(const StudyData<PercentCounts>& data) {
-    for (const auto& condition : data.conditions)
+    for (const auto& condition : data.groups)
         if (const auto& counts = condition.trials.front(); counts.rows < 8 && counts.columns < 8)
             perceptualResolution(counts);
 }
 
 void analyse(const StudyData<ChoiceTrial>& data) {
-    for (const auto& summary : summariseChoices(data.conditions.front().trials))
+    for (const auto& summary : summariseChoices(data.groups.front().trials))
         if (const auto& interval = summary.shares.front().interval)
-            demandNumbers({interval->least, interval->most});
+            demandNumbers({interval->lower, interval->upper});
 }
 
 void analyse(const StudyData<LevelTrial>& data) {
-    for (const auto& summary : summariseLevels(data.conditions.front().trials))
+    for (const auto& summary : summariseLevels(data.groups.front().trials))
         demandNumbers({summary.estimate, summary.deviation});
 }
 
 void analyse(const RatingData& ratings) {
-    for (const auto& summary : summariseRatings(ratings.conditions.front().trials))
+    for (const auto& summary : summariseRatings(ratings.groups.front().trials))
         for (const double half : summary.halfIntervals) demandNumbers({half});
 }
 
 void analyse(const StudyData<LevelAnswer>& data) {
     const PsychometricModel model{PsychometricShape::normal};
-    for (const auto& own : psychometricByParticipant(data.conditions.front().trials, model))
-        if (own.fit.fault.empty()) demandNumbers({own.fit.function.threshold, own.fit.function.width});
+    for (const auto& own : psychometricByParticipant(data.groups.front().trials, model))
+        if (own.fit.error.empty()) demandNumbers({own.fit.function.threshold, own.fit.function.width});
 }
 
 template <class Read>
@@ -64,7 +64,7 @@ void tryOne(Read read, std::string_view text) {
     if (data)
         analyse(data.value);
     else
-        fuzz::demandClearRefusal(data, data.value.conditions.empty());
+        fuzz::demandClearRefusal(data, data.value.groups.empty());
 }
 
 } // namespace

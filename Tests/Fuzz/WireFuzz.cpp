@@ -19,7 +19,8 @@ void demandRoundTrip(std::span<const std::uint8_t> payload) {
         fuzz::demand(i + 1 == size || frame[i] != 0, "a zero inside a frame");
         arrived = wire::decode(decoder.feed(frame[i]), read);
     }
-    fuzz::demand(arrived && decoder.good() == 1 && decoder.bad() == 0, "cannot read what was written");
+    fuzz::demand(arrived && decoder.goodFrames() == 1 && decoder.badFrames() == 0,
+                 "cannot read what was written");
     fuzz::demand(wire::encode(read, again) == size && frame == again, "written differently");
 }
 

@@ -9,8 +9,8 @@ import sys
 import xml.etree.ElementTree as xml
 
 root = pathlib.Path(sys.argv[1]) / "Source/Api/Godot"
-types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "texts": "PackedStringArray", "places": "PackedVector2Array", "dictionary": "Dictionary",
-         "whole": "int", "object": "HapticMaterial", "nil": "void"}
+types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "stringArray": "PackedStringArray", "vector2Array": "PackedVector2Array", "dictionary": "Dictionary",
+         "integer": "int", "object": "HapticMaterial", "nil": "void"}
 bodies, worlds = (root / name for name in ("Bodies.cpp", "WorldClasses.cpp"))
 
 
@@ -24,9 +24,9 @@ def between(path, begin, end):
 
 
 def world(is_space):
-    text = between(worlds, "propertiesOf(bool isSpace)", "\n}")
+    text = between(worlds, "propertiesOf(bool is3d)", "\n}")
     found = rows(text)
-    assert '{"field_corner", isSpace ? type::vector3 : type::vector2,' in text, "field_corner: expected one of 2D and of 3D"
+    assert '{"field_corner", is3d ? type::vector3 : type::vector2,' in text, "field_corner: expected one of 2D and of 3D"
     found.insert(1, ("field_corner", "Vector3" if is_space else "Vector2"))
     return found
 

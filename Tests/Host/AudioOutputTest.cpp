@@ -18,7 +18,7 @@ constexpr int hands = 8; // enchanters of these sessions
 
 // A preset, or "circle8".
 PhantomPanner pannerOn(const std::string& layout, const Scene& scene) {
-    EnchanterLayout places{1, 1, hands, {}};
+    ActuatorLayout places{1, 1, hands, {}};
     for (std::size_t j = 0; j < hands; ++j)
         places.places[j] = {0.5 + 0.5 * std::cos(0.8 * double(j)), 0.5 + 0.5 * std::sin(0.8 * double(j))};
     if (layout != "circle8") layoutPreset(layout, places);
@@ -50,8 +50,8 @@ struct Rig {
     void expectTheLogIsWhole() {
         ASSERT_GT(log.size(), 10u);
         session.readLog(made);
-        EXPECT_TRUE(log == runTakes(made.takes, setup.run(), log.back().timeNs + 1).events);
-        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.world().drops(),
+        EXPECT_TRUE(log == simulateRuns(made.runs, setup.run(), log.back().timeNs + 1).events);
+        EXPECT_EQ(session.status().render.unsent + session.status().render.rejected + session.world().drops(),
                   0u);
     }
 
@@ -91,9 +91,9 @@ TEST(AudioOutput, APicoIsFoundByItsShortNameAndItsOwnLatencyIsTold) {
     EXPECT_EQ(rig.interface.timesOpened, 1) << "the card itself, not a part of it";
     EXPECT_EQ(rig.output.deviceLatencyFrames(), rig.interface.block + 134) << "2.8 ms at 48 kHz";
     const auto drivers = fakeDrivers({&rig.interface, &rig.speakers});
-    EXPECT_EQ(picoLayout(drivers, "pico"), "pico8");
-    EXPECT_EQ(picoLayout(drivers, "ALSA:PhysVib pico4, USB Audio; Direct hardware device"), "pico4");
-    EXPECT_EQ(picoLayout(drivers, "hands"), "") << "a device that is none keeps its layout";
+    EXPECT_EQ(picoLayoutPreset(drivers, "pico"), "pico8");
+    EXPECT_EQ(picoLayoutPreset(drivers, "ALSA:PhysVib pico4, USB Audio; Direct hardware device"), "pico4");
+    EXPECT_EQ(picoLayoutPreset(drivers, "hands"), "") << "a device that is none keeps its layout";
     rig.speakers.name = "pico";
     EXPECT_EQ(rig.output.open({"pico"}), "");
     EXPECT_EQ(rig.speakers.timesOpened, 1) << "a device that has the name goes first";
@@ -152,7 +152,7 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     Rig plain, motor;
     ASSERT_EQ(plain.open(), "");
     AudioOutputSettings settings{"hands", {}, 0, 0, 1.0f};
-    settings.onOff = {2};
+    settings.onOffActuators = {2};
     settings.onOffThreshold = 0.01;
     ASSERT_EQ(motor.output.open(settings), "");
     const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
@@ -161,7 +161,7 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n)
         on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
     EXPECT_EQ(others, 0u);
-    for (const float sample : all[2]) steps.take(sample, [](long long, bool) {}), expected += steps.isOn();
+    for (const float sample : all[2]) steps.add(sample, [](long long, bool) {}), expected += steps.isOn();
     EXPECT_GT(expected, 0u);
     EXPECT_NEAR(static_cast<double>(on), static_cast<double>(expected),
                 0.01 * static_cast<double>(plain.interface.rate))
@@ -293,7 +293,7 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
         for (std::size_t k = 0; k < 4; ++k)
             EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
         for (std::size_t k = 4; k < hands; ++k) EXPECT_GT(most[k], 0.01f) << "played at all";
-        EXPECT_LT(rig.session.world().slippedNs(), 50'000'000)
+        EXPECT_LT(rig.session.world().stalledNs(), 50'000'000)
             << "a longer block is no stall; a change that makes L shorter is one";
         EXPECT_LT(rig.session.status().render.late, 10u) << "the same";
         rig.expectTheLogIsWhole();
@@ -433,7 +433,9 @@ TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
 TEST(AudioOutput, SilenceIsLiftedByWhoAskedOrAtTheMachine) {
     OpenRig rig, steady;
     MuteRequests& silence = rig.output.silence();
-    const auto lift = [&silence](MuteRequester holder) { silence.lift(holder, silence.asked(holder)); };
+    const auto lift = [&silence](MuteRequester holder) {
+        silence.withdraw(holder, silence.requestCount(holder));
+    };
     const auto expect = [&](bool isFelt, const char* why) {
         playUntilLoud(rig, steady);
         EXPECT_EQ(peakOf(rig.play(0.1, 64)[0]) > 0.0f, isFelt) << why;
@@ -468,8 +470,7 @@ TEST(AudioOutput, ASignalIsSilenceBeforeAnythingEnds) {
 }
 
 TEST(AudioOutput, LevelsStartLowAndNeverExceedOne) {
-    EXPECT_FLOAT_EQ(AudioOutputSettings{}.level,
-                    static_cast<float>(std::pow(10.0, safeStartDecibels / 20.0)));
+    EXPECT_FLOAT_EQ(AudioOutputSettings{}.level, static_cast<float>(std::pow(10.0, defaultLevelDb / 20.0)));
     OpenRig rig, loud{40.0f};
     EXPECT_TRUE(rig.play(3.0, 64) == loud.play(3.0, 64));
     loud.output.setLevel(std::nanf(""));

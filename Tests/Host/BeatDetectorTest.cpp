@@ -14,8 +14,8 @@ std::vector<BandOnset> onsetsOf(BeatDetector& detector, std::span<const float> s
                                 std::size_t piece = 4096) {
     std::vector<BandOnset> onsets;
     for (std::size_t at = 0; at < samples.size(); at += piece)
-        detector.take(samples.subspan(at, std::min(piece, samples.size() - at)),
-                      [&](const BandOnset& onset) { onsets.push_back(onset); });
+        detector.process(samples.subspan(at, std::min(piece, samples.size() - at)),
+                         [&](const BandOnset& onset) { onsets.push_back(onset); });
     return onsets;
 }
 
@@ -90,11 +90,11 @@ TEST(BeatDetector, TellsEachWithinItsDelay) {
     for (const int rateHz : {5000, 44100, 95000, 192000}) {
         const BeatSong song{3.0, rateHz, 3};
         BeatDetector detector{rateHz};
-        EXPECT_LE(static_cast<double>(detector.delayFrames()), BeatDetector::mostDelaySeconds * rateHz);
+        EXPECT_LE(static_cast<double>(detector.delayFrames()), BeatDetector::maxDelaySeconds * rateHz);
         std::int64_t taken = 0, told = 0;
         for (const float sample : song.samples) {
             ++taken;
-            detector.take({&sample, 1}, [&](const BandOnset& onset) {
+            detector.process({&sample, 1}, [&](const BandOnset& onset) {
                 ++told;
                 EXPECT_LE(taken - onset.frame, detector.delayFrames()) << rateHz;
                 EXPECT_GE(taken, onset.frame) << rateHz;
@@ -126,7 +126,7 @@ TEST(BeatDetector, ASensitiveOneHearsMore) {
 TEST(BeatStrikes, GoToTheEnchantersOfTheirBand) {
     const auto setsOf = [](int count) {
         std::string words;
-        for (const EnchanterSet& set : usualBeatEnchanters(count)) {
+        for (const ActuatorSet& set : defaultBeatActuators(count)) {
             for (std::size_t j = 0; j < set.size(); ++j)
                 if (set[j]) words += static_cast<char>('A' + j);
             words += ' ';
@@ -137,17 +137,18 @@ TEST(BeatStrikes, GoToTheEnchantersOfTheirBand) {
     EXPECT_EQ(setsOf(2), "A B B ");
     EXPECT_EQ(setsOf(3), "A B C ");
     EXPECT_EQ(setsOf(5), "A BCD E ");
-    EnchanterSet chosen;
-    EXPECT_TRUE(parseEnchanters("DA", 4, chosen));
+    ActuatorSet chosen;
+    EXPECT_TRUE(parseActuatorLetters("DA", 4, chosen));
     EXPECT_EQ(chosen.to_ullong(), 9u);
-    for (const char* wrong : {"E", "AA", "a", "1"}) EXPECT_FALSE(parseEnchanters(wrong, 4, chosen)) << wrong;
-    EnchanterLayout layout;
+    for (const char* wrong : {"E", "AA", "a", "1"})
+        EXPECT_FALSE(parseActuatorLetters(wrong, 4, chosen)) << wrong;
+    ActuatorLayout layout;
     ASSERT_TRUE(layoutPreset("phone4", layout));
     BeatVoices voices;
-    voices.enchanters = usualBeatEnchanters(4);
+    voices.actuators = defaultBeatActuators(4);
     std::vector<CollisionEvent> strikes;
-    strikeBeat({480, 1, 0.5}, 10'000'000, voices, layout, 2.0, 1.0,
-               [&](const CollisionEvent& e) { strikes.push_back(e); });
+    makeBeatEvents({480, 1, 0.5}, 10'000'000, voices, layout, 2.0, 1.0,
+                   [&](const CollisionEvent& e) { strikes.push_back(e); });
     ASSERT_EQ(strikes.size(), 2u); // B upper right, C lower left
     EXPECT_EQ(std::pair(strikes[0].x, strikes[0].y), std::pair(2.0, 1.0));
     EXPECT_EQ(std::pair(strikes[1].x, strikes[1].y), std::pair(0.0, 0.0));
@@ -157,7 +158,7 @@ TEST(BeatStrikes, GoToTheEnchantersOfTheirBand) {
 
 TEST(BandPass, PassesItsBandAndNothingElse) {
     const auto gainAt = [](double hz) {
-        BandPass pass{BandPass::usual, 48000};
+        BandPass pass{BandPass::defaultBand, 48000};
         std::vector<float> tone(48000);
         for (std::size_t i = 0; i < tone.size(); ++i)
             tone[i] =

@@ -48,7 +48,7 @@ TEST_F(ClipFolderTest, ReadsWhatLiesBelowIt) {
 }
 
 /// What each part of a clip is where it is read by itself.
-void expectTheSameInParts(const fs::path& path, const std::vector<EnchanterPlace>& shares) {
+void expectTheSameInParts(const fs::path& path, const std::vector<ActuatorPlace>& shares) {
     const auto clip = loadWholeClip(path);
     ASSERT_EQ(clip.error, "") << path;
     const auto sound = readRecording(path);
@@ -65,7 +65,7 @@ void expectTheSameInParts(const fs::path& path, const std::vector<EnchanterPlace
 }
 
 TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
-    const auto channelAt = [](std::optional<EnchanterPlace> place, double hz) {
+    const auto channelAt = [](std::optional<ActuatorPlace> place, double hz) {
         return ClipChannel{
             .label = "A",
             .place = place,
@@ -75,7 +75,7 @@ TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
         "",
         0.2,
         0.1,
-        {channelAt(EnchanterPlace{0.05, 0.1}, 100.0), channelAt(EnchanterPlace{0.2, 0.0}, 150.0)}};
+        {channelAt(ActuatorPlace{0.05, 0.1}, 100.0), channelAt(ActuatorPlace{0.2, 0.0}, 150.0)}};
     Clip half = placed;
     half.channels[1].place.reset();
     for (const auto& [name, clip] : {std::pair{"placed.hjif", placed}, {"half.hjif", half}})
@@ -148,15 +148,15 @@ TEST_F(ClipFolderTest, ReadsNothingElse) {
 TEST_F(ClipFolderTest, AClipThatHasChangedIsNotTheOneThatWasFelt) {
     const auto clip = ClipFolder{folder}("a.hjif");
     std::vector<ClipFile> kept{{clip.value.channels.at(0).file, 0}};
-    EXPECT_EQ(loadKeptClips(kept).error, "");
-    EXPECT_EQ(loadKeptClips(kept).value, clip.value.channels);
+    EXPECT_EQ(loadSessionClips(kept).error, "");
+    EXPECT_EQ(loadSessionClips(kept).value, clip.value.channels);
     kept.push_back({kept[0].file, 1});
-    EXPECT_NE(loadKeptClips(kept).error.find("expected at least 2 channels, found 1"), std::string::npos);
+    EXPECT_NE(loadSessionClips(kept).error.find("expected at least 2 channels, found 1"), std::string::npos);
     kept.pop_back();
     std::ofstream{folder / "a.hjif", std::ios::app} << ' ';
-    EXPECT_NE(loadKeptClips(kept).error.find("it has changed since"), std::string::npos);
+    EXPECT_NE(loadSessionClips(kept).error.find("it has changed since"), std::string::npos);
     fs::remove(folder / "a.hjif");
-    EXPECT_NE(loadKeptClips(kept).error.find("a.hjif"), std::string::npos);
+    EXPECT_NE(loadSessionClips(kept).error.find("a.hjif"), std::string::npos);
 }
 
 } // namespace physvib::clip_folder_test

@@ -54,7 +54,7 @@ SessionSetup twoActuators() {
     auto s = shakeTheBoxSetup(0.02);
     s.hasWorld = false;
     s.channels = 2;
-    EnchanterLayout places{1, 1, 2, {}};
+    ActuatorLayout places{1, 1, 2, {}};
     places.places[0] = {0.0, 0.5};
     places.places[1] = {1.0, 0.5};
     s.panner = {places, PanningLaw::linear, 1, 1, 1};
@@ -145,9 +145,9 @@ TEST(DeviceGuard, ABorrowedSessionOnTheOutputIsNoWayAround) {
 void playAnew(const std::string& device, std::vector<float>& samples) {
     DeviceGuard guard;
     guard.begin(device, {0, 2}, 48000);
-    std::array<float*, limits::maxEnchanters> at{};
+    std::array<float*, limits::maxActuators> at{};
     at[0] = samples.data();
-    guard.follow(0, 1);
+    guard.setChannel(0, 1);
     guard.process(at.data(), static_cast<int>(samples.size()));
     PlayedTime::pass(double(samples.size()) / 48000);
 }
@@ -155,7 +155,7 @@ void playAnew(const std::string& device, std::vector<float>& samples) {
 TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
     const PlayedTime time;
     const auto hadBy = [](const std::string& device, int output) {
-        return GuardMemory::at(device, output).sums.load;
+        return GuardMemory::storedFor(device, output).sums.load;
     };
     std::vector<float> slow(12000, 0.2f);
     playAnew("A:one", slow);
@@ -166,7 +166,7 @@ TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
     EXPECT_NEAR(hadBy("A:one", 2), had * std::exp(-2.0f), 0.2f * had * std::exp(-2.0f));
     PlayedTime::pass(6.5);
     EXPECT_EQ(hadBy("A:one", 2), 0.0f);
-    for (int k = 0; k < 1000; ++k) GuardMemory::keep("A:three", k, {.load = 1e-3f}); // of bounded size
+    for (int k = 0; k < 1000; ++k) GuardMemory::store("A:three", k, {.load = 1e-3f}); // of bounded size
     EXPECT_GT(hadBy("A:three", 999), 0.0f);
 }
 
@@ -190,10 +190,10 @@ TEST(DeviceGuard, OpenedAnewItKnowsWhatItWouldHaveKnown) {
     std::vector<float> push(4800, 0.05f), pull(2400, -0.05f), both = push;
     both.insert(both.end(), pull.begin(), pull.end());
     playAnew("A:one", both);
-    const GuardSums one = GuardMemory::at("A:one", 2).sums;
+    const GuardSums one = GuardMemory::storedFor("A:one", 2).sums;
     playAnew("A:two", push);
     playAnew("A:two", pull);
-    const GuardSums two = GuardMemory::at("A:two", 2).sums;
+    const GuardSums two = GuardMemory::storedFor("A:two", 2).sums;
     EXPECT_NEAR(two.slow, one.slow, 0.002f);
     EXPECT_NEAR(two.load, one.load, 0.05f * one.load);
 }

@@ -21,8 +21,9 @@ DeviceRequest wishOf(const std::string& name) {
     return wish;
 }
 
-struct Counted final : DeviceUser {
-    void block(const float* const*, int, float* const* out, int outputs, int frames) noexcept override {
+struct Counted final : AudioDeviceCallback {
+    void processBlock(const float* const*, int, float* const* out, int outputs,
+                      int frames) noexcept override {
         ++blocks;
         for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.5f);
     }
@@ -74,8 +75,8 @@ TEST(DeviceSession, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
 
 TEST(DeviceSession, HurryEndsTheWaiting) {
     FakeInterface thing;
-    std::atomic<bool> hurry{true};
-    DeviceSession keeper{fakeDrivers({&thing}), &hurry};
+    std::atomic<bool> cancel{true};
+    DeviceSession keeper{fakeDrivers({&thing}), &cancel};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer) << "else this test takes a minute";
     thing.goOn();
@@ -89,7 +90,7 @@ TEST(DeviceSession, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
     keeper.start(owner);
     EXPECT_EQ(owner.starts, 1);
     EXPECT_GT(peakOf(thing.play(64)), 0.0f);
-    keeper.letGo();
+    keeper.detach();
     EXPECT_EQ(peakOf(thing.play(64)), 0.0f);
     keeper.close();
     EXPECT_EQ(owner.blocks, 1);
@@ -99,7 +100,7 @@ TEST(DeviceSession, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
 TEST(DeviceSession, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
     FakeInterface hung, other;
     other.name = "feet";
-    const int before = DeviceThread::threadsLeft();
+    const int before = DeviceThread::abandonedThreads();
     {
         DeviceSession keeper{fakeDrivers({&hung, &other}), nullptr};
         Counted owner;
@@ -110,13 +111,13 @@ TEST(DeviceSession, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
         EXPECT_EQ(peakOf(hung.play(64)), 0.0f) << "though it is open";
         EXPECT_EQ(keeper.open(wishOf("Fake:hands"), noTime), "Fake:" + std::string{noAnswer})
             << "it is not asked twice at once";
-        EXPECT_EQ(DeviceThread::threadsLeft(), before);
+        EXPECT_EQ(DeviceThread::abandonedThreads(), before);
         ASSERT_EQ(keeper.open(wishOf("feet"), muchTime), "");
-        EXPECT_EQ(DeviceThread::threadsLeft(), before + 1);
+        EXPECT_EQ(DeviceThread::abandonedThreads(), before + 1);
         EXPECT_EQ(owner.blocks, 0);
     }
     hung.goOn();
-    while (DeviceThread::threadsLeft() > before) std::this_thread::sleep_for(1ms);
+    while (DeviceThread::abandonedThreads() > before) std::this_thread::sleep_for(1ms);
     EXPECT_EQ(hung.device, nullptr) << "closed after all";
 }
 
@@ -124,7 +125,7 @@ TEST(AudioDevices, ADriverThatDoesNotAnswerIsListedAsSuchBesideTheOthers) {
     FakeInterface hung, other;
     other.name = "feet";
     hung.hangsIn = FakeInterface::Call::scan;
-    const int before = DeviceThread::threadsLeft();
+    const int before = DeviceThread::abandonedThreads();
     const auto both = [&] {
         auto drivers = fakeDrivers({&hung}, "Hung")();
         drivers.push_back(std::move(fakeDrivers({&other})().front()));
@@ -135,7 +136,7 @@ TEST(AudioDevices, ADriverThatDoesNotAnswerIsListedAsSuchBesideTheOthers) {
         listed += device.type + ":" + device.name + " " + std::to_string(device.channels) + "\n";
     EXPECT_EQ(listed, "Hung:does not answer 0\nFake:feet 8\n");
     hung.goOn();
-    while (DeviceThread::threadsLeft() > before) std::this_thread::sleep_for(1ms);
+    while (DeviceThread::abandonedThreads() > before) std::this_thread::sleep_for(1ms);
     EXPECT_EQ(listAudioDevices(both).front().name, "hands");
 }
 
@@ -210,7 +211,7 @@ using namespace std::chrono_literals;
 /// Looks at a clock of its own.
 struct Looks {
     bool after(std::chrono::milliseconds pause, std::uint64_t moreBlocks, bool isIdle = false) {
-        return watch.hasGone(now += pause, blocks += moreBlocks, isIdle);
+        return watch.isGone(now += pause, blocks += moreBlocks, isIdle);
     }
     DeviceWatch watch;
     DeviceWatch::Clock::time_point now{10h};
@@ -249,7 +250,7 @@ TEST(DeviceWatch, ADeviceThatWasOpenedAgainHasItsTwoSeconds) {
     Looks look;
     look.after(0s, 1);
     for (int i = 0; i < 3; ++i) look.after(1s, 0);
-    look.watch.lose(look.now);
+    look.watch.countLoss(look.now);
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_TRUE(look.after(1s, 0));

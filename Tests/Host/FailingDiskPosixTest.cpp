@@ -46,8 +46,8 @@ TEST_F(FailingDisksOfRecordings, AreToldByARecordingAndItsList) {
         [&] {
             Recording recording{folder / "take.wav", 2, 48000};
             if (!recording.error().empty()) return recording.error();
-            recording.recorder().rendered({at.data(), 4800, 0, 48000});
-            recording.take(
+            recording.recorder().onBlock({at.data(), 4800, 0, 48000});
+            recording.addEvent(
                 {{.timeNs = 1000, .frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5}, 0, false});
             return recording.finish(0, {1.0, 1.0}, {}, {});
         },

@@ -74,7 +74,7 @@ public:
         if (thing_.device == this) thing_.device = nullptr;
     }
     bool isOpen() override { return thing_.device == this; }
-    void start(DeviceUser& user) override {
+    void start(AudioDeviceCallback& user) override {
         ++thing_.timesStarted;
         user.aboutToStart(*this);
         const std::lock_guard lock{thing_.mutex};
@@ -96,16 +96,16 @@ public:
         return -1;
     }
     bool isReal() const override { return thing_.isReal; }
-    DeviceUser* user() const { return user_; }
+    AudioDeviceCallback* user() const { return user_; }
 
 private:
-    DeviceUser* take() {
+    AudioDeviceCallback* take() {
         const std::lock_guard lock{thing_.mutex};
         return std::exchange(user_, nullptr);
     }
     FakeInterface& thing_;
     std::string name_;
-    DeviceUser* user_ = nullptr;
+    AudioDeviceCallback* user_ = nullptr;
 };
 
 inline std::vector<std::vector<float>> FakeInterface::play(int frames) {
@@ -116,7 +116,7 @@ inline std::vector<std::vector<float>> FakeInterface::play(int frames) {
                                         std::vector<float>(static_cast<std::size_t>(frames), untouched));
     std::vector<float*> at;
     for (auto& channel : out) at.push_back(channel.data());
-    device->user()->block(nullptr, 0, at.data(), static_cast<int>(count), frames);
+    device->user()->processBlock(nullptr, 0, at.data(), static_cast<int>(count), frames);
     return out;
 }
 

@@ -15,7 +15,7 @@ constexpr double interfaceRate = 48000.0;
 
 SessionSetup setupOn(const std::string& layout, bool hasContactSound) {
     auto s = shakeTheBoxSetup(0.02);
-    EnchanterLayout places;
+    ActuatorLayout places;
     layoutPreset(layout, places);
     s.panner = {places, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
     s.channels = places.count;
@@ -70,7 +70,7 @@ TEST(Listening, NoiseIsThereAtItsLevelOnItsOutputsAndChangesNothingForTheHands) 
 TEST(Listening, TheLoudestNoiseThatIsTakenStaysBelowFullScale) {
     Rig rig{setupOn("phone4", false), {.noise = {7}, .noiseDb = 0.0}}; // held at the most
     const auto out = rig.play(10.0);
-    EXPECT_NEAR(rmsDb(out[felt], 96000), PinkNoise::mostDb, 0.5);
+    EXPECT_NEAR(rmsDb(out[felt], 96000), PinkNoise::maxDb, 0.5);
     EXPECT_LT(peakOf(out[felt]), 1.0f);
 }
 
@@ -173,9 +173,9 @@ TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     ASSERT_EQ(rig.open({.noise = {4}, .noiseDb = -40.0}), "");
     EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4),
               "output 5 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear({.noise = {2}, .noiseDb = -40.0}),
+    EXPECT_EQ(rig.output.setListening({.noise = {2}, .noiseDb = -40.0}),
               "output 3 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear({.noise = {11}, .noiseDb = -40.0}),
+    EXPECT_EQ(rig.output.setListening({.noise = {11}, .noiseDb = -40.0}),
               "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
@@ -187,7 +187,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     Rig rig{setup, {.contacts = {4, 5}, .contactDb = 0.0}};
     rig.session.world().setSlowness(0);
     rig.play(0.2);
-    const auto heardAt = [&](double x) {
+    const auto listeningChannel = [&](double x) {
         CollisionEvent hit = hitOf(205.0);
         hit.x = x;
         EXPECT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
@@ -195,17 +195,17 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
         return std::pair{peakOf(out[felt]), peakOf(out[felt + 1])};
     };
     const double width = setup.scene.fieldWidthMetres;
-    const auto [leftOnly, none] = heardAt(0.0);
+    const auto [leftOnly, none] = listeningChannel(0.0);
     EXPECT_GT(leftOnly, 0.4f);
     EXPECT_EQ(none, 0.0f);
-    const auto [left, right] = heardAt(0.5 * width);
+    const auto [left, right] = listeningChannel(0.5 * width);
     EXPECT_NEAR(left, leftOnly * std::sqrt(0.5f), 1e-4f);
     EXPECT_NEAR(left, right, 1e-6f);
     PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width,
                         setup.scene.fieldHeightMetres};
     ASSERT_TRUE(rig.session.submit({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, &wider}}));
     rig.play(0.2);
-    const auto [leftOfWider, rightOfWider] = heardAt(width);
+    const auto [leftOfWider, rightOfWider] = listeningChannel(width);
     EXPECT_NEAR(leftOfWider, rightOfWider, 1e-4f) << "in the middle of the new field";
     EXPECT_GT(rightOfWider, 0.2f);
 }
@@ -225,7 +225,7 @@ TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMoves
     ASSERT_EQ(out.size(), 3u);
     EXPECT_EQ(out[2], muted[1]);
     EXPECT_EQ(peakOf(muted[0]), 0.0f);
-    EXPECT_GT(rig.session.rendered().marks()->made(), 5u);
+    EXPECT_GT(rig.session.rendered().marks()->pulses(), 5u);
     std::size_t edge = 0;
     while (out[2][edge] == 0.0f) ++edge;
     EXPECT_EQ(out[2][edge], 1.0f);
@@ -271,11 +271,11 @@ TEST(Listening, BeginsAndEndsWhileItPlays) {
     all.opensAll = true;
     ASSERT_EQ(rig.output.open(all), "");
     rig.play(0.5);
-    ASSERT_EQ(rig.output.hear({.noise = {6}, .noiseDb = -30.0}), "");
+    ASSERT_EQ(rig.output.setListening({.noise = {6}, .noiseDb = -30.0}), "");
     EXPECT_EQ(rig.interface.timesOpened, 1) << "the hands notice nothing";
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[6], 0), -30.0, 0.5);
-    ASSERT_EQ(rig.output.hear({}), "");
+    ASSERT_EQ(rig.output.setListening({}), "");
     EXPECT_EQ(peakOf(rig.play(0.5)[6]), 0.0f);
 }
 

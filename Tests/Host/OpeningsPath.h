@@ -36,9 +36,9 @@ inline GuardPath openingsPath(int rate) {
                                      samples.size() - n);
                     DeviceGuard guard;
                     guard.begin("A:one", {3}, rate);
-                    std::array<float*, limits::maxEnchanters> at{};
+                    std::array<float*, limits::maxActuators> at{};
                     at[0] = samples.data() + n;
-                    guard.follow(0, 0);
+                    guard.setChannel(0, 0);
                     guard.process(at.data(), static_cast<int>(count));
                     PlayedTime::pass(double(count) / rate); // before it gives back
                 }

@@ -53,9 +53,9 @@ struct Paused {
     void withoutPause(const std::function<void()>& act) {
         for (int tries = 0; tries < 200; ++tries) {
             play(0.3);
-            const auto before = session.pulse().returns().pauses;
+            const auto before = session.pulse().history().pauses;
             act();
-            if (session.pulse().returns().pauses == before && output.isPlaying()) return;
+            if (session.pulse().history().pauses == before && output.isPlaying()) return;
         }
         FAIL() << "this machine never runs for a second";
     }
@@ -76,7 +76,7 @@ TEST(Pause, WhatComesMeanwhileIsRefusedCountedAndNeverFelt) {
     const auto before = rig.session.pulse().dropped();
     Paused::pause();
     for (int k = 0; k < 20; ++k)
-        EXPECT_EQ(rig.strike(Paused::tone(0.05), k % 2 == 0).error, DevicePulse::refusal);
+        EXPECT_EQ(rig.strike(Paused::tone(0.05), k % 2 == 0).error, DevicePulse::droppedError);
     EXPECT_EQ(rig.session.pulse().dropped(), before + 20);
     EXPECT_FALSE(rig.output.isPlaying());
     EXPECT_TRUE(rig.session.submit({RenderControl{.kind = RenderControl::Kind::gain, .value = 2.0f}}))
@@ -161,7 +161,7 @@ TEST(Pause, AWorldStandsStillAndNoCollisionIsMissing) {
     ASSERT_GT(rig.log.size(), 10u);
     SessionLog made;
     rig.session.readLog(made);
-    EXPECT_TRUE(rig.log == runTakes(made.takes, setup.run(), rig.log.back().timeNs + 1).events);
+    EXPECT_TRUE(rig.log == simulateRuns(made.runs, setup.run(), rig.log.back().timeNs + 1).events);
     EXPECT_EQ(rig.session.pulse().dropped(), 0u);
 }
 
@@ -181,7 +181,8 @@ TEST(Pause, APauseOfADeviceThatDiscardsItAllDropsNothing) {
 TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
     FakeInterface interface;
     interface.isReal = true;
-    Rig rig{{.setup = Paused::quiet(), .output = {"hands"}, .ownThread = false}, fakeDrivers({&interface})};
+    Rig rig{{.setup = Paused::quiet(), .output = {"hands"}, .hasOwnThread = false},
+            fakeDrivers({&interface})};
     ASSERT_EQ(rig.open(), "");
     rig.start();
     for (int k = 0; k < 10; ++k) rig.step(), interface.play(64);
@@ -190,10 +191,11 @@ TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
     const CollisionEvent tone = Paused::tone(0.05);
     for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.session().submit({Strikes{{&tone, 1}}}));
     rig.maintain();
-    EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still; "
-                             "3 events were lost, as no device ran");
+    EXPECT_EQ(rig.errorText(),
+              "Fake:hands has stopped; it is looked for every second, and time stands still; "
+              "3 events were lost, as no device ran");
     rig.maintain();
-    EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still")
+    EXPECT_EQ(rig.errorText(), "Fake:hands has stopped; it is looked for every second, and time stands still")
         << "told once";
     rig.close();
 }

@@ -178,9 +178,9 @@ TEST_F(ReadRecording, ReadsAllOrTellsWhy) {
 }
 
 /// Counts, and keeps nothing.
-struct Counter final : SoundTaker {
-    std::string begin(const SoundShape& shape) override { return streamFault(shape); }
-    std::string take(const float* const*, int frames) override { return count += frames, std::string{}; }
+struct Counter final : SoundReceiver {
+    std::string begin(const SoundFormat& shape) override { return streamError(shape); }
+    std::string receive(const float* const*, int frames) override { return count += frames, std::string{}; }
     std::int64_t count = 0;
 };
 
@@ -222,9 +222,9 @@ TEST_F(ReadRecording, RefusesByTheLimit) {
     EXPECT_EQ(fault(wavBytes({.channels = 200}, second)), "expected 1 to 64 channels, found 200");
     EXPECT_EQ(fault(wavBytes({.rateHz = 100, .bits = 8}, std::string(60'101, '\1'))),
               "expected at most 600 s, found 601 s");
-    EXPECT_EQ(soundFault({192'000, 2, 16'000'001}),
+    EXPECT_EQ(soundError({192'000, 2, 16'000'001}),
               "expected at most 32000000 samples in all channels, found 32000002");
-    EXPECT_EQ(soundFault({48'000, 1, 600 * 48'000}), "");
+    EXPECT_EQ(soundError({48'000, 1, 600 * 48'000}), "");
 }
 
 TEST_F(ReadRecording, RefusesWhatIsNotFinite) {

@@ -66,7 +66,7 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
         bool hasOutput = true;
         receipts.begin();
         const std::int64_t from = 20'000 + random.below(10'000), until = from + 1 + random.below(9000);
-        receipts.expect(nsOf(from), nsOf(until));
+        receipts.alignBinsTo(nsOf(from), nsOf(until));
         std::vector<float> one(4096), two(4096);
         while (place < 60'000) {
             const int frames = 1 + random.below(random.below(10) == 0 ? 4096 : 300);
@@ -80,13 +80,13 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
                 given[place + n] = {two[at], hasOutput, piece};
             }
             const std::array<const float*, 2> outputs{one.data(), hasOutput ? two.data() : nullptr};
-            receipts.take(0, place, rate, outputs.data(), frames);
+            receipts.addBlock(0, place, rate, outputs.data(), frames);
             place += frames;
         }
         // an output that comes and goes within a bin counts as none in all of it: only whole bins do here
         const auto expectAt = [&](std::int64_t a, std::int64_t b) {
-            const Receipt told = receipts.left(nsOf(a), nsOf(b), 1);
-            EXPECT_TRUE(told.isOver && told.isKept);
+            const Receipt told = receipts.receiptFor(nsOf(a), nsOf(b), 1);
+            EXPECT_TRUE(told.isOver && told.isInMemory);
             expectSame(told, summed(given, a, b),
                        "seed " + std::to_string(seed) + ", " + std::to_string(a) + " to " +
                            std::to_string(b));
@@ -132,27 +132,27 @@ TEST(Receipts, TellWhatIsPendingForgottenOrOfAnotherSession) {
     const std::vector<float> samples(static_cast<std::size_t>(bin), 0.5f);
     const float* const at = samples.data();
     const auto add = [&](std::uint32_t session, std::int64_t place) {
-        receipts.take(session, place, rate, &at, bin);
+        receipts.addBlock(session, place, rate, &at, bin);
     };
-    EXPECT_FALSE(receipts.left(0, nsOf(bin), 0).isOver) << "nothing has run";
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isOver) << "nothing has run";
     receipts.begin();
     for (int k = 0; k < 10; ++k) add(0, k * bin);
-    EXPECT_TRUE(receipts.left(0, nsOf(10 * bin), 0).isRunning);
-    EXPECT_FALSE(receipts.left(0, nsOf(10 * bin + 1), 0).isOver);
-    EXPECT_FALSE(receipts.left(0, nsOf(10 * bin + 1), 0).isRunning);
-    EXPECT_EQ(receipts.left(0, nsOf(bin), 1).frames, 0) << "no such actuator";
+    EXPECT_TRUE(receipts.receiptFor(0, nsOf(10 * bin), 0).isRunning);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0).isOver);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0).isRunning);
+    EXPECT_EQ(receipts.receiptFor(0, nsOf(bin), 1).frames, 0) << "no such actuator";
     for (int k = 0; k < 10; ++k) add(1, k * bin);
     for (int k = 10; k < 20; ++k) add(0, k * bin);
-    EXPECT_FALSE(receipts.left(0, nsOf(20 * bin), 0).isRunning) << "another one played in between";
-    EXPECT_TRUE(receipts.left(nsOf(10 * bin), nsOf(20 * bin), 0).isRunning);
-    EXPECT_TRUE(receipts.left(0, nsOf(10 * bin), 0, 1).isRunning);
-    EXPECT_FALSE(receipts.left(0, nsOf(10 * bin + 1), 0, 1).isOver);
-    for (std::int64_t k = 20; k < Receipts::mostBins; ++k) add(0, k * bin);
-    EXPECT_FALSE(receipts.left(0, nsOf(bin), 0).isKept);
-    EXPECT_FALSE(receipts.left(0, nsOf(bin), 0).isRunning);
-    const std::int64_t minute = 60 * Receipts::binsPerSecond, end = Receipts::mostBins;
-    const Receipt lately = receipts.left(nsOf((end - minute) * bin), nsOf(end * bin), 0);
-    EXPECT_TRUE(lately.isKept && lately.isRunning) << "a minute is kept";
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(20 * bin), 0).isRunning) << "another one played in between";
+    EXPECT_TRUE(receipts.receiptFor(nsOf(10 * bin), nsOf(20 * bin), 0).isRunning);
+    EXPECT_TRUE(receipts.receiptFor(0, nsOf(10 * bin), 0, 1).isRunning);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0, 1).isOver);
+    for (std::int64_t k = 20; k < Receipts::maxBins; ++k) add(0, k * bin);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isInMemory);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isRunning);
+    const std::int64_t minute = 60 * Receipts::binsPerSecond, end = Receipts::maxBins;
+    const Receipt lately = receipts.receiptFor(nsOf((end - minute) * bin), nsOf(end * bin), 0);
+    EXPECT_TRUE(lately.isInMemory && lately.isRunning) << "a minute is kept";
     EXPECT_EQ(lately.frames, minute * bin);
 }
 
@@ -168,16 +168,15 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
         receipts.begin();
         for (std::int64_t k = 0; !ends; ++k) {
             std::ranges::fill(samples, static_cast<float>(1 + k % 64) / 64.0f);
-            receipts.take(0, k * width, 5000, &at, width);
+            receipts.addBlock(0, k * width, 5000, &at, width);
             newest = k;
         }
     }};
     std::int64_t read = 0;
     for (int k = 0; k < 3000 || read < 300; ++k) {
-        const std::int64_t bin =
-            std::max<std::int64_t>(0, newest - (k % 2 == 0 ? 0 : Receipts::mostBins - 3));
-        const Receipt told = receipts.left(nsOf(width * bin, 5000), nsOf(width * (bin + 1), 5000), 0);
-        if (!told.isKept || !told.isOver) continue;
+        const std::int64_t bin = std::max<std::int64_t>(0, newest - (k % 2 == 0 ? 0 : Receipts::maxBins - 3));
+        const Receipt told = receipts.receiptFor(nsOf(width * bin, 5000), nsOf(width * (bin + 1), 5000), 0);
+        if (!told.isInMemory || !told.isOver) continue;
         ++read;
         EXPECT_EQ(told.peak, static_cast<double>(1 + bin % 64) / 64.0);
         EXPECT_EQ(told.meanSquare, told.peak * told.peak);
@@ -218,8 +217,8 @@ struct OneOutput {
             for (const std::int64_t length : {1, 50})
                 for (int j = 0; j < 4; ++j) {
                     const std::int64_t b = std::min(last, a + length * width);
-                    const Receipt told = output.left(nsOf(a, hz), nsOf(b, hz), j);
-                    ASSERT_TRUE(told.isOver && told.isKept) << where;
+                    const Receipt told = output.receiptFor(nsOf(a, hz), nsOf(b, hz), j);
+                    ASSERT_TRUE(told.isOver && told.isInMemory) << where;
                     if (j == 3) {
                         EXPECT_EQ(told.frames, 0) << "it has no output";
                         EXPECT_FALSE(told.isRunning);
@@ -269,7 +268,7 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
                         one.output.sampleRateHz());
         };
         const std::int64_t changedNs = feltNs();
-        const Receipt before = one.output.left(changedNs - 200'000'000, changedNs - 50'000'000, 0);
+        const Receipt before = one.output.receiptFor(changedNs - 200'000'000, changedNs - 50'000'000, 0);
         EXPECT_TRUE(before.isRunning);
         one.interface.unplug(true);
         one.interface.isPlugged = true;
@@ -278,8 +277,8 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
         one.output.maintain();
         for (int k = 0; k < hz / block; ++k) one.play(block, 1);
         const std::int64_t now = feltNs();
-        const Receipt across = one.output.left(changedNs - 200'000'000, now - 100'000'000, 0),
-                      after = one.output.left(changedNs + 50'000'000, now - 50'000'000, 0);
+        const Receipt across = one.output.receiptFor(changedNs - 200'000'000, now - 100'000'000, 0),
+                      after = one.output.receiptFor(changedNs + 50'000'000, now - 50'000'000, 0);
         EXPECT_TRUE(across.isOver && after.isOver);
         EXPECT_FALSE(across.isRunning);
         EXPECT_TRUE(after.isRunning);
@@ -294,7 +293,7 @@ TEST(Receipts, AStallOfTheDeviceIsABreak) {
         const std::int64_t from = one.session.timeline().framesRendered();
         for (int k = 0; k < 200; ++k) one.play(64, 0);
         const std::int64_t until = from + 100 * 64;
-        if (one.output.left(nsOf(from), nsOf(until), 0).isRunning) break;
+        if (one.output.receiptFor(nsOf(from), nsOf(until), 0).isRunning) break;
         ASSERT_LT(tries, 99);
     }
     EXPECT_TRUE(one.output.status().isRunning);
@@ -303,7 +302,7 @@ TEST(Receipts, AStallOfTheDeviceIsABreak) {
     const std::int64_t stalled =
         one.session.timeline().framesRendered() - one.session.timeline().outputLatencyFrames();
     for (int k = 0; k < 200; ++k) one.play(64, 0);
-    const Receipt across = one.output.left(nsOf(stalled - 480), nsOf(stalled + 480), 0);
+    const Receipt across = one.output.receiptFor(nsOf(stalled - 480), nsOf(stalled + 480), 0);
     EXPECT_TRUE(across.isOver);
     EXPECT_FALSE(across.isRunning);
     EXPECT_GE(across.frames, 960);
@@ -320,11 +319,12 @@ TEST(Receipts, ABorrowedSessionHasItsOwn) {
         lent.advance();
         one.interface.play(64);
     }
-    EXPECT_TRUE(one.output.left(0, nsOf(4800), 0).isRunning);
+    EXPECT_TRUE(one.output.receiptFor(0, nsOf(4800), 0).isRunning);
     ASSERT_TRUE(one.output.playInstead(nullptr));
     EXPECT_EQ(one.output.playedSession(), 0u);
-    EXPECT_TRUE(one.output.left(0, nsOf(4800), 0, number).isRunning) << "also afterwards, by its number";
-    EXPECT_FALSE(one.output.left(0, nsOf(4800), 0).isOver) << "of the output's own";
+    EXPECT_TRUE(one.output.receiptFor(0, nsOf(4800), 0, number).isRunning)
+        << "also afterwards, by its number";
+    EXPECT_FALSE(one.output.receiptFor(0, nsOf(4800), 0).isOver) << "of the output's own";
 }
 
 } // namespace physvib::receipts_test

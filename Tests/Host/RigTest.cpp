@@ -22,7 +22,7 @@ class RigTest : public FolderTest {
 protected:
     RigSettings settings() const {
         RigSettings wanted{.setup = shakeTheBoxSetup(0.02)};
-        wanted.output.device = std::string{noDeviceType} + ":" + noDeviceName;
+        wanted.output.device = std::string{nullDeviceType} + ":" + nullDeviceName;
         wanted.setup.log = LogUse::none;
         return wanted;
     }
@@ -35,25 +35,25 @@ TEST_F(RigTest, PlaysAndKeepsASessionAndItsRecording) {
     RigSettings wanted = settings();
     wanted.recordPath = (folder / "felt.wav").string();
     wanted.savePath = (folder / "felt.json").string();
-    Rig rig{wanted, withNoDevice(systemAudioDrivers)};
+    Rig rig{wanted, withNullDevice(systemAudioDrivers)};
     ASSERT_EQ(rig.open(), "");
     EXPECT_EQ(rig.inputs(), nullptr) << "nothing is heard";
     rig.start();
     int played = 0;
     const auto count = [&](const PlayedEvent&) { ++played; };
-    EXPECT_TRUE(runUntil([&] { return rig.takePlayed(count), played > 3; }));
+    EXPECT_TRUE(runUntil([&] { return rig.drainPlayed(count), played > 3; }));
     rig.maintain();
-    EXPECT_EQ(rig.trouble(), "");
+    EXPECT_EQ(rig.errorText(), "");
     rig.stop(count);
     const int all = played;
     EXPECT_EQ(rig.finish(false), "");
-    rig.takePlayed(count);
+    rig.drainPlayed(count);
     EXPECT_EQ(played, all) << "nothing is played behind the end";
     rig.close();
     rig.close(); // twice is as once
     const auto saved = loadSession(wanted.savePath);
     ASSERT_TRUE(saved) << saved.error;
-    EXPECT_EQ(saved.value.log.takes.size(), 1U);
+    EXPECT_EQ(saved.value.log.runs.size(), 1U);
     EXPECT_GT(std::filesystem::file_size(wanted.recordPath), 1000U);
     EXPECT_TRUE(std::filesystem::exists(folder / "felt.events.csv"));
 }
@@ -63,7 +63,7 @@ TEST_F(RigTest, ThatDoesNotOpenKeepsNothing) {
     wanted.output.device = "None:of this name";
     wanted.savePath = (folder / "felt.json").string();
     {
-        Rig rig{wanted, withNoDevice(systemAudioDrivers)};
+        Rig rig{wanted, withNullDevice(systemAudioDrivers)};
         EXPECT_NE(rig.open(), "");
     }
     EXPECT_FALSE(std::filesystem::exists(wanted.savePath));
@@ -73,18 +73,18 @@ TEST_F(RigTest, WaitsForASinkOrNamesItLater) {
     RigSettings wanted = settings();
     wanted.sinks = {{"BOARD", "/nowhere/port"}};
     {
-        Rig rig{wanted, withNoDevice(systemAudioDrivers)};
+        Rig rig{wanted, withNullDevice(systemAudioDrivers)};
         EXPECT_NE(rig.open(), "") << "a sink that is awaited has to come";
     }
     wanted.awaitsSinks = false;
-    Rig rig{wanted, withNoDevice(systemAudioDrivers)};
+    Rig rig{wanted, withNullDevice(systemAudioDrivers)};
     ASSERT_EQ(rig.open(), "");
     rig.start();
-    EXPECT_EQ(rig.trouble(), "") << "it may still come";
+    EXPECT_EQ(rig.errorText(), "") << "it may still come";
     EXPECT_EQ(rig.sinkStates().size(), 1U);
     EXPECT_TRUE(runUntil([&] {
-        return rig.trouble().starts_with("The board at /nowhere/port does not answer; it is looked for");
-    })) << rig.trouble();
+        return rig.errorText().starts_with("The board at /nowhere/port does not answer; it is looked for");
+    })) << rig.errorText();
     std::string trouble;
     rig.stop([](const PlayedEvent&) {});
     rig.finish(false);
@@ -96,7 +96,7 @@ TEST_F(RigTest, WaitsForASinkOrNamesItLater) {
 
 std::string words(const OutputNames& names) {
     std::string all = names.device;
-    for (const SinkName& sink : names.sinks) all += " | " + sink.kind + " " + sink.where;
+    for (const SinkName& sink : names.sinks) all += " | " + sink.kind + " " + sink.address;
     return all;
 }
 
@@ -119,13 +119,13 @@ TEST(SinkTable, ADeviceAndAnyNumberOfSinksAreNamedInOneLine) {
 
 TEST(SinkTable, MoreEnchantersThanASinkHasAreRefused) {
     const OutputNames names{"BOARD:auto"};
-    EXPECT_EQ(channelFault(names.sinks, 4), "");
-    EXPECT_EQ(channelFault(names.sinks, 5), "board: expected at most four actuators");
-    EXPECT_EQ(channelFault({}, 64), "");
+    EXPECT_EQ(channelCountError(names.sinks, 4), "");
+    EXPECT_EQ(channelCountError(names.sinks, 5), "board: expected at most four actuators");
+    EXPECT_EQ(channelCountError({}, 64), "");
 }
 
 TEST(SinkTable, MoreSinksThanFindRoomAreRefusedAndNoneIsOpened) {
-    const std::vector<SinkName> nine(mostNamedSinks + 1, {"BOARD", "nowhere"});
+    const std::vector<SinkName> nine(maxNamedSinks + 1, {"BOARD", "nowhere"});
     Sinks opened;
     EXPECT_EQ(openSinks(
                   nine, {}, [] { return false; }, opened),
@@ -173,7 +173,7 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
     SessionLog log;
     session.readLog(log);
     ASSERT_GT(played.size(), 40u);
-    EXPECT_TRUE(played == runTakes(log.takes, setup.run(), played.back().timeNs + 1).events);
+    EXPECT_TRUE(played == simulateRuns(log.runs, setup.run(), played.back().timeNs + 1).events);
     EXPECT_EQ(session.status().render.late, 0u);
 }
 

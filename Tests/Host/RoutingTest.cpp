@@ -19,18 +19,18 @@ namespace physvib::routing_test {
 bool has(const std::vector<int>& list, int value) { return std::ranges::find(list, value) != list.end(); }
 
 /// What a map may not be; apart from counts.
-bool isAllowed(const std::vector<int>& felt, const HeardOutputs& heard) {
+bool isAllowed(const std::vector<int>& felt, const ListeningOutputs& heard) {
     for (std::size_t i = 0; i < felt.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (felt[i] >= 0 && felt[i] == felt[j]) return false;
     for (const auto& source : heard) {
-        if (source.size() > static_cast<std::size_t>(OutputMap::mostHeard)) return false;
+        if (source.size() > static_cast<std::size_t>(OutputMap::maxListeningOutputs)) return false;
         for (const int output : source)
             if (output >= 0 && has(felt, output)) return false;
     }
-    for (const int output : heard[static_cast<std::size_t>(Heard::marks)])
-        if (has(heard[static_cast<std::size_t>(Heard::noise)], output) ||
-            has(heard[static_cast<std::size_t>(Heard::contacts)], output))
+    for (const int output : heard[static_cast<std::size_t>(ListeningSource::marks)])
+        if (has(heard[static_cast<std::size_t>(ListeningSource::noise)], output) ||
+            has(heard[static_cast<std::size_t>(ListeningSource::contacts)], output))
             return false;
     return true;
 }
@@ -38,24 +38,24 @@ bool isAllowed(const std::vector<int>& felt, const HeardOutputs& heard) {
 TEST(Routing, NoActuatorGetsWhatIsMeantForEarsOrMeters) {
     SeededRandom random{115};
     int taken = 0, refused = 0;
-    std::array<int, heardKinds> refusedFor{};
+    std::array<int, listeningSourceCount> refusedFor{};
     for (int round = 0; round < 10'000; ++round) {
         const int actuators = 1 + static_cast<int>(random.below(6)), outputs = 16;
         std::vector<int> felt(static_cast<std::size_t>(actuators));
         for (int& output : felt) output = static_cast<int>(random.below(outputs + 1)) - 1;
-        HeardOutputs heard;
+        ListeningOutputs heard;
         for (auto& source : heard) {
             const std::size_t most = random.chance(0.05) ? 11 : 3;
             for (std::size_t n = random.below(most); n > 0; --n)
                 source.push_back(static_cast<int>(random.below(outputs)));
         }
         OutputMap map;
-        ASSERT_EQ(map.want(actuators, {}, 0), ""); // before: each on its own
-        const bool isTaken = map.want(actuators, felt, 0, heard).empty();
+        ASSERT_EQ(map.request(actuators, {}, 0), ""); // before: each on its own
+        const bool isTaken = map.request(actuators, felt, 0, heard).empty();
         ASSERT_EQ(isTaken, isAllowed(felt, heard)) << "round " << round;
         (isTaken ? taken : refused)++;
-        for (std::size_t kind = 0; kind < heardKinds && !isTaken; ++kind) {
-            HeardOutputs alone;
+        for (std::size_t kind = 0; kind < listeningSourceCount && !isTaken; ++kind) {
+            ListeningOutputs alone;
             alone[kind] = heard[kind];
             refusedFor[kind] += !isAllowed(felt, alone);
         }
@@ -72,10 +72,11 @@ TEST(Routing, NoActuatorGetsWhatIsMeantForEarsOrMeters) {
             ASSERT_EQ(at, wanted < offered ? wanted : -1) << "round " << round << ", actuator " << j;
             if (at >= 0) ASSERT_TRUE(driven.insert(at).second);
         }
-        for (const Heard source : {Heard::noise, Heard::contacts, Heard::marks})
-            for (int i = 0; i < OutputMap::mostHeard; ++i) {
+        for (const ListeningSource source :
+             {ListeningSource::noise, ListeningSource::contacts, ListeningSource::marks})
+            for (int i = 0; i < OutputMap::maxListeningOutputs; ++i) {
                 const auto& wanted = heard[static_cast<std::size_t>(source)];
-                const int at = map.heardAt(source, i);
+                const int at = map.listeningChannel(source, i);
                 ASSERT_FALSE(driven.contains(at)) << "round " << round;
                 const bool isWanted = isTaken && i < std::ssize(wanted);
                 ASSERT_EQ(at, isWanted && wanted[static_cast<std::size_t>(i)] < offered
@@ -104,11 +105,11 @@ TEST(Routing, AFreeOutputIsTheLowestThatNobodyHas) {
         const auto before = strips;
         const std::size_t strip = random.below(strips.size());
         const int wanted = static_cast<int>(random.below(7)) - 1;
-        settleOutputs(strips);
+        removeSharedOutputs(strips);
         for (std::size_t i = 0; i < strips.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
                 ASSERT_TRUE(strips[i].output < 0 || strips[i].output != strips[j].output);
-        giveOutput(strips, strip, wanted);
+        assignOutput(strips, strip, wanted);
         ASSERT_EQ(strips[strip].output, wanted);
         for (std::size_t i = 0; i < strips.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
@@ -124,9 +125,9 @@ TEST(Routing, ADeviceLacksWhatItDoesNotHave) {
             test::FakeDevice device{thing};
             DeviceRequest inputs{.name = "thing"}, outputs{.name = "thing"};
             if (wanted >= 0) inputs.inputs = {wanted};
-            outputs.highestHeard = wanted;
-            EXPECT_EQ(inputs.fault(device).empty(), wanted < has || wanted < 0) << wanted << " of " << has;
-            EXPECT_EQ(outputs.fault(device).empty(), wanted < has) << wanted << " of " << has;
+            outputs.highestListeningOutput = wanted;
+            EXPECT_EQ(inputs.errorFor(device).empty(), wanted < has || wanted < 0) << wanted << " of " << has;
+            EXPECT_EQ(outputs.errorFor(device).empty(), wanted < has) << wanted << " of " << has;
         }
 }
 
@@ -167,12 +168,12 @@ public:
     explicit Player(int frames)
         : frames_{frames} {
         for (int k = 0; k < outputs; ++k) everything_.insert(k);
-        EXPECT_EQ(map_.want(2, {0, 1}), "");
+        EXPECT_EQ(map_.request(2, {0, 1}), "");
         map_.place(everything_);
         map_.settle(rate);
     }
     void assign(const std::vector<int>& to) {
-        EXPECT_EQ(map_.want(2, to), "");
+        EXPECT_EQ(map_.request(2, to), "");
         map_.place(everything_);
     }
     void play(double seconds) {

@@ -38,9 +38,9 @@ protected:
 
 double rms(const std::vector<float>& x, double rate) {
     double sum = 0.0;
-    for (std::size_t n = 0; n < std::min(x.size(), static_cast<std::size_t>(matchedSeconds * rate)); ++n)
+    for (std::size_t n = 0; n < std::min(x.size(), static_cast<std::size_t>(matchWindowSeconds * rate)); ++n)
         sum += double{x[n]} * x[n];
-    return std::sqrt(sum / (matchedSeconds * rate));
+    return std::sqrt(sum / (matchWindowSeconds * rate));
 }
 
 TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
@@ -53,8 +53,8 @@ TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
         for (const float x : high.value.samples) peak = std::max(peak, std::abs(x));
         EXPECT_EQ(peak, 1.0f);
         // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for what the sine's phase leaves
-        const double expected =
-            std::sqrt((1.0 - std::exp(-2.0 * decay * matchedSeconds)) / (4.0 * decay) / matchedSeconds);
+        const double expected = std::sqrt((1.0 - std::exp(-2.0 * decay * matchWindowSeconds)) /
+                                          (4.0 * decay) / matchWindowSeconds);
         EXPECT_NEAR(rms(strong.value.samples, 48000) / expected, 1.0, 0.02) << decay;
     }
 }
@@ -204,8 +204,8 @@ TEST_F(Recordings, EventsStandWhereTheirSoundIs) {
     ASSERT_EQ(recording.error(), "");
     const std::vector<float> silence(4800);
     const float* const channels[] = {silence.data()};
-    recording.recorder().rendered({channels, 4800, 960, 48000}); // begins 20 ms after the session
-    recording.take(
+    recording.recorder().onBlock({channels, 4800, 960, 48000}); // begins 20 ms after the session
+    recording.addEvent(
         {{.timeNs = 25'000'000, .frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5}, 0, false});
     ASSERT_EQ(recording.finish(480, {1.0, 1.0}, {}, {}), "");
     const auto list = loadEventsCsv((folder / "take.csv").string());

@@ -90,8 +90,8 @@ TEST(SilentOutputs, AreSilentWithinABlockFromEveryState) {
 TEST(RefusedRoutings, LeaveWhatIsPlayedWhereItWas) {
     Played played, undisturbed;
     for (Played* p : {&played, &undisturbed}) p->submit(tone(false)), p->play(300);
-    EXPECT_NE(played.output.hear({.noise = {2}}), "");
-    EXPECT_NE(played.output.hear({.noise = {5}, .marks = {7}}), "") << "the session makes none";
+    EXPECT_NE(played.output.setListening({.noise = {2}}), "");
+    EXPECT_NE(played.output.setListening({.noise = {5}, .marks = {7}}), "") << "the session makes none";
     EXPECT_NE(played.output.assign({0, 1, 2, 5}, 0), "") << "an actuator on the noise";
     EXPECT_NE(played.output.assign({0, 1, 2, 2}, 0), "");
     const Signals out = played.play(100), expected = undisturbed.play(100);
@@ -107,7 +107,7 @@ TEST(RefusedRoutings, LeaveWhatIsPlayedWhereItWas) {
 /// Also when the device goes and comes back.
 TEST(RefusedRoutings, AreNotPlayedWhenTheDeviceIsOpenedAnew) {
     Played played;
-    EXPECT_NE(played.output.hear({.noise = {4}, .marks = {7}}), "") << "the session makes none";
+    EXPECT_NE(played.output.setListening({.noise = {4}, .marks = {7}}), "") << "the session makes none";
     played.interface.unplug(true);
     auto now = AudioOutput::Clock::now();
     using namespace std::chrono_literals;
@@ -144,7 +144,7 @@ TEST(Levels, NearlyDirectCurrentIsTurnedDownAtTheDevice) {
     slow.amplitude = 1.0;
     for (int i = 0; i < 8; ++i) played.submit(slow);
     played.play(3000);
-    EXPECT_GT(played.output.status().guarded, 0U);
+    EXPECT_GT(played.output.status().guardEpisodes, 0U);
     EXPECT_LT(played.output.status().guardGain, 1.0f);
 }
 

@@ -72,9 +72,8 @@ public:
                   << (steps() < mostSteps ? " s" : " steps") << std::endl;
     }
 
-    int states() const {
-        return static_cast<int>(modal_.size());
-    } ///< of what is modal: menus, lists, dialogs
+    /// Of what is modal: menus, lists, dialogs.
+    int states() const { return static_cast<int>(modal_.size()); }
     int steps() const { return static_cast<int>(done_.size()); }
     const std::set<juce::String>& modal() const { return modal_; }
     juce::StringArray faults;

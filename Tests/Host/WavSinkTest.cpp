@@ -147,22 +147,22 @@ TEST(WavSink, KeepsTheComment) {
 void render(PlayedRecorder& recorder, std::int64_t frame, int rate = rateHz) {
     const std::vector<float> block(480, 0.5f);
     const float* const channels[] = {block.data()};
-    recorder.rendered({channels, 480, frame, rate});
+    recorder.onBlock({channels, 480, frame, rate});
 }
 
 TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     const auto path = pathOf("begins.wav");
     PlayedRecorder recorder{path, 1, rateHz};
     ASSERT_EQ(recorder.error(), "");
-    recorder.tellBeginning(2400);
-    EXPECT_FALSE(recorder.beginsSeconds());
+    recorder.setOutputLatency(2400);
+    EXPECT_FALSE(recorder.startSeconds());
     for (int i = 0; i < 3; ++i) // the world has not begun, so time stands still
         render(recorder, -480);
-    EXPECT_FALSE(recorder.beginsSeconds());
+    EXPECT_FALSE(recorder.startSeconds());
     render(recorder, 960);
     render(recorder, 1440);
     ASSERT_EQ(recorder.finish(), "");
-    EXPECT_EQ(recorder.beginsSeconds(), -0.03);
+    EXPECT_EQ(recorder.startSeconds(), -0.03);
     const auto bytes = bytesOf(path);
     EXPECT_NE(bytes.find("begins at session time -0.030000 s"), std::string::npos);
     EXPECT_EQ(numberAt<std::uint32_t>(bytes, chunkAt(bytes, "data") - 4), 960u * 4u);
@@ -201,10 +201,10 @@ TEST(PlayedRecorder, IsAWholeFileInItsPlaceWhileItGrows) {
 TEST(PlayedRecorder, EndsWhereAnotherRateComes) {
     PlayedRecorder recorder{pathOf("rates.wav"), 1, rateHz};
     render(recorder, 0);
-    EXPECT_TRUE(recorder.isWhole());
+    EXPECT_TRUE(recorder.isRateUnchanged());
     render(recorder, 480, 2 * rateHz);
     render(recorder, 960);
-    EXPECT_FALSE(recorder.isWhole());
+    EXPECT_FALSE(recorder.isRateUnchanged());
     ASSERT_EQ(recorder.finish(), "");
     EXPECT_EQ(recorder.frames(), 480);
 }

@@ -47,7 +47,7 @@ std::vector<CollisionEvent> hostileList(test::Random& random) {
 }
 
 test::SlowFigures figuresOf(const std::vector<CollisionEvent>& events) {
-    EnchanterLayout layout{1.0, 1.0, channels, {}};
+    ActuatorLayout layout{1.0, 1.0, channels, {}};
     layout.places[0] = {0.0, 0.5};
     layout.places[1] = {1.0, 0.5};
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 1.0};

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The headers that everything includes stay short, and a session stays made of parts (Docs/decisions/0106-a-session-is-made-of-parts.md).
 set(most_lines 105) # of code: comments explain, and are not to be squeezed
-set(most_methods 21)
+set(most_methods 22)
 set(bad "")
 foreach(header Source/Live/Devices/AudioOutput.h Source/Live/Session/Session.h Standalone/Mixer/Model/MixerModel.h)
     file(READ ${ROOT}/${header} text)

@@ -33,7 +33,7 @@ set(Plugin_may "Host/|Live/|Scene/|Io/|Physics/|Contacts/|Stimuli/|Core/|juce_|[
 # the window with all of them.
 set(Mixer_may "Host/|Live/|Pictures/|Stimuli/|Scene/|Io/|Core/|juce_")
 set(Standalone/Mixer/Model_may "Mixer/Model/|${Mixer_may}")
-set(Standalone/Mixer/Widgets_may "Mixer/(Model|Widgets)/|Measure/|Lab/Files/Words\\.h|${Mixer_may}")
+set(Standalone/Mixer/Widgets_may "Mixer/(Model|Widgets)/|Measure/|Lab/Files/Translation\\.h|${Mixer_may}")
 foreach(panel World Strips Output Materials Studies)
     set(Standalone/Mixer/${panel}_may "Mixer/(Model|Widgets|${panel})/|Measure/|Formats/|Contacts/|Lab/|Studies/|${Mixer_may}")
 endforeach()

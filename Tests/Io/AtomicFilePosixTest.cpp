@@ -138,7 +138,7 @@ TEST_F(AtomicFilePosixTest, ABufferThatDoesNotFitIsNoticedWhenClosing) {
 /// Writes three files, puts one in its place, and is ended by a signal.
 void endWhileWriting(const fs::path& folder) {
     std::signal(SIGTERM, [](int) {
-        removeAllOnEnd();
+        removeFilesOnSignal();
         std::_Exit(3);
     });
     AtomicFile first(folder / "a.csv"), second(folder / "b.csv"), third(folder / "done.csv");
@@ -170,7 +170,7 @@ TEST_F(AtomicFilePosixTest, WhatOthersDoToAShownFileIsTold) {
     const auto after = [&](auto act) {
         AtomicFile file(path);
         file.writeAt(0, "begun");
-        EXPECT_EQ(file.show(), "");
+        EXPECT_EQ(file.publish(), "");
         act();
         file.writeAt(5, " and ended");
         return file.commit();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts as SVG: nothing of a file is markup, series differ without colours, simulated data say so.
+// Charts as SVG: nothing of a file is escapeXml, series differ without colours, simulated data say so.
 #include "Io/Charts/Charts.h"
 #include "Io/Charts/ChartParts.h"
 #include <algorithm>
@@ -29,11 +29,11 @@ std::vector<std::string> chartsWith(const std::string& words, bool isSimulated) 
                    {"two", {ChartValue{60, 60, 60}, ChartValue{20, 10, 30}}}}};
     bars.reference = {50.0, words};
     bars.ceilings = {90.0, 95.0};
-    bars.ceilingWords = words;
+    bars.ceilingLabel = words;
     LineChart lines{frame, words, words, {{words, {{1, {2, 1, 3}}, {2, {4, 4, 4}}}}}};
     lines.references = {{2.0, words}};
     lines.threshold = {1.5, 1.2, 1.8};
-    lines.thresholdWords = words;
+    lines.thresholdLabel = words;
     GridChart grid{frame, words, words, {words, "2"}, {"1", words}, {1.0, 0.5, std::nullopt, 0.0}};
     PlaceChart places{frame,
                       1,
@@ -47,8 +47,8 @@ std::vector<std::string> chartsWith(const std::string& words, bool isSimulated) 
 }
 
 TEST(Charts, NothingOfAFileBecomesMarkup) {
-    EXPECT_EQ(markup("<b a=\"1\" c='2'>&"), "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
-    EXPECT_EQ(markup("a\x01\xff"), "a\\x01\\xff");
+    EXPECT_EQ(escapeXml("<b a=\"1\" c='2'>&"), "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
+    EXPECT_EQ(escapeXml("a\x01\xff"), "a\\x01\\xff");
     for (const std::string& svg : chartsWith("\"/><script>alert('1')</script>", false)) {
         EXPECT_EQ(svg.find("<script"), std::string::npos) << svg;
         EXPECT_NE(svg.find("&lt;script&gt;"), std::string::npos);
@@ -168,17 +168,17 @@ TEST(Charts, ColourBlindReadersSeeEveryColourAsAnother) {
 }
 
 TEST(Charts, AxesHaveRoundTicksAroundAllValues) {
-    const ChartAxis axis = ChartAxis::around(0.0, 93.4);
-    EXPECT_EQ(axis.most, 100.0);
-    EXPECT_EQ(axis.tickWords, (std::vector<std::string>{"0", "20", "40", "60", "80", "100"}));
+    const ChartAxis axis = ChartAxis::linear(0.0, 93.4);
+    EXPECT_EQ(axis.max, 100.0);
+    EXPECT_EQ(axis.tickLabels, (std::vector<std::string>{"0", "20", "40", "60", "80", "100"}));
     EXPECT_DOUBLE_EQ(axis.share(25.0), 0.25);
-    EXPECT_EQ(ChartAxis::around(-0.031, 0.042).tickWords,
+    EXPECT_EQ(ChartAxis::linear(-0.031, 0.042).tickLabels,
               (std::vector<std::string>{"-0.04", "-0.02", "0.00", "0.02", "0.04", "0.06"}));
-    const ChartAxis same = ChartAxis::around(7.0, 7.0);
-    EXPECT_LT(same.least, 7.0);
-    EXPECT_GT(same.most, 7.0);
+    const ChartAxis same = ChartAxis::linear(7.0, 7.0);
+    EXPECT_LT(same.min, 7.0);
+    EXPECT_GT(same.max, 7.0);
     const ChartAxis logarithmic = ChartAxis::logarithmic(0.05, 0.8);
-    EXPECT_EQ(logarithmic.tickWords, (std::vector<std::string>{"0.05", "0.1", "0.2", "0.5"}));
+    EXPECT_EQ(logarithmic.tickLabels, (std::vector<std::string>{"0.05", "0.1", "0.2", "0.5"}));
     EXPECT_NEAR(logarithmic.share(0.2), 0.5, 1e-12);
 }
 

@@ -41,7 +41,7 @@ TEST_F(FailingDisks, AreToldByAFileThatIsSeenWhileItGrows) {
         [&] {
             AtomicFile file{folder / "a.txt"};
             file.write("head\n");
-            if (const std::string error = file.show(); !error.empty()) return error;
+            if (const std::string error = file.publish(); !error.empty()) return error;
             file.writeAt(5, "tail\n");
             return file.commit();
         },
@@ -108,7 +108,7 @@ TEST_F(FileClash, IsToldWithBothSpellings) {
     const std::string there = folder / "there.json", link = folder / "link.json", out = folder / "out.wav",
                       again = folder / "sub/../out.wav";
     const auto clash = [](std::vector<std::string> outputs, std::vector<std::string> inputs) {
-        return fileClash(outputs, inputs);
+        return fileClashError(outputs, inputs);
     };
     EXPECT_EQ(clash({out, "", there}, {"", link}),
               there + ": expected another file to write, this is the input " + link);

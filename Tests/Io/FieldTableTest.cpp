@@ -24,20 +24,20 @@ struct Thing {
     double length = 2.0, width = 3.0;
 };
 
-void visitFields(auto& v, FieldsOf<Part>) { v.field("number", &Part::number, kinds::FromOne{0, 9}); }
+void visitFields(auto& v, FieldsOf<Part>) { v.field("number", &Part::number, kinds::OneBased{0, 9}); }
 
 struct Sizes {}; // a kind of the module's own
-std::pair<double, double> readKind(const JsonField& json, const Sizes&) {
+std::pair<double, double> readCustom(const JsonField& json, const Sizes&) {
     return {json.item(0).positiveNumber(), json.item(1).positiveNumber()};
 }
 
-OrderedJson writeKind(const Sizes&, const auto& sizes) { return sizes; }
+OrderedJson writeCustom(const Sizes&, const auto& sizes) { return sizes; }
 
 void visitFields(auto& v, FieldsOf<Thing>) {
     v.version("thing", 3);
     v.field("level_db", &Thing::level, kinds::within(-60.0, 0.0));
     v.field("colour", &Thing::colour, kinds::OneOf{colourNames}, Need::optional.from(2));
-    v.formerly("bit", &Thing::part, kinds::Object<Part>{});
+    v.legacyField("bit", &Thing::part, kinds::Object<Part>{});
     v.field("part", &Thing::part, kinds::Object<Part>{}, Need::required.from(3));
     v.field("parts", &Thing::parts, kinds::Objects<Part>{2, "parts"}, Need::optional);
     v.field("sizes", both(&Thing::length, &Thing::width), Sizes{}, Need::filled);

@@ -27,21 +27,21 @@ std::pair<int, int> priorityOfThis() {
 }
 
 /// A null device has no clock: after so many frames this user takes its time.
-struct SlowUser final : DeviceUser {
+struct SlowUser final : AudioDeviceCallback {
     NoiseUser noise;
     std::atomic<int> inputs{0};
     std::atomic<float> loudest{0.0f};
     std::pair<int, int> priority; // of the first block
     void aboutToStart(AudioDevice& device) override { noise.aboutToStart(device); }
     void stopped() override { noise.stopped(); }
-    void block(const float* const* in, int channels, float* const* out, int outputs,
-               int frames) noexcept override {
+    void processBlock(const float* const* in, int channels, float* const* out, int outputs,
+                      int frames) noexcept override {
         if (noise.blocks == 0) priority = priorityOfThis();
         if (noise.frames > 8192) std::this_thread::sleep_for(std::chrono::milliseconds{5});
         inputs = channels;
         for (int k = 0; k < channels; ++k)
             loudest = std::max(loudest.load(), *std::max_element(in[k], in[k] + frames));
-        noise.block(in, channels, out, outputs, frames);
+        noise.processBlock(in, channels, out, outputs, frames);
     }
 };
 

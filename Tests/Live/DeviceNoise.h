@@ -21,12 +21,13 @@ inline float noise(std::uint32_t frame, int channel) {
 }
 
 /// Plays noise() from the first block after each start.
-struct NoiseUser final : DeviceUser {
+struct NoiseUser final : AudioDeviceCallback {
     std::atomic<std::uint32_t> frames{0}, blocks{0};
     std::atomic<int> starts{0}, stops{0}, outputs{0}, longest{0};
     void aboutToStart(AudioDevice&) override { ++starts; }
     void stopped() override { ++stops; }
-    void block(const float* const*, int, float* const* out, int channels, int count) noexcept override {
+    void processBlock(const float* const*, int, float* const* out, int channels,
+                      int count) noexcept override {
         const std::uint32_t first = frames;
         for (int j = 0; j < channels; ++j)
             for (int n = 0; n < count; ++n) out[j][n] = noise(first + static_cast<std::uint32_t>(n), j);

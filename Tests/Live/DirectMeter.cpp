@@ -28,7 +28,7 @@ std::vector<Asked> ask(Session& session, int times) {
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{50'000 + random() % 40'000});
         const std::int64_t before = session.timeline().framesRendered();
-        const auto told = router.take(
+        const auto told = router.handle(
             {"strike", {{"frequency_hz", 205.0}, {"decay_per_s", 120.0}, {"place", std::string{"A"}}}});
         if (!told) std::puts(told.error.c_str());
         all.push_back({before, session.timeline().framesRendered()});
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return 2;
     const int messages = std::atoi(argv[1]);
     SessionSetup setup = test::setupOfWalls();
-    setup.direct = Direct::told;
+    setup.direct = Direct::inputs;
     Session session{setup};
     AudioOutput output{session, systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())

@@ -230,12 +230,12 @@ TEST_F(JackDriverInRealTime, ConnectionsOfOthersAreFollowed) {
 }
 
 /// Keeps the first sample of each block's only input.
-struct Listener final : DeviceUser {
+struct Listener final : AudioDeviceCallback {
     std::atomic<float> heard{0.0f};
     void aboutToStart(AudioDevice&) override {}
     void stopped() override {}
-    void block(const float* const* in, int inputs, float* const* out, int outputs,
-               int frames) noexcept override {
+    void processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                      int frames) noexcept override {
         for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
         if (inputs == 1) heard = in[0][0];
     }

@@ -25,7 +25,7 @@ SessionSetup setupFor(const std::string& driver, int stepsPerSecond) {
     s.scene = *findBuiltInScene("shake-the-box");
     s.stepsPerSecond = stepsPerSecond;
     s.longestGapSeconds = driver == "thread" ? threadGapSeconds(stepsPerSecond) : messageTimerGapSeconds;
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     s.panner = {layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
     return s;
@@ -34,7 +34,7 @@ SessionSetup setupFor(const std::string& driver, int stepsPerSecond) {
 /// Prints the row; 0 if what was recorded is what the log gives, L later.
 int tell(const std::string& name, Session& session, const SessionSetup& setup, test::MeterClient& client,
          const SessionLog& log, double seconds) {
-    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
+    const auto made = simulateRuns(log.runs, setup.run(), std::llround(seconds * 1e9));
     const auto render = test::rendered(made.events, setup, client.rate, seconds);
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;
@@ -56,15 +56,16 @@ int tell(const std::string& name, Session& session, const SessionSetup& setup, t
 /// The mixer as it starts, with its message loop, at full level.
 int measureMixer(double seconds) {
     const juce::ScopedJuceInitialiser_GUI juce;
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     mix.levelDb = 0.0;
     for (Strip& strip : mix.strips) strip.gainDb = 0.0;
     MixerModel mixer{systemAudioDrivers, {.name = "JACK:system"}, mix};
-    if (mixer.trouble().isNotEmpty()) return std::puts(mixer.trouble().toRawUTF8()), 1;
+    if (mixer.messageText().isNotEmpty()) return std::puts(mixer.messageText().toRawUTF8()), 1;
     test::MeterClient client{mixer.session(), seconds};
     test::runFor(seconds + 0.2);
     client.stop();
-    return tell("mixer", mixer.session(), mixer.rig().settings().setup, client, mixer.saved().log, seconds);
+    return tell("mixer", mixer.session(), mixer.rig().settings().setup, client, mixer.savedSession().log,
+                seconds);
 }
 
 } // namespace

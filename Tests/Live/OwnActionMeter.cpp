@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     }
     SessionLog log;
     session.readLog(log);
-    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
+    const auto made = simulateRuns(log.runs, setup.run(), std::llround(seconds * 1e9));
     const auto render = test::rendered(made.events, setup, client.rate, seconds);
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     const bool isWhole = result.isAligned && static_cast<int>(made.events.size()) == pushes;

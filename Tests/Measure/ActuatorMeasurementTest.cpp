@@ -10,7 +10,7 @@
 namespace physvib::actuator_measurement_test {
 
 constexpr int rate = 48000;
-const std::vector<float> sweep = sweepOf({.seconds = 2.0}, rate);
+const std::vector<float> sweep = makeSweep({.seconds = 2.0}, rate);
 
 std::vector<float> recordingOf(const Resonator& r, double gain, int delayFrames, double noise,
                                unsigned seed = 1) {

@@ -22,8 +22,8 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
     HapticFixture ground{frequencyHz, decayPerSecond, true, massKg};
     ground.texture = texture;
     FixtureTable table;
-    const std::int32_t surface = table.know(std::uint64_t{11}, {.body = 1}),
-                       slider = table.know(std::uint64_t{12}, {.body = 2});
+    const std::int32_t surface = table.findOrAdd(std::uint64_t{11}, {.body = 1}),
+                       slider = table.findOrAdd(std::uint64_t{12}, {.body = 2});
     table.set(surface, ground, {});
     LastingContacts lasting{table};
     std::vector<CollisionEvent> events;
@@ -45,7 +45,7 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
                               .decayPerSecond = decayPerSecond,
                               .amplitude = impact.newtonSeconds / massKg});
     }
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone1", layout);
     RendererSettings settings{rate, 1, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
     settings.limiterEnabled = false;
@@ -120,7 +120,7 @@ TEST(TextureExtractor, WhatWasRecordedUpsideDownIsTheSame) {
     const auto down = extractTexture(samples, rate, {0.4});
     ASSERT_TRUE(up && down) << up.error << down.error;
     EXPECT_NEAR(up.value.strength, down.value.strength, 1e-9);
-    EXPECT_EQ(up.value.counted, down.value.counted);
+    EXPECT_EQ(up.value.grainCount, down.value.grainCount);
 }
 
 // A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second it is not counted.
@@ -188,16 +188,16 @@ double peakBetween(const std::vector<float>& samples, double from, double to) {
 
 TEST(SlowPart, AConstantBecomesSilence) {
     auto samples = samplesOf(10.0, [](double) { return 1.0; });
-    const auto taken = takeSlowPart(samples, slowRate);
+    const auto taken = removeSlowPart(samples, slowRate);
     EXPECT_EQ(taken.mean, 1.0);
-    EXPECT_EQ(taken.rest, 0.0);
+    EXPECT_EQ(taken.varying, 0.0);
     EXPECT_EQ(peakBetween(samples, 0.0, 10.0), 0.0);
     EXPECT_EQ(taken.text(), "what lies below 5 Hz is not played: a mean of 1.00, of full scale");
 }
 
 TEST(SlowPart, ATonesOffsetGoesAndTheToneStays) {
     auto samples = samplesOf(2.0, [](double t) { return 0.5 * sine(205.0, t) - 0.25; });
-    EXPECT_NEAR(takeSlowPart(samples, slowRate).mean, 0.25, 1e-3);
+    EXPECT_NEAR(removeSlowPart(samples, slowRate).mean, 0.25, 1e-3);
     for (std::size_t n = 0; n < samples.size(); ++n)
         ASSERT_NEAR(samples[n], 0.5 * sine(205.0, static_cast<double>(n) / slowRate), 1e-3);
 }
@@ -208,12 +208,12 @@ TEST(SlowPart, WhatIsFeltStaysToTheBit) {
             const auto before = samplesOf(hz < 50.0 && decay > 0.0 ? 4.0 : 1.0,
                                           [&](double t) { return sine(hz, t) * std::exp(-decay * t); });
             auto samples = before;
-            EXPECT_FALSE(takeSlowPart(samples, slowRate).isAny()) << hz << ' ' << decay;
+            EXPECT_FALSE(removeSlowPart(samples, slowRate).isPresent()) << hz << ' ' << decay;
             EXPECT_EQ(samples, before) << hz << ' ' << decay;
         }
     const auto knock = samplesOf(0.19, [](double) { return 1.0; });
     auto samples = knock;
-    EXPECT_FALSE(takeSlowPart(samples, slowRate).isAny()) << "shorter than a period of 5 Hz";
+    EXPECT_FALSE(removeSlowPart(samples, slowRate).isPresent()) << "shorter than a period of 5 Hz";
     EXPECT_EQ(samples, knock);
 }
 
@@ -221,16 +221,16 @@ TEST(SlowPart, WhatChangesSlowlyGoesAsFarAsItsFrequencySays) {
     for (const auto& [hz, left] :
          {std::pair{0.5, 0.01}, {1.0, 0.033}, {2.0, 0.126}, {3.0, 0.265}, {4.0, 0.43}, {5.0, 0.6}}) {
         auto samples = samplesOf(10.0, [hz = hz](double t) { return sine(hz, t); });
-        EXPECT_GT(takeSlowPart(samples, slowRate).rest, 0.39) << hz;
+        EXPECT_GT(removeSlowPart(samples, slowRate).varying, 0.39) << hz;
         EXPECT_NEAR(peakBetween(samples, 1.0, 9.0), left, 0.01) << hz;
     }
     // its mean is zero
     auto steps = samplesOf(10.0, [](double t) { return (t < 5.0 ? 1.0 : -1.0) + 0.1 * sine(205.0, t); });
-    EXPECT_GT(takeSlowPart(steps, slowRate).rest, 0.99);
+    EXPECT_GT(removeSlowPart(steps, slowRate).varying, 0.99);
     EXPECT_NEAR(peakBetween(steps, 0.2, 4.8), 0.1, 0.01);
     // a sixth of it is its mean
     auto burst = samplesOf(60.0, [](double t) { return t > 20.0 && t < 30.0 ? 1.0 : 0.0; });
-    const auto taken = takeSlowPart(burst, slowRate);
+    const auto taken = removeSlowPart(burst, slowRate);
     EXPECT_NEAR(taken.mean, 1.0 / 6.0, 1e-3);
     EXPECT_EQ(taken.text().substr(0, 83),
               "what lies below 5 Hz is not played: a mean of 0.17, and up to 0.83 beside it, of fu");
@@ -240,11 +240,11 @@ TEST(SlowPart, WhatChangesSlowlyGoesAsFarAsItsFrequencySays) {
 TEST(SlowPart, IsAShareOfWhatIsPlayedAsFullScale) {
     for (const double fullScale : {1e-6, 0.02, 1e30}) {
         auto samples = samplesOf(1.0, [=](double t) { return fullScale * (0.5 + 0.5 * sine(205.0, t)); });
-        EXPECT_NEAR(takeSlowPart(samples, slowRate, fullScale).mean, 0.5, 1e-3) << fullScale;
+        EXPECT_NEAR(removeSlowPart(samples, slowRate, fullScale).mean, 0.5, 1e-3) << fullScale;
         EXPECT_NEAR(peakBetween(samples, 0.0, 1.0) / fullScale, 0.5, 1e-3) << fullScale;
     }
     std::vector<float> silence(8000, 0.0f);
-    EXPECT_FALSE(takeSlowPart(silence, slowRate, 0.0).isAny());
+    EXPECT_FALSE(removeSlowPart(silence, slowRate, 0.0).isPresent());
 }
 
 TEST(SlowPart, NothingHidesBehindWhatIsNoNumber) {
@@ -252,7 +252,7 @@ TEST(SlowPart, NothingHidesBehindWhatIsNoNumber) {
                               std::numeric_limits<float>::max()}) {
         auto samples = samplesOf(10.0, [](double t) { return t < 5.0 ? 1.0 : -1.0; });
         samples[0] = hider;
-        EXPECT_TRUE(takeSlowPart(samples, slowRate).isAny());
+        EXPECT_TRUE(removeSlowPart(samples, slowRate).isPresent());
         EXPECT_LT(peakBetween(samples, 1.0, 4.8), 0.02) << hider;
     }
 }

@@ -50,7 +50,7 @@ TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
                                 << where << " " << i << " " << k;
                     }
                     EXPECT_EQ(covered, area.getWidth() * area.getHeight()) << where;
-                    const int folded = mode == Mode::play ? 0 : TabPanel::folded;
+                    const int folded = mode == Mode::play ? 0 : TabPanel::foldedPixels;
                     EXPECT_GE(a.world.getHeight(), Arrangement::minWorldHeight) << where;
                     EXPECT_GE(a.world.getWidth(), Arrangement::minSide) << where;
                     EXPECT_GE(a.tabs.getWidth(), panels.hasDrawer ? Arrangement::minSide : folded) << where;
@@ -78,9 +78,9 @@ TEST(Arrangement, ManyStripsLeaveTheScopeItsPart) {
 
 TEST(Arrangement, DividersAreKeptAsTextAndNonsenseIsAutomatic) {
     const Dividers dividers{0.3125, 0.25, 0.5};
-    EXPECT_EQ(Dividers::of(dividers.text()), dividers);
-    EXPECT_EQ(Dividers::of("nan 7 -1"), Dividers{});
-    EXPECT_EQ(Dividers::of(""), Dividers{});
+    EXPECT_EQ(Dividers::fromText(dividers.toText()), dividers);
+    EXPECT_EQ(Dividers::fromText("nan 7 -1"), Dividers{});
+    EXPECT_EQ(Dividers::fromText(""), Dividers{});
 }
 
 struct ArrangedView : testing::Test, MixerInView {
@@ -91,7 +91,7 @@ struct ArrangedView : testing::Test, MixerInView {
     }
     juce::Point<float> fieldSize() {
         const auto& world = view.world().view();
-        return world.placeOfShare({1.0, 0.0}) - world.placeOfShare({0.0, 1.0});
+        return world.pixelOfShare({1.0, 0.0}) - world.pixelOfShare({0.0, 1.0});
     }
 };
 
@@ -124,7 +124,7 @@ TEST_F(ArrangedView, ASmallWindowFoldsTheStripsUntilOneAsksForThem) {
     EXPECT_GE(field.x * field.y / (1024.0f * 700.0f), 0.3f);
     view.keyPressed(KeyPress{KeyPress::F3Key});
     EXPECT_TRUE(the(view, "Mixer").isVisible());
-    EXPECT_EQ(view.order(), "engineer - 01");
+    EXPECT_EQ(view.panelLayout(), "engineer - 01");
     view.setSize(1280, 800);
     view.setSize(1024, 700);
     EXPECT_TRUE(the(view, "Mixer").isVisible()) << "as it was asked for";
@@ -176,13 +176,13 @@ TEST_F(ArrangedView, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
     areThere({"Trouble"}, true);
     view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(model.isSilent());
-    const auto order = view.order();
+    const auto order = view.panelLayout();
     view.setMode(Mode::engineer);
     EXPECT_EQ(view.panels(), (Panels{false, true})) << "each mode keeps its own";
-    view.setOrder(order);
+    view.setPanelLayout(order);
     EXPECT_EQ(view.mode(), Mode::play);
     EXPECT_EQ(view.panels(), (Panels{true, true}));
-    for (const char* nonsense : {"", "engineer", "play x 1 77"}) view.setOrder(nonsense);
+    for (const char* nonsense : {"", "engineer", "play x 1 77"}) view.setPanelLayout(nonsense);
     EXPECT_EQ(view.mode(), Mode::play) << "a first start";
 }
 
@@ -215,9 +215,9 @@ TEST_F(ArrangedView, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
                     .contains(the(view, "Mixer").getLocalArea(attach, attach->getLocalBounds())))
         << "the next place is in sight";
     view.setSize(3840, 2160);
-    EXPECT_EQ(widthOf("Strip A"), StripView::mostWidth);
+    EXPECT_EQ(widthOf("Strip A"), StripView::maxWidth);
     EXPECT_GE(narrow, StripView::width);
-    EXPECT_LT(narrow, StripView::mostWidth);
+    EXPECT_LT(narrow, StripView::maxWidth);
     EXPECT_TRUE(attach->isVisible());
     view.setSize(1024, 700);
     EXPECT_GE(widthOf("Mute A"), 24) << "for a pointer";
@@ -296,7 +296,7 @@ TEST_F(ArrangedView, TheToolsKeepTheirSizeInALowWindow) {
             EXPECT_EQ(static_cast<std::size_t>(inLine), columns.size()) << y << " at " << height;
         for (int j = 0; j < 4; ++j) {
             auto& world = view.world().view();
-            const auto badge = view.world().getLocalPoint(&world, world.placeOfEnchanter(j)).toInt();
+            const auto badge = view.world().getLocalPoint(&world, world.actuatorPixel(j)).toInt();
             EXPECT_FALSE(tools.getBounds().expanded(12).contains(badge)) << j << " at " << width;
             EXPECT_FALSE(view.world().bannerArea().expanded(0, 12).contains(badge)) << j << " at " << width;
         }
@@ -306,13 +306,13 @@ TEST_F(ArrangedView, TheToolsKeepTheirSizeInALowWindow) {
 TEST_F(ArrangedView, AMessageLiesOverTheWorldAndMovesNothing) {
     view.setSize(1440, 900);
     const auto before = view.world().getBounds();
-    const auto place = view.world().view().placeOfEnchanter(0);
+    const auto place = view.world().view().actuatorPixel(0);
     model.report("a fault");
     model.dispatchPendingMessages();
     auto* banner = find(view, "Trouble");
     ASSERT_TRUE(banner->isVisible());
     EXPECT_EQ(view.world().getBounds(), before);
-    EXPECT_EQ(view.world().view().placeOfEnchanter(0), place);
+    EXPECT_EQ(view.world().view().actuatorPixel(0), place);
     EXPECT_TRUE(before.contains(banner->getBounds()));
     EXPECT_GT(view.getIndexOfChildComponent(banner), view.getIndexOfChildComponent(&view.world()))
         << "over it";
@@ -321,7 +321,7 @@ TEST_F(ArrangedView, AMessageLiesOverTheWorldAndMovesNothing) {
 
 TEST_F(ArrangedView, AShowIsTheWorldAndTheButtonThatSilences) {
     view.setSize(1440, 900);
-    view.setShow(true);
+    view.setShowMode(true);
     EXPECT_EQ(view.world().getBounds(), view.getLocalBounds());
     auto& silence = the(view, "Silence");
     EXPECT_TRUE(silence.isVisible());
@@ -330,7 +330,7 @@ TEST_F(ArrangedView, AShowIsTheWorldAndTheButtonThatSilences) {
         EXPECT_FALSE(the(view, title).isVisible()) << title;
     view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(model.isSilent());
-    view.setShow(false);
+    view.setShowMode(false);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
         EXPECT_TRUE(the(view, title).isVisible()) << title;
     EXPECT_LT(view.world().getWidth(), view.getWidth());
@@ -387,7 +387,7 @@ TEST_F(ArrangedView, TheStrongestHitIsToldInLinesThatFit) {
         const auto lines = juce::StringArray::fromLines(sentence.getText());
         EXPECT_LE(lines.size(), 2);
         for (const auto& line : lines) {
-            EXPECT_LE(text::pixels(sentence.getFont(), line), sentence.getWidth() - 10)
+            EXPECT_LE(text::pixelWidth(sentence.getFont(), line), sentence.getWidth() - 10)
                 << line << " at " << width;
             EXPECT_FALSE(line.trimStart().startsWith("/")) << line;
         }
@@ -401,7 +401,7 @@ TEST_F(ArrangedView, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
         auto* scope = view.scope().find<ScopeView>();
         auto& spectra = the(view, "Spectra");
         const int lanes = (spectra.isVisible() ? spectra.getX() - gap : scope->getWidth()) - 26;
-        EXPECT_GE(lanes, text::pixels(text::font(text::small), "the first 8 of 64")) << width;
+        EXPECT_GE(lanes, text::pixelWidth(text::font(text::small), "the first 8 of 64")) << width;
     }
 }
 

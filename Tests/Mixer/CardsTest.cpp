@@ -39,11 +39,11 @@ TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
 }
 
 TEST(FileCard, WhatIsSaidBeforeItIsShownHasTheColoursOfTheWindow) {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
     Asked asked{true};
-    asked.card->enter(asked.folder("inner"));
-    EXPECT_TRUE(asked.card->fault().startsWith("No folders")) << asked.card->fault();
+    asked.card->openFolder(asked.folder("inner"));
+    EXPECT_TRUE(asked.card->error().startsWith("No folders")) << asked.card->error();
     const auto& words = *find(*asked.card, "What is wrong");
     view.setCard(std::move(asked.card));
     EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
@@ -55,7 +55,7 @@ TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
     Asked asked{true, "there"};
     asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->fault().contains("there.json exists")) << asked.card->fault();
+    EXPECT_TRUE(asked.card->error().contains("there.json exists")) << asked.card->error();
     asked.card->setName("there"); // typed again: asked again
     asked.card->setName("other");
     asked.card->setName("there");
@@ -71,10 +71,10 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     EXPECT_EQ(asked.list().getModel()->getNumRows(), 2);
     EXPECT_EQ(asked.list().getModel()->getNameForRow(1), "there.json");
     asked.card->accept();
-    EXPECT_EQ(asked.card->fault(), "Expected a name");
+    EXPECT_EQ(asked.card->error(), "Expected a name");
     asked.card->setName("gone");
     asked.card->accept();
-    EXPECT_TRUE(asked.card->fault().contains("gone.json: expected")) << asked.card->fault();
+    EXPECT_TRUE(asked.card->error().contains("gone.json: expected")) << asked.card->error();
     EXPECT_EQ(asked.taken, juce::File{});
     asked.list().selectRow(1);
     EXPECT_EQ(asked.card->name(), "there");
@@ -89,7 +89,7 @@ TEST(FileCard, SavesInAFolderThatIsThereOnly) {
     asked.card->setName("missing/mine");
     asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->fault().contains("expected a folder")) << asked.card->fault();
+    EXPECT_TRUE(asked.card->error().contains("expected a folder")) << asked.card->error();
     asked.card->setName("inner/mine.json");
     asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));
@@ -143,7 +143,7 @@ TEST(QuestionCard, APictureStandsBesideTheWordsAndFollowsWhatIsTyped) {
                   card->picture().getWidth() + 24);
     }
     card->setPicture({});
-    EXPECT_EQ(card->getWidth(), QuestionCard::wide);
+    EXPECT_EQ(card->getWidth(), QuestionCard::cardWidth);
 }
 
 // Where recordings and documents go, in homes with and without documents.
@@ -166,13 +166,13 @@ TEST(UserFolder, IsInTheDocumentsOrTheHomeAndCreatedWhenItIsNeeded) {
     const Home here{home.folder};
     const UserFolder folder;
     const auto documents = home("Documents/PhysVib");
-    EXPECT_EQ(folder.place(), documents);
+    EXPECT_EQ(folder.location(), documents);
     EXPECT_FALSE(documents.exists()) << "asked for, not used";
-    EXPECT_EQ(folder.make().value, documents);
+    EXPECT_EQ(folder.create().value, documents);
     EXPECT_TRUE(documents.isDirectory());
     documents.getParentDirectory().deleteRecursively();
     home("Documents").replaceWithText("a file");
-    EXPECT_EQ(folder.make().value, home("PhysVib"));
+    EXPECT_EQ(folder.create().value, home("PhysVib"));
     EXPECT_TRUE(home("PhysVib").isDirectory());
 }
 
@@ -181,14 +181,14 @@ TEST(UserFolder, WhereNothingCanBeWrittenItSaysSo) {
     home("no").replaceWithText("a file");
     const Home here{home("no")};
     UserFolder folder;
-    EXPECT_EQ(folder.place(), juce::File{});
-    EXPECT_NE(folder.make().error.find("no/Documents/PhysVib: expected a folder that can be written"),
+    EXPECT_EQ(folder.location(), juce::File{});
+    EXPECT_NE(folder.create().error.find("no/Documents/PhysVib: expected a folder that can be written"),
               std::string::npos)
-        << folder.make().error;
+        << folder.create().error;
     folder.choose(home("chosen"));
-    EXPECT_EQ(folder.make().value, home("chosen"));
+    EXPECT_EQ(folder.create().value, home("chosen"));
     folder.choose(home("no/such"));
-    EXPECT_FALSE(folder.fresh("take", {".wav"}));
+    EXPECT_FALSE(folder.newFile("take", {".wav"}));
 }
 
 TEST(UserFolder, NothingIsOverwritten) {
@@ -196,11 +196,11 @@ TEST(UserFolder, NothingIsOverwritten) {
     UserFolder folder;
     folder.choose(home.folder);
     const juce::StringArray endings{".wav", ".csv"};
-    EXPECT_EQ(folder.fresh("take", endings).value, home("take.wav"));
+    EXPECT_EQ(folder.newFile("take", endings).value, home("take.wav"));
     home("take.csv").replaceWithText("events of another take");
-    EXPECT_EQ(folder.fresh("take", endings).value, home("take-2.wav"));
+    EXPECT_EQ(folder.newFile("take", endings).value, home("take-2.wav"));
     home("take-2.wav").replaceWithText("a take");
-    EXPECT_EQ(folder.fresh("take", endings).value, home("take-3.wav"));
+    EXPECT_EQ(folder.newFile("take", endings).value, home("take-3.wav"));
 }
 
 } // namespace physvib::cards_test

@@ -11,7 +11,7 @@ namespace physvib::cut_texts_test {
 using namespace test;
 
 struct CutTexts {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
     std::string size;
 
@@ -79,12 +79,12 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
         texts.view.setSize(width, height);
         texts.view.setMode(Mode::play);
         texts.expectWhole("to play", 8);
-        texts.view.world().drawing().use(DrawTool::choose);
-        texts.view.world().drawing().choose({texts.model.world().drawing().drawn().bodies.back().name});
+        texts.view.world().drawing().setTool(DrawTool::select);
+        texts.view.world().drawing().select({texts.model.world().drawing().drawn().bodies.back().name});
         texts.expectWhole("a chosen body", 8);
         texts.view.setMode(Mode::engineer);
         texts.view.setPanels({true, true});
-        texts.view.world().drawing().chooseAll();
+        texts.view.world().drawing().selectAll();
         texts.model.messages().show(
             {"This study is felt on 16 actuators, and headphones are two. " +
                  juce::String::repeatedString("What is said of it is long, and stays whole. ", 3),
@@ -92,15 +92,16 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
              {"Choose Direction discrimination instead", [] {}},
              "long"});
         texts.expectWhole("an offer", 8);
-        texts.view.world().drawing().use(DrawTool::wall);
+        texts.view.world().drawing().setTool(DrawTool::wall);
         texts.model.messages().withdraw("long");
         texts.expectWhole("materials", 8);
         texts.view.setPanels({false, true});
         texts.view.setMode(Mode::play);
-        texts.view.world().drawing().use(DrawTool::hand);
+        texts.view.world().drawing().setTool(DrawTool::hand);
         texts.view.setFirstStart(std::make_unique<FirstStart>(
-            texts.model, std::vector<FeltChoice>{{"Four-channel board: /dev/ttyACM0  ST-Link", noDevice, 4},
-                                                 {"No device: seen, not felt", noDevice, 0}}));
+            texts.model,
+            std::vector<PlaybackChoice>{{"Four-channel board: /dev/ttyACM0  ST-Link", noDevice, 4},
+                                        {"No device: seen, not felt", noDevice, 0}}));
         texts.expectWhole("first start", 8);
         texts.view.firstStart()->test(4);
         texts.expectWhole("test of the first start", 8);
@@ -133,9 +134,9 @@ TEST(CutTexts, ASilencedMixerHasNothingThatRingsAndThePanelOfABodyHasWholeLines)
     texts.model.setSilent(true);
     for (int k = 0; k < 13; ++k) texts.view.refresh();
     EXPECT_TRUE(readTexts(*find(texts.view, "Transport and device")).words.contains("silenced"));
-    texts.view.world().drawing().use(DrawTool::choose);
+    texts.view.world().drawing().setTool(DrawTool::select);
     for (int more = 0; more < 3; ++more) { // as many materials fill a row
-        texts.view.world().drawing().choose({texts.model.world().drawing().drawn().bodies.back().name});
+        texts.view.world().drawing().select({texts.model.world().drawing().drawn().bodies.back().name});
         auto& panel = *find(texts.view, "Chosen bodies");
         EXPECT_TRUE(readTexts(panel).words.contains("hapticsource"));
         const auto& materials = texts.model.world().drawing().drawn().materials;
@@ -163,7 +164,7 @@ TEST(Tooltips, HaveOneSizeOfLetters) {
     };
     Look look;
     for (const auto& tool : drawTools) {
-        const auto tip = juce::String{tool.name} + ": " + tool.does + " (I)";
+        const auto tip = juce::String{tool.name} + ": " + tool.help + " (I)";
         const auto area = look.getTooltipBounds(tip, {}, {1024, 700});
         Sizes sizes{juce::Image{juce::Image::RGB, area.getWidth(), area.getHeight(), true,
                                 juce::SoftwareImageType{}}};
@@ -175,7 +176,7 @@ TEST(Tooltips, HaveOneSizeOfLetters) {
 
 // An actuator that is attached while others play begins quietly: its strip says by how much.
 TEST(StripTexts, AGainIsWrittenBesideTheName) {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
     model.attach(0.5, 0.5);
     model.dispatchPendingMessages();
@@ -233,7 +234,7 @@ void expectControls(juce::Component& root, juce::Component& c, const Picture& pi
 }
 
 struct Contrasts : testing::TestWithParam<Theme> {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
 
     Contrasts() {
@@ -273,10 +274,10 @@ TEST_P(Contrasts, OfStatesAndTools) {
     expectReadable("muted and a fault");
     model.setSilent(true);
     expectReadable("silent");
-    view.world().drawing().use(DrawTool::rain);
+    view.world().drawing().setTool(DrawTool::rain);
     expectReadable("rain");
-    view.world().drawing().use(DrawTool::choose);
-    view.world().drawing().choose({model.world().scene().bodies.front().name});
+    view.world().drawing().setTool(DrawTool::select);
+    view.world().drawing().select({model.world().scene().bodies.front().name});
     expectReadable("a body");
 }
 
@@ -296,8 +297,8 @@ TEST_P(Contrasts, OfSixtyFourActuators) {
 
 TEST_P(Contrasts, OfCards) {
     view.setFirstStart(std::make_unique<FirstStart>(
-        model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", noDevice, 8},
-                                       {"No device: seen, not felt", noDevice, 0}}));
+        model, std::vector<PlaybackChoice>{{"JACK:system, 8 outputs", noDevice, 8},
+                                           {"No device: seen, not felt", noDevice, 0}}));
     expectReadable("first start");
     view.setFirstStart(nullptr);
     TestFolder folder;

@@ -19,8 +19,8 @@ using namespace test;
 
 struct Board : NewSceneRig {
     juce::MouseEvent mouse(Vector at, Vector pressedAt) {
-        return mouseAt(pane, world.placeOfMetres(at), juce::ModifierKeys::leftButtonModifier,
-                       world.placeOfMetres(pressedAt));
+        return mouseAt(pane, world.pixelOfMetres(at), juce::ModifierKeys::leftButtonModifier,
+                       world.pixelOfMetres(pressedAt));
     }
     void drag(Vector from, Vector to) {
         pane.mouseDown(mouse(from, from));
@@ -56,7 +56,7 @@ TEST_F(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
     EXPECT_EQ(drawn().bodies.size(), before);
     for (int k = 0; k < 3; ++k) model.undoManager().redo();
     EXPECT_EQ(drawn().bodies.size(), before + 3);
-    EXPECT_EQ(sceneAsLeft(model.saved().log.takes.back()).bodies.size(), before + 3)
+    EXPECT_EQ(sceneAtEndOfRun(model.savedSession().log.runs.back()).bodies.size(), before + 3)
         << "in the session that is saved";
 }
 
@@ -76,7 +76,7 @@ TEST(DrawingAgain, TheFirstBallInAnySceneIsFelt) {
 TEST_F(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     key('b');
     key(KeyPress{KeyPress::returnKey});
-    ASSERT_EQ(pane.chosen(), (std::vector<std::string>{"ball 1"}));
+    ASSERT_EQ(pane.selected(), (std::vector<std::string>{"ball 1"}));
     const auto ball = [&] { return *body("ball 1"); };
     const auto start = ball();
     key(KeyPress{KeyPress::rightKey});
@@ -85,11 +85,11 @@ TEST_F(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     EXPECT_GT(std::get<CircleShape>(ball().fixtures[0].shape).radiusMetres,
               std::get<CircleShape>(start.fixtures[0].shape).radiusMetres);
     key(KeyPress{'d', juce::ModifierKeys::commandModifier, 0});
-    EXPECT_EQ(pane.chosen(), (std::vector<std::string>{"ball 2"}));
+    EXPECT_EQ(pane.selected(), (std::vector<std::string>{"ball 2"}));
     key(KeyPress{KeyPress::deleteKey});
     EXPECT_EQ(body("ball 2"), nullptr);
     EXPECT_NE(body("ball 1"), nullptr);
-    pane.use(DrawTool::hand); // with any tool
+    pane.setTool(DrawTool::hand); // with any tool
     key(KeyPress{'a', juce::ModifierKeys::commandModifier, 0});
     key(KeyPress{KeyPress::deleteKey});
     EXPECT_TRUE(drawn().bodies.empty());
@@ -102,10 +102,10 @@ TEST_F(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     drag(share(0.2, 0.5), share(0.4, 0.7));
     ASSERT_EQ(drawn().bodies.size(), before + 10);
     for (int k = 1; k <= 10; ++k) EXPECT_NE(body("rain " + std::to_string(k)), nullptr) << k;
-    pane.eraseAll({"rain 1"});
+    pane.eraseBodies({"rain 1"});
     key('n');
     drag(share(0.5, 0.5), share(0.7, 0.7));
-    EXPECT_EQ(drawn().bodies.size(), before + 19) << model.trouble();
+    EXPECT_EQ(drawn().bodies.size(), before + 19) << model.messageText();
     EXPECT_NE(body("rain 20"), nullptr);
     undo();
     EXPECT_EQ(drawn().bodies.size(), before + 9) << "one rain, one step";
@@ -120,7 +120,7 @@ TEST(DrawingAgain, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
             const auto at = board.share(from + 0.1 * (to > from ? 1.0 : -1.0), 0.4);
             board.key('c');
             board.drag(board.share(from, 0.4), board.share(to, 0.4));
-            ASSERT_EQ(board.pane.chosen(), (std::vector<std::string>{"conveyor 1"}));
+            ASSERT_EQ(board.pane.selected(), (std::vector<std::string>{"conveyor 1"}));
             board.key('b');
             const double above = at.y + (0.035 + size) * height;
             board.drag({at.x, above}, {at.x + size * height, above});
@@ -175,9 +175,9 @@ TEST_F(Drawing, TheMaterialsStayWhereTheyAreWhateverIsChosen) {
     for (const int wide : {1440, 1000}) {
         view.setSize(wide, 800);
         std::vector<juce::Rectangle<int>> first;
-        for (const DrawTool tool : {DrawTool::ball, DrawTool::wall, DrawTool::rain, DrawTool::choose})
+        for (const DrawTool tool : {DrawTool::ball, DrawTool::wall, DrawTool::rain, DrawTool::select})
             for (int m = 0; m < std::ssize(drawn().materials); ++m) {
-                pane.use(tool);
+                pane.setTool(tool);
                 pane.setMaterial(m);
                 std::vector<juce::Rectangle<int>> places;
                 for (const auto& material : drawn().materials)
@@ -197,16 +197,16 @@ TEST_F(Drawing, AMaterialThatDoesNotVibrateTakesTheSourceAndTheNextGivesItBack) 
     });
     settle();
     for (const DrawTool tool : {DrawTool::ball, DrawTool::wall}) {
-        pane.use(tool);
+        pane.setTool(tool);
         pane.addAt(tool, share(0.5, 0.6));
         const auto name = drawn().bodies.back().name;
         const auto source = [&] { return isSource(*body(name)); };
         const bool before = source();
         const int own = drawn().bodies.back().fixtures[0].material;
-        pane.choose({name});
-        pane.giveMaterial(static_cast<int>(drawn().materials.size()) - 1);
+        pane.select({name});
+        pane.setSelectedMaterial(static_cast<int>(drawn().materials.size()) - 1);
         EXPECT_FALSE(source()) << name;
-        pane.giveMaterial(own);
+        pane.setSelectedMaterial(own);
         EXPECT_EQ(source(), before) << name;
     }
 }
@@ -222,8 +222,8 @@ TEST_F(Drawing, UndoOfAnEraseThatEndsAScriptHasBodiesWhereTheyWere) {
     model.setSlowness(0);
     settle();
     const double there = now()->yMetres;
-    pane.chooseAll();
-    pane.eraseAll(pane.chosen());
+    pane.selectAll();
+    pane.eraseBodies(pane.selected());
     settle();
     ASSERT_EQ(body("ball 1"), nullptr);
     undo();
@@ -245,7 +245,7 @@ TEST_F(Drawing, AMaterialIsRenamedByADoubleClickAndEditedByItsButton) {
         view.question()->answer("Change");
         ASSERT_TRUE(runUntil([&] { return drawn().materials[0].name == name.toStdString(); }));
         settle();
-        pane.choose({drawn().bodies.back().name});
+        pane.select({drawn().bodies.back().name});
         view.refresh();
     }
     for (const char* title : {"Edit the material", "Material of what is chosen"}) {
@@ -269,7 +269,7 @@ TEST_F(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {
         view.question()->setValue("Name", "mine, " + plus);
         view.question()->answer("Make it");
         ASSERT_TRUE(runUntil([&] { return drawn().materials.size() == before.size() + 1; }))
-            << model.trouble();
+            << model.messageText();
         settle();
         const int made = static_cast<int>(before.size());
         EXPECT_EQ(drawn().materials.back().name, ("mine, " + plus).toStdString());
@@ -282,10 +282,10 @@ TEST_F(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {
 
 TEST_F(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
     drawBall();
-    pane.joinAt(DrawTool::motor, share(0.02, 0.98));
-    EXPECT_EQ(model.messages().shown().act.name, "Pause");
-    pane.joinAt(DrawTool::motor, share(0.5, 0.5));
-    EXPECT_NE(model.messages().shown().act.name, "Pause");
+    pane.addJointAt(DrawTool::motor, share(0.02, 0.98));
+    EXPECT_EQ(model.messages().current().action.name, "Pause");
+    pane.addJointAt(DrawTool::motor, share(0.5, 0.5));
+    EXPECT_NE(model.messages().current().action.name, "Pause");
 }
 
 TEST(DrawingAgain, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
@@ -305,7 +305,7 @@ TEST(DrawingAgain, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
                       scene.bodies,
                       [&](const BodyDescription& b) { return b.name.starts_with("rain") && isInside(b); }),
                   50)
-            << y << ' ' << board.model.trouble();
+            << y << ' ' << board.model.messageText();
     }
 }
 
@@ -332,12 +332,12 @@ TEST_F(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
 
 TEST_F(Drawing, WhoTakesAnotherToolChoosesNothing) {
     drawBall();
-    pane.use(DrawTool::choose);
-    pane.choose({"ball 1"});
-    pane.use(DrawTool::choose);
-    EXPECT_EQ(pane.chosen(), (std::vector<std::string>{"ball 1"}));
-    pane.use(DrawTool::box);
-    EXPECT_TRUE(pane.chosen().empty());
+    pane.setTool(DrawTool::select);
+    pane.select({"ball 1"});
+    pane.setTool(DrawTool::select);
+    EXPECT_EQ(pane.selected(), (std::vector<std::string>{"ball 1"}));
+    pane.setTool(DrawTool::box);
+    EXPECT_TRUE(pane.selected().empty());
     pane.setMaterial(2);
     EXPECT_NE(body("ball 1")->fixtures[0].material, 2) << "of the next box, not of what was chosen";
 }
@@ -359,7 +359,7 @@ TEST_F(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
     drawBall();
     auto& source = the<juce::Button>(view, "Haptic source");
     source.setToggleState(true, juce::sendNotificationSync);
-    EXPECT_TRUE(model.trouble().contains("vibrates")) << model.trouble();
+    EXPECT_TRUE(model.messageText().contains("vibrates")) << model.messageText();
     EXPECT_FALSE(source.getToggleState());
 }
 
@@ -377,10 +377,10 @@ TEST_F(Drawing, AMixedMarkIsGivenToAllThatCanHaveItAndThenTakenFromAll) {
     key('l');
     drag(share(0.2, 0.3), share(0.4, 0.3));
     for (const double x : {0.3, 0.6}) pane.addAt(DrawTool::ball, share(x, 0.6));
-    pane.use(DrawTool::choose);
-    pane.choose({"ball 1"});
-    pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
-    pane.chooseAll();
+    pane.setTool(DrawTool::select);
+    pane.select({"ball 1"});
+    pane.changeSelected("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    pane.selectAll();
     for (const char* title : {"Haptic source", "Moves"}) {
         auto& mark = the<juce::Button>(view, title);
         const auto differs = [&] { return mark.getButtonText().containsChar(0x2260); };
@@ -404,13 +404,13 @@ TEST_F(Drawing, NoPanelStaysOverAWorldWhoseBodiesAreGone) {
         return the(view, "Chosen bodies").isVisible();
     };
     for (const bool areAll : {false, true}) {
-        pane.use(DrawTool::choose);
-        pane.choose({"pen"});
+        pane.setTool(DrawTool::select);
+        pane.select({"pen"});
         EXPECT_TRUE(isPanelThere());
-        if (areAll) pane.chooseAll();
-        pane.eraseAll(pane.chosen());
+        if (areAll) pane.selectAll();
+        pane.eraseBodies(pane.selected());
         EXPECT_TRUE(runUntil([&] { return !isPanelThere(); }, 1.0)) << areAll;
-        EXPECT_EQ(body("pen"), nullptr) << model.trouble();
+        EXPECT_EQ(body("pen"), nullptr) << model.messageText();
         undo();
         settle();
     }
@@ -428,12 +428,12 @@ TEST_F(Drawing, TheWorldSaysWhyNothingIsFelt) {
     setScene(model, *findBuiltInScene("marbles"));
     model.dispatchPendingMessages();
     EXPECT_FALSE(says("draw a ball: B")) << "its script does";
-    pane.chooseAll();
-    pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    pane.selectAll();
+    pane.changeSelected("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
     model.change("Scene", [&](Mix& m) {
         Scene dull = drawn();
         std::erase_if(dull.script, [](const ScriptInput& input) {
-            const auto* brought = bodyPutBy(input.action);
+            const auto* brought = bodyAddedBy(input.action);
             return brought != nullptr && isSource(*brought);
         });
         m.scene = std::make_shared<const Scene>(dull);
@@ -448,7 +448,7 @@ TEST_F(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     drag(share(0.3, 0.4), share(0.7, 0.44));
     key('i');
     drag(share(0.5, 0.42), share(0.5, 0.42));
-    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.messageText();
     model.setSlowness(1);
     model.restart(model.mix().seed);
     ASSERT_EQ(drawn().joints.size(), 1u);
@@ -466,7 +466,7 @@ TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
     key('x');
     drag(share(0.4, 0.4), share(0.6, 0.6));
     key('s');
-    pane.choose({"box 1"});
+    pane.select({"box 1"});
     const auto box = [&] { return std::get<BoxShape>(body("box 1")->fixtures[0].shape); };
     const auto before = box();
     drag(share(0.6, 0.6), share(0.7, 0.6));
@@ -476,8 +476,8 @@ TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
     drag(share(0.5, 0.5), share(0.4, 0.7));
     EXPECT_NEAR(body("box 1")->positionMetres.x, place.x - 0.1 * drawn().fieldWidthMetres,
                 0.01 * drawn().fieldWidthMetres);
-    pane.changeChosen("Bounce",
-                      [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
+    pane.changeSelected("Bounce",
+                        [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
     EXPECT_EQ(body("box 1")->fixtures[0].restitution, 0.9);
     undo();
     EXPECT_FALSE(body("box 1")->fixtures[0].restitution);
@@ -494,42 +494,43 @@ TEST_F(Drawing, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
     drawBall();
     MixerScript& script = model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.05; }))
+    ASSERT_TRUE(runUntil([&] { return model.poll(), script.seconds() > 0.05; }))
         << "the world goes, though it stood still";
-    EXPECT_EQ(model.world().act(TiltAction{0.4}), "");
-    EXPECT_EQ(model.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
-    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.8; }));
-    EXPECT_EQ(model.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
-    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 1.5; }));
+    EXPECT_EQ(model.world().apply(TiltAction{0.4}), "");
+    EXPECT_EQ(model.world().apply(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
+    ASSERT_TRUE(runUntil([&] { return model.poll(), script.seconds() > 0.8; }));
+    EXPECT_EQ(model.world().apply(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
+    ASSERT_TRUE(runUntil([&] { return model.poll(), script.seconds() > 1.5; }));
     EXPECT_EQ(script.inputs(), 3U);
-    const std::size_t take = model.saved().log.takes.size() - 1;
+    const std::size_t take = model.savedSession().log.runs.size() - 1;
     script.stop();
-    ASSERT_NE(script.hands(), nullptr);
-    const SceneRun& live = model.saved().log.takes[take];
+    ASSERT_NE(script.recording(), nullptr);
+    const SceneRun& live = model.savedSession().log.runs[take];
     ASSERT_EQ(live.inputs.size(), 3U);
-    const auto endNs = static_cast<std::int64_t>(1e9 * script.hands()->lengthSeconds);
+    const auto endNs = static_cast<std::int64_t>(1e9 * script.recording()->lengthSeconds);
     const auto events = eventsOf(drawn(), live.seed, endNs);
     EXPECT_GT(events.size(), 0U) << "the ball hits the floor";
-    EXPECT_TRUE(events == eventsOf(live.whole(), live.seed, endNs));
+    EXPECT_TRUE(events == eventsOf(live.fullScene(), live.seed, endNs));
 
     script.setTrim({0.5, 1.2, true});
     EXPECT_NEAR(drawn().scriptPeriodSeconds, 0.7, 1e-9);
     EXPECT_EQ(script.trim(), (ScriptTrim{0.5, 1.2, true}));
     undo();
-    EXPECT_EQ(script.trim(), (ScriptTrim{0.0, script.hands()->lengthSeconds, false})) << "untrimmed again";
+    EXPECT_EQ(script.trim(), (ScriptTrim{0.0, script.recording()->lengthSeconds, false}))
+        << "untrimmed again";
     undo();
     EXPECT_TRUE(drawn().script.empty()) << "as before the recording: one edit";
     EXPECT_NE(body("ball 1"), nullptr);
-    EXPECT_EQ(script.hands(), nullptr);
+    EXPECT_EQ(script.recording(), nullptr);
 }
 
 TEST_F(Drawing, AnEditOfTheDrawingEndsTheRecordingAndStays) {
     MixerScript& script = model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.05; }));
-    EXPECT_EQ(model.world().act(TiltAction{0.4}), "");
+    ASSERT_TRUE(runUntil([&] { return model.poll(), script.seconds() > 0.05; }));
+    EXPECT_EQ(model.world().apply(TiltAction{0.4}), "");
     drawBall();
-    EXPECT_TRUE(runUntil([&] { return model.look(), !script.isRecording(); }));
+    EXPECT_TRUE(runUntil([&] { return model.poll(), !script.isRecording(); }));
     ASSERT_EQ(drawn().script.size(), 1U);
     EXPECT_NE(body("ball 1"), nullptr);
 }
@@ -546,7 +547,7 @@ TEST(NewScene, ABallThatFallsInANewBoxIsFelt) {
             ball.fixtures[0].shape = CircleShape{0.15};
             ball.fixtures[0].material = static_cast<int>(&material - like.materials.data());
             scene.bodies.push_back(ball);
-            const auto events = runScene(scene, {1, 100}, 2'000'000'000).events;
+            const auto events = simulateScene(scene, {1, 100}, 2'000'000'000).events;
             ASSERT_FALSE(events.empty()) << material.name;
             double strongest = 0.0;
             for (const auto& e : events) strongest = std::max(strongest, std::abs(e.amplitude));
@@ -574,29 +575,29 @@ TEST(BigWorld, SaysThatItIsTooMuchAndIsDrawnMeanwhile) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};
     setScene(model, heap());
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.trouble().contains("of real time"); }));
-    EXPECT_TRUE(model.trouble().startsWith("2,004 bodies: ")) << model.trouble();
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.messageText().contains("of real time"); }));
+    EXPECT_TRUE(model.messageText().startsWith("2,004 bodies: ")) << model.messageText();
     EXPECT_EQ(view.latest().poses.size(), 2004U);
 }
 
 TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
     PaceWatch pace;
-    EXPECT_FALSE(pace.look(100'000'000, 0));
-    EXPECT_EQ(pace.look(500'000'000, 0), 1.0);
-    EXPECT_FALSE(pace.look(700'000'000, 150'000'000));
-    EXPECT_NEAR(*pace.look(1'000'000'000, 345'000'000), 0.31, 1e-9);
-    EXPECT_FALSE(pace.look(0, 0)) << "another session";
-    EXPECT_EQ(pace.look(500'000'000, 600'000'000), 0.0) << "its first step is not over";
-    EXPECT_EQ(pace.look(1'000'000'000, 20'000'000), 1.0)
+    EXPECT_FALSE(pace.poll(100'000'000, 0));
+    EXPECT_EQ(pace.poll(500'000'000, 0), 1.0);
+    EXPECT_FALSE(pace.poll(700'000'000, 150'000'000));
+    EXPECT_NEAR(*pace.poll(1'000'000'000, 345'000'000), 0.31, 1e-9);
+    EXPECT_FALSE(pace.poll(0, 0)) << "another session";
+    EXPECT_EQ(pace.poll(500'000'000, 600'000'000), 0.0) << "its first step is not over";
+    EXPECT_EQ(pace.poll(1'000'000'000, 20'000'000), 1.0)
         << "what it has caught up with is no more than real time";
 }
 
 TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
-    const auto ordered = byLikelihood({{"None", "no device", 0},
-                                       {"ALSA", "HDMI 0", 8},
-                                       {"ALSA", "Default ALSA Output", 32},
-                                       {"JACK", "system", 8},
-                                       {"ALSA", "USB Audio", 8}});
+    const auto ordered = sortedByLikelihood({{"None", "no device", 0},
+                                             {"ALSA", "HDMI 0", 8},
+                                             {"ALSA", "Default ALSA Output", 32},
+                                             {"JACK", "system", 8},
+                                             {"ALSA", "USB Audio", 8}});
     std::vector<std::string> names;
     for (const auto& device : ordered) names.push_back(device.name);
     EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0",
@@ -605,16 +606,16 @@ TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
 
 TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
     const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
-    const auto ordered = byLikelihood({{"JACK", "system", 8}, {"ALSA", pico, 8}});
+    const auto ordered = sortedByLikelihood({{"JACK", "system", 8}, {"ALSA", pico, 8}});
     EXPECT_EQ(ordered.front().name, pico);
-    EXPECT_STREQ(layoutFor(8, pico), "pico8");
-    EXPECT_STREQ(layoutFor(4, "CoreAudio:PhysVib pico4"), "pico4");
-    EXPECT_STREQ(layoutFor(8, picoDeviceName), "pico8") << "as play calls the first one";
-    EXPECT_STREQ(layoutFor(8, "system"), "phone4");
+    EXPECT_STREQ(layoutPresetFor(8, pico), "pico8");
+    EXPECT_STREQ(layoutPresetFor(4, "CoreAudio:PhysVib pico4"), "pico4");
+    EXPECT_STREQ(layoutPresetFor(8, picoDeviceName), "pico8") << "as play calls the first one";
+    EXPECT_STREQ(layoutPresetFor(8, "system"), "phone4");
 }
 
 TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");
     EXPECT_EQ(mix.count(), 8);
@@ -631,14 +632,14 @@ TEST(FirstStart, ADeviceWithoutOutputsIsNoChoiceAndNoDeviceSaysWhatThatMeans) {
     server.outputs = 0;
     ears.name = "ears";
     ears.outputs = 2;
-    const auto titles = [](const std::vector<FeltChoice>& choices) {
+    const auto titles = [](const std::vector<PlaybackChoice>& choices) {
         juce::StringArray all;
         for (const auto& choice : choices) all.add(choice.title);
         return all.joinIntoString("; ");
     };
-    EXPECT_EQ(titles(feltChoices(fakeDrivers({&server, &ears}), {})),
+    EXPECT_EQ(titles(playbackChoices(fakeDrivers({&server, &ears}), {})),
               "Headphones: Fake:ears; Fake:ears, 2 outputs: two actuators; No device: seen, not felt");
-    const auto none = feltChoices(fakeDrivers({&server}), {});
+    const auto none = playbackChoices(fakeDrivers({&server}), {});
     EXPECT_EQ(titles(none), "No device: seen, not felt");
     MixerModel model{onlyNoDevice(), noDevice};
     FirstStart card{model, none};
@@ -646,7 +647,7 @@ TEST(FirstStart, ADeviceWithoutOutputsIsNoChoiceAndNoDeviceSaysWhatThatMeans) {
     card.onEnd = [&](bool) { hasEnded = true; };
     card.keyPressed(KeyPress{KeyPress::returnKey});
     EXPECT_TRUE(hasEnded);
-    EXPECT_TRUE(model.trouble().contains("not felt")) << "never without a word";
+    EXPECT_TRUE(model.messageText().contains("not felt")) << "never without a word";
 }
 
 TEST(FirstStart, TestsFromTheLevelOfBeforeIfThatIsLower) {
@@ -665,16 +666,18 @@ TEST(FirstStart, HeadphonesByNameComeBeforeAControllerAndOtherSpeakersBehindIt) 
     speakers.name = "Monitor speakers";
     ears.name = "USB Headset";
     speakers.outputs = ears.outputs = 2;
-    const std::vector<SinkOffer> pad{{&kindOf({"PAD", {}}), {"DualSense"}}};
-    const auto first = [](const std::vector<FeltChoice>& choices, std::size_t k) { return choices[k].title; };
-    const auto plain = feltChoices(fakeDrivers({&speakers}), pad);
+    const std::vector<DetectedSink> pad{{&kindOf({"PAD", {}}), {"DualSense"}}};
+    const auto first = [](const std::vector<PlaybackChoice>& choices, std::size_t k) {
+        return choices[k].title;
+    };
+    const auto plain = playbackChoices(fakeDrivers({&speakers}), pad);
     EXPECT_TRUE(first(plain, 0).startsWith("Game controller")) << first(plain, 0);
     EXPECT_TRUE(first(plain, 1).startsWith("Headphones: ")) << first(plain, 1);
-    const auto named = feltChoices(fakeDrivers({&speakers, &ears}), pad);
+    const auto named = playbackChoices(fakeDrivers({&speakers, &ears}), pad);
     EXPECT_EQ(first(named, 0), "Headphones: Fake:USB Headset");
-    EXPECT_TRUE(named[0].isHeard);
+    EXPECT_TRUE(named[0].isHeadphones);
     EXPECT_TRUE(first(named, 1).startsWith("Game controller")) << first(named, 1);
-    const auto many = feltChoices(fakeDrivers({&hands, &ears}), pad); // eight outputs
+    const auto many = playbackChoices(fakeDrivers({&hands, &ears}), pad); // eight outputs
     EXPECT_EQ(many[0].outputs, 8);
     EXPECT_EQ(first(many, 1), "Headphones: Fake:USB Headset");
 }
@@ -684,13 +687,13 @@ TEST(FirstStart, ABoardIsOfferedBeforeHeadphonesByNameAndThoseBeforeControllers)
     ears.name = "USB Headset";
     ears.outputs = 2;
     const auto choices =
-        feltChoices(fakeDrivers({&ears}), {{&kindOf({"PAD", {}}), {"DualSense"}},
-                                           {&kindOf({"BOARD", {}}), {"/dev/ttyACM0", "ST-Link"}}});
+        playbackChoices(fakeDrivers({&ears}), {{&kindOf({"PAD", {}}), {"DualSense"}},
+                                               {&kindOf({"BOARD", {}}), {"/dev/ttyACM0", "ST-Link"}}});
     ASSERT_GE(choices.size(), 4U);
     EXPECT_EQ(choices[0].title, "Four-channel board: /dev/ttyACM0  ST-Link");
     EXPECT_EQ(choices[0].device.sinks, (std::vector<SinkName>{{"BOARD", "/dev/ttyACM0"}}));
     EXPECT_EQ(choices[0].outputs, 4);
-    EXPECT_TRUE(choices[1].isHeard) << choices[1].title;
+    EXPECT_TRUE(choices[1].isHeadphones) << choices[1].title;
     EXPECT_TRUE(choices[2].title.startsWith("Game controller"));
     EXPECT_EQ(choices.back().outputs, 0) << "no device at last";
 }
@@ -702,11 +705,11 @@ TEST(FirstStart, OneClickToTheFirstPulseThenEachActuatorInTurn) {
     card.onEnd = [&](bool hasChosen) { hasEnded = hasChosen; };
     card.test(4); // as Play here does when the device is open
     EXPECT_EQ(card.tested(), 0);
-    EXPECT_EQ(model.mix().levelDb, FirstStart::firstDb) << "from low";
-    EXPECT_TRUE(runUntil([&] { return model.look().meters.peaks[0] > 0.01f; }));
-    card.louder();
-    EXPECT_EQ(model.mix().levelDb, FirstStart::firstDb + FirstStart::louderDb);
-    card.feltAt(0.5, 0.25);
+    EXPECT_EQ(model.mix().levelDb, FirstStart::startDb) << "from low";
+    EXPECT_TRUE(runUntil([&] { return model.poll().meters.peaks[0] > 0.01f; }));
+    card.raiseLevel();
+    EXPECT_EQ(model.mix().levelDb, FirstStart::startDb + FirstStart::stepDb);
+    card.confirmPulseAt(0.5, 0.25);
     EXPECT_NEAR(model.mix().layout.geometry.places[0].xMetres,
                 0.5 * model.mix().layout.geometry.extentWidthMetres, 1e-12);
     card.keyPressed(KeyPress{KeyPress::returnKey});
@@ -714,10 +717,10 @@ TEST(FirstStart, OneClickToTheFirstPulseThenEachActuatorInTurn) {
     card.keyPressed(KeyPress{'N', {}, 'n'});
     EXPECT_EQ(model.mix().strips[2].output, -1);
     EXPECT_FALSE(hasEnded);
-    card.felt();
+    card.confirmPulse();
     EXPECT_TRUE(hasEnded);
     EXPECT_GT(model.session().world().slowness(), 0) << "the world goes on";
-    EXPECT_EQ(model.trouble(), "It stays as quiet as it was tested: the master's fader raises it");
+    EXPECT_EQ(model.messageText(), "It stays as quiet as it was tested: the master's fader raises it");
 }
 
 TEST(FirstStart, HeadphonesHaveTheFirstActuatorLeftAndTheSecondRight) {
@@ -725,16 +728,16 @@ TEST(FirstStart, HeadphonesHaveTheFirstActuatorLeftAndTheSecondRight) {
     bool hasEnded = false;
     FirstStart card{model, {{"headphones", noDevice, 2, false, true}}};
     card.onEnd = [&](bool hasChosen) { hasEnded = hasChosen; };
-    card.playHere();
+    card.openChosen();
     EXPECT_TRUE(hasEnded);
     ASSERT_EQ(model.mix().count(), 2);
     EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1}));
-    EXPECT_EQ(model.mix().levelDb, safeContactDb) << "no louder than a monitor begins";
+    EXPECT_EQ(model.mix().levelDb, defaultContactDb) << "no louder than a monitor begins";
     EXPECT_TRUE(model.device().listening().settings().contacts.empty());
     EXPECT_FALSE(model.undoManager().canUndo()) << "which would be louder";
     const auto end = juce::Time::getMillisecondCounter() + 2500; // the device is looked at once a second
-    EXPECT_TRUE(runUntil([&] { return model.look(), juce::Time::getMillisecondCounter() > end; }));
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_TRUE(runUntil([&] { return model.poll(), juce::Time::getMillisecondCounter() > end; }));
+    EXPECT_EQ(model.messageText(), "");
 }
 
 } // namespace physvib::draw_test

@@ -17,7 +17,7 @@ using namespace test;
 
 /// Nothing is struck but what the test strikes.
 Mix emptyBox() {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     Scene scene = *mix.scene;
     scene.bodies.clear();
     scene.joints.clear();
@@ -33,8 +33,8 @@ protected:
     void strike(double shareX, double shareY) {
         const auto sounds = std::ranges::find_if(model.world().scene().materials,
                                                  [](const Material& m) { return m.frequencyHz > 0.0; });
-        ASSERT_EQ(model.strikes().audition(static_cast<int>(sounds - model.world().scene().materials.begin()),
-                                           shareX, shareY),
+        ASSERT_EQ(model.eventPlayer().audition(
+                      static_cast<int>(sounds - model.world().scene().materials.begin()), shareX, shareY),
                   "");
     }
     /// One after the other, so that each is later than the one before.
@@ -59,7 +59,7 @@ protected:
     }
     /// What Eq. 5.1 says of these rows, from the first of them on.
     double valueAt(const std::vector<int>& rows, std::size_t channel, std::int64_t frame) {
-        const auto& recent = model.recent().newestFirst();
+        const auto& recent = model.recentContacts().newestFirst();
         const std::int64_t first = recent[static_cast<std::size_t>(rows.back())].event.timeNs; // the oldest
         double sum = 0.0;
         for (const int row : rows) {
@@ -86,7 +86,7 @@ protected:
     }
     void chooseFormat(const juce::String& ending) {
         the<juce::ComboBox>(view, "Dragged as")
-            .setSelectedItemIndex(hitEndings().indexOf(ending), juce::sendNotificationSync);
+            .setSelectedItemIndex(hitFileExtensions().indexOf(ending), juce::sendNotificationSync);
     }
     EventsTab& tab() { return *view.scope().find<EventsTab>(); }
 
@@ -136,16 +136,16 @@ TEST_F(EventsTabTest, WhatIsChosenStaysChosenHoweverManyFollow) {
     ASSERT_EQ(list.getNumSelectedRows(), 1);
     EXPECT_EQ(list.getSelectedRow(), 2);
     EXPECT_EQ(list.getModel()->getNameForRow(2), name);
-    for (int k = 0; k < static_cast<int>(RecentContacts::most); ++k) strike(0.5, 0.5);
+    for (int k = 0; k < static_cast<int>(RecentContacts::maxContacts); ++k) strike(0.5, 0.5);
     ASSERT_TRUE(runUntil([&] {
-        return view.refresh(), list.getSelectedRow() == static_cast<int>(RecentContacts::most) + 2;
+        return view.refresh(), list.getSelectedRow() == static_cast<int>(RecentContacts::maxContacts) + 2;
     })) << "behind the last hundred";
     EXPECT_EQ(list.getModel()->getNameForRow(list.getSelectedRow()), name);
     EXPECT_EQ(drag().size(), 1U);
     list.deselectAllRows();
     strike(0.5, 0.5);
     EXPECT_TRUE(runUntil([&] {
-        return view.refresh(), list.getModel()->getNumRows() == static_cast<int>(RecentContacts::most);
+        return view.refresh(), list.getModel()->getNumRows() == static_cast<int>(RecentContacts::maxContacts);
     }));
 }
 
@@ -153,9 +153,9 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
     TestFolder folder;
     strikeInTurn({{0.1, 0.9}});
     list.selectRow(0);
-    for (const auto& ending : hitEndings()) {
+    for (const auto& ending : hitFileExtensions()) {
         tab().saveTo(folder("one" + ending));
-        EXPECT_TRUE(model.isNews()) << model.trouble();
+        EXPECT_TRUE(model.isInfo()) << model.messageText();
         const auto files = folder.folder.findChildFiles(juce::File::findFiles, false, "one*" + ending);
         EXPECT_EQ(files.isEmpty(), false) << ending;
         for (const auto& file : files)
@@ -166,26 +166,26 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
     }
     EXPECT_TRUE(folder("one-A.haptic").existsAsFile()) << "one channel each";
     tab().saveTo(folder("one.haptic"));
-    EXPECT_TRUE(model.trouble().contains("is there already")) << model.trouble();
+    EXPECT_TRUE(model.messageText().contains("is there already")) << model.messageText();
     tab().saveTo(folder("one.mp3"));
     EXPECT_TRUE(
-        model.trouble().endsWith("expected a name that ends in .wav, .hjif, .haptic, .ahap, .envelope"))
-        << model.trouble();
+        model.messageText().endsWith("expected a name that ends in .wav, .hjif, .haptic, .ahap, .envelope"))
+        << model.messageText();
     EXPECT_FALSE(folder("one.mp3").exists());
     chooseFormat(".hjif");
     tab().saveTo(folder("two"));
-    EXPECT_TRUE(folder("two.hjif").existsAsFile()) << model.trouble();
+    EXPECT_TRUE(folder("two.hjif").existsAsFile()) << model.messageText();
     tab().saveTo(folder("no/such/folder.wav"));
-    EXPECT_FALSE(model.isNews());
+    EXPECT_FALSE(model.isInfo());
 }
 
 TEST(HitFiles, AClipIsNoHitAndNothingIsWritten) {
     TestFolder folder;
     CollisionEvent clip;
     clip.sound = soundOfClip(3);
-    const auto written = writeHits({clip}, MixerModel::firstMix(), 48000, folder("a.wav"));
+    const auto written = writeHits({clip}, MixerModel::defaultMix(), 48000, folder("a.wav"));
     EXPECT_EQ(written.error, "Chosen contacts: expected hits, found a clip, which is a file already");
-    EXPECT_EQ(writeHits({}, MixerModel::firstMix(), 48000, folder("a.wav")).error,
+    EXPECT_EQ(writeHits({}, MixerModel::defaultMix(), 48000, folder("a.wav")).error,
               "Chosen contacts: expected one whose grains are still kept");
     EXPECT_FALSE(folder("a.wav").exists());
 }
@@ -196,9 +196,9 @@ TEST_F(EventsTabTest, NothingChosenAndOtherDragsLeaveNoFiles) {
     list.selectRow(0);
     juce::StringArray files;
     bool mayBeMoved = false;
-    EXPECT_FALSE(
-        view.shouldDropFilesWhenDraggedExternally({WorldView::newEnchanter, &list, {}}, files, mayBeMoved));
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_FALSE(view.shouldDropFilesWhenDraggedExternally({WorldView::newActuatorDrag, &list, {}}, files,
+                                                           mayBeMoved));
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST(DraggedFiles, AreThereUntilTheMixerEnds) {
@@ -235,7 +235,7 @@ TEST(RecentContacts, WhatRollsIsOneHowManyGrainsItPasses) {
     ASSERT_EQ(recent.newestFirst().size(), 2U);
     EXPECT_EQ(recent.newestFirst()[0].event.source.kind, ContactKind::hit);
     const RecentContact& rolled = recent.newestFirst()[1];
-    EXPECT_EQ(rolled.grains, 501);
+    EXPECT_EQ(rolled.grainCount, 501);
     EXPECT_EQ(rolled.event.timeNs, 0);
     EXPECT_EQ(rolled.event.amplitude, 0.5);
 }
@@ -248,7 +248,7 @@ TEST(RecentContacts, AnotherPairAnotherKindAndAPauseAreAnother) {
     recent.add(at(300, ContactKind::roll));
     EXPECT_EQ(recent.newestFirst().size(), 4U);
     for (int i = 0; i < 200; ++i) recent.add(at(400 + i, ContactKind::hit));
-    EXPECT_EQ(recent.newestFirst().size(), RecentContacts::most);
+    EXPECT_EQ(recent.newestFirst().size(), RecentContacts::maxContacts);
 }
 
 TEST(RecentContacts, EachContactHasItsOwnEventsAsFarAsTheyAreKept) {

@@ -4,7 +4,7 @@
 #include "Mixer/Model/MixerDevice.h"
 #include "NewSceneRig.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/Drawing/FeltTrial.h"
+#include "Scene/Drawing/ImpactTrial.h"
 
 namespace physvib::felt_hint_test {
 
@@ -22,7 +22,7 @@ struct DullWorld : testing::Test, NewSceneRig {
             mix.scene = std::make_shared<const Scene>(scene);
         });
         settle();
-        view.world().drawing().use(DrawTool::ball);
+        view.world().drawing().setTool(DrawTool::ball);
     }
     int soundless() {
         for (int i = 0; i < std::ssize(drawn().materials); ++i)
@@ -39,16 +39,17 @@ TEST_F(DullWorld, AMaterialThatGivesNothingSaysSoAndIsMadeFelt) {
     EXPECT_TRUE(chip.getTooltip().contains("not felt at usual impacts")) << chip.getTooltip();
     chip.onClick();
     model.dispatchPendingMessages();
-    EXPECT_TRUE(model.trouble().startsWith(name + " is not felt at usual impacts: ")) << model.trouble();
-    EXPECT_TRUE(model.trouble().contains("with Select, tick 'haptic source'"))
-        << "the world's own explanation, in words of the mixer: " << model.trouble();
+    EXPECT_TRUE(model.messageText().startsWith(name + " is not felt at usual impacts: "))
+        << model.messageText();
+    EXPECT_TRUE(model.messageText().contains("with Select, tick 'haptic source'"))
+        << "the world's own explanation, in words of the mixer: " << model.messageText();
     auto& mend = button("Make it felt");
     ASSERT_TRUE(mend.isVisible());
     mend.onClick();
     model.dispatchPendingMessages();
-    EXPECT_EQ(model.trouble(), "") << "it is felt now";
+    EXPECT_EQ(model.messageText(), "") << "it is felt now";
     EXPECT_GT(nth(drawn().materials, dull).frequencyHz, 0.0);
-    EXPECT_EQ(whyNotFelt(drawn(), dull), "");
+    EXPECT_EQ(silentBodyReason(drawn(), dull), "");
     EXPECT_FALSE(button("Material " + name).getTooltip().contains("not felt"));
     undo();
     EXPECT_EQ(nth(drawn().materials, dull).frequencyHz, 0.0) << "one step";
@@ -58,16 +59,17 @@ TEST_F(DullWorld, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
     pane.setMaterial(soundless());
     pane.addAt(DrawTool::ball, share(0.5, 0.5));
     model.dispatchPendingMessages();
-    EXPECT_TRUE(model.trouble().startsWith("ball 1 is not felt")) << model.trouble();
+    EXPECT_TRUE(model.messageText().startsWith("ball 1 is not felt")) << model.messageText();
     button("Make it felt").onClick();
     model.dispatchPendingMessages();
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
     const auto* ball = body("ball 1");
     EXPECT_TRUE(ball->fixtures[0].isCamera);
-    EXPECT_EQ(whyNotFelt(drawn(), *ball), "");
+    EXPECT_EQ(silentBodyReason(drawn(), *ball), "");
     model.setSlowness(1);
-    const auto hits = model.recent().newestFirst().size();
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.recent().newestFirst().size() > hits; }, 5.0))
+    const auto hits = model.recentContacts().newestFirst().size();
+    EXPECT_TRUE(
+        runUntil([&] { return model.poll(), model.recentContacts().newestFirst().size() > hits; }, 5.0))
         << "and it is felt when it falls";
 }
 
@@ -77,29 +79,29 @@ TEST_F(DullWorld, GoesWhenAFeltMaterialIsChosen) {
         model.dispatchPendingMessages();
     };
     press(soundless());
-    ASSERT_NE(model.trouble(), "");
+    ASSERT_NE(model.messageText(), "");
     int felt = 0;
-    while (!whyNotFelt(drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(drawn().materials));
+    while (!silentBodyReason(drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(drawn().materials));
     press(felt);
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
     NewSceneRig rig; // its floor is a haptic source
     for (int i = 0; i < std::ssize(rig.drawn().materials); ++i)
-        EXPECT_EQ(whyNotFelt(rig.drawn(), i), "") << nth(rig.drawn().materials, i).name;
+        EXPECT_EQ(silentBodyReason(rig.drawn(), i), "") << nth(rig.drawn().materials, i).name;
     rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
     rig.pane.addAt(DrawTool::wall, rig.share(0.2, 0.5));
-    EXPECT_EQ(rig.model.trouble(), "");
+    EXPECT_EQ(rig.model.messageText(), "");
 }
 
 TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};
-    const auto told = [&] { return model.dispatchPendingMessages(), model.trouble(); };
+    const auto told = [&] { return model.dispatchPendingMessages(), model.messageText(); };
     const auto all = [&](auto change) { model.change("All", [&](Mix& mix) { change(mix); }); };
     EXPECT_EQ(told(), "");
-    all([](Mix& mix) { mix.levelDb = leastStripDb; });
+    all([](Mix& mix) { mix.levelDb = minStripDb; });
     EXPECT_EQ(told(), "Nothing is felt: the master is at " + number(-60.0, 0) + " dB");
     model.report({}); // dismissed
     all([](Mix& mix) { mix.strips[0].gainDb = -3.0; });
@@ -118,7 +120,7 @@ TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
     all([](Mix& mix) { mix.strips[2].isMuted = false; });
     EXPECT_EQ(told(), "");
     all([](Mix& mix) {
-        for (Strip& strip : mix.strips) strip.gainDb = leastStripDb;
+        for (Strip& strip : mix.strips) strip.gainDb = minStripDb;
     });
     EXPECT_EQ(told(), "Nothing is felt: every strip's fader is down");
     model.undoManager().undo();
@@ -129,7 +131,7 @@ TEST(FeltHint, OutputsThatLetNothingBeFeltAreToldUnlessOneListens) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     MixerView view{model};
-    const auto told = [&] { return model.dispatchPendingMessages(), model.trouble(); };
+    const auto told = [&] { return model.dispatchPendingMessages(), model.messageText(); };
     const auto only = [&](std::size_t placed) {
         model.change("Outputs", [&](Mix& mix) {
             for (std::size_t j = 0; j < mix.strips.size(); ++j)
@@ -141,7 +143,7 @@ TEST(FeltHint, OutputsThatLetNothingBeFeltAreToldUnlessOneListens) {
     EXPECT_EQ(told(), "Nothing is felt: no strip has an output");
     only(2);
     EXPECT_EQ(told(), "Nothing is felt: every strip is muted, or has no output");
-    ASSERT_EQ(model.device().listening().monitor({4, 5}, -20.0), "");
+    ASSERT_EQ(model.device().listening().setMonitor({4, 5}, -20.0), "");
     EXPECT_EQ(told(), "") << "it is heard";
 }
 

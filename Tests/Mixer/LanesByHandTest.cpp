@@ -47,7 +47,7 @@ TEST_F(LanesByHand, APointIsAddedMovedAndTakenAwayByKeys) {
     EXPECT_NEAR(lane()[0].seconds, 8.0, 0.2) << "the first has gone";
     for (int k = 0; k < 40; ++k)
         row->keyPressed(KeyPress{KeyPress::upKey, juce::ModifierKeys::shiftModifier, 0});
-    EXPECT_EQ(lane()[0].db, mostStripDb) << "no louder than a fader";
+    EXPECT_EQ(lane()[0].db, maxStripDb) << "no louder than a fader";
     EXPECT_TRUE(row->keyPressed(KeyPress{KeyPress::returnKey}));
     EXPECT_EQ(lane().size(), 2u);
     EXPECT_TRUE(row->keyPressed(KeyPress{KeyPress::deleteKey, juce::ModifierKeys::shiftModifier, 0}));
@@ -122,12 +122,12 @@ TEST_F(LanesByHand, NearlyNoGainIsNone) {
 
 TEST_F(LanesByHand, HaveAsManyPointsAsAFileMayHold) {
     GainLane full;
-    for (std::size_t i = 0; i < mostGainPoints; ++i)
-        full.push_back({1e-3 * static_cast<double>(i), leastStripDb});
+    for (std::size_t i = 0; i < maxGainPoints; ++i)
+        full.push_back({1e-3 * static_cast<double>(i), minStripDb});
     setLane(full);
     press(at(0.5f, 0.1f));
-    EXPECT_EQ(lane().size(), mostGainPoints);
-    EXPECT_EQ(model.trouble(), "Gain lane of B: at most 2000 points");
+    EXPECT_EQ(lane().size(), maxGainPoints);
+    EXPECT_EQ(model.messageText(), "Gain lane of B: at most 2000 points");
 }
 
 TEST_F(LanesByHand, OfASecondGroupAreItsOwnAndAllAreSeenToTheirEnds) {
@@ -157,7 +157,7 @@ struct RecordedLanes : testing::Test {
 
     bool wait(double seconds) {
         const auto until = model.session().world().sceneNs() + static_cast<std::int64_t>(1e9 * seconds);
-        return runUntil([&] { return model.look(), model.session().world().sceneNs() >= until; });
+        return runUntil([&] { return model.poll(), model.session().world().sceneNs() >= until; });
     }
     void start() {
         ASSERT_EQ(model.recording().start(folder("take.wav")), "");
@@ -166,7 +166,7 @@ struct RecordedLanes : testing::Test {
     void stop() {
         ASSERT_TRUE(wait(0.1));
         model.recording().stop();
-        model.look();
+        model.poll();
     }
     void setFaders(std::array<double, 3> db) {
         model.change("Gain", [&](Mix& mix) {
@@ -176,7 +176,7 @@ struct RecordedLanes : testing::Test {
     /// As the session has it last.
     float lastGain(int channel) {
         float gain = 1.0f;
-        for (const auto& c : model.saved().log.channels)
+        for (const auto& c : model.savedSession().log.channels)
             if (c.kind == RenderControl::Kind::gain && c.channel == channel) gain = c.value;
         return gain;
     }
@@ -191,8 +191,8 @@ TEST_F(RecordedLanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) 
     model.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -26.0, mix.groups[0].gainDb = -12.0; });
     ASSERT_TRUE(wait(0.3));
     model.recording().stop();
-    ASSERT_TRUE(runUntil([&] { return model.look(), !model.mix().strips[2].lane.empty(); }))
-        << model.trouble();
+    ASSERT_TRUE(runUntil([&] { return model.poll(), !model.mix().strips[2].lane.empty(); }))
+        << model.messageText();
     EXPECT_EQ(model.mix().strips[2].gainDb, -6.0) << "back where it was";
     EXPECT_EQ(model.mix().groups[0].gainDb, 0.0);
     EXPECT_EQ(model.mix().strips[2].lane.front().db, 0.0);
@@ -201,9 +201,9 @@ TEST_F(RecordedLanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) 
     EXPECT_TRUE(model.mix().strips[0].lane.empty());
     EXPECT_NEAR(lastGain(2), 0.0501, 1e-3) << "felt as when it was moved";
     model.restart(model.mix().seed);
-    ASSERT_TRUE(runUntil([&] { return model.look(), std::abs(lastGain(2) - 0.501f) < 1e-3f; }))
+    ASSERT_TRUE(runUntil([&] { return model.poll(), std::abs(lastGain(2) - 0.501f) < 1e-3f; }))
         << lastGain(2);
-    ASSERT_TRUE(runUntil([&] { return model.look(), std::abs(lastGain(2) - 0.0501f) < 1e-3f; }))
+    ASSERT_TRUE(runUntil([&] { return model.poll(), std::abs(lastGain(2) - 0.0501f) < 1e-3f; }))
         << "and falls again";
     model.undoManager().undo();
     EXPECT_TRUE(model.mix().strips[2].lane.empty());
@@ -218,20 +218,20 @@ TEST_F(RecordedLanes, WithoutAPointTheFaderIsHeardAgain) {
 }
 
 TEST_F(RecordedLanes, AreFeltAsTheFadersThatWereMoved) {
-    setFaders({leastStripDb, -20.0, -6.0});
+    setFaders({minStripDb, -20.0, -6.0});
     start();
-    setFaders({-10.0, 0.0, leastStripDb});
+    setFaders({-10.0, 0.0, minStripDb});
     stop();
     const double end = 1e9;
     EXPECT_EQ(strip(0).gainDb, -10.0) << "below a silent fader no lane would be felt";
     EXPECT_EQ(strip(1).gainDb, -6.0) << "a lane lifts by 6 dB at most";
     EXPECT_EQ(strip(2).gainDb, -6.0);
-    EXPECT_EQ(gainDbAt(model.mix(), 0, 0.0), leastStripDb);
+    EXPECT_EQ(gainDbAt(model.mix(), 0, 0.0), minStripDb);
     EXPECT_EQ(gainDbAt(model.mix(), 0, end), -10.0);
     EXPECT_EQ(gainDbAt(model.mix(), 1, 0.0), -20.0);
     EXPECT_EQ(gainDbAt(model.mix(), 1, end), 0.0);
     EXPECT_EQ(gainDbAt(model.mix(), 2, 0.0), -6.0);
-    EXPECT_EQ(strip(2).lane.back().db, leastStripDb) << "silence, wherever the fader is put later";
+    EXPECT_EQ(strip(2).lane.back().db, minStripDb) << "silence, wherever the fader is put later";
 }
 
 TEST_F(RecordedLanes, AreAddedToTheLaneThatPlays) {
@@ -261,7 +261,7 @@ TEST_F(RecordedLanes, EndWithTheRunOfTheSceneAndBeginWithTheNext) {
     setFaders({-10.0, 0.0, 0.0});
     ASSERT_TRUE(wait(0.1));
     model.restart(model.mix().seed);
-    ASSERT_TRUE(runUntil([&] { return model.look(), !strip(0).lane.empty(); }));
+    ASSERT_TRUE(runUntil([&] { return model.poll(), !strip(0).lane.empty(); }));
     EXPECT_TRUE(model.recording().isRunning());
     setFaders({0.0, -10.0, 0.0});
     stop();
@@ -273,7 +273,7 @@ TEST_F(RecordedLanes, EndWhereAGroupIsAddedAndBeginAgain) {
     setFaders({-10.0, 0.0, 0.0});
     ASSERT_TRUE(wait(0.1));
     model.change("Group", [](Mix& mix) { addGroup(mix, "Left hand"); });
-    model.look();
+    model.poll();
     EXPECT_FALSE(strip(0).lane.empty());
     model.change("Gain", [](Mix& mix) { mix.groups[0].gainDb = -12.0; });
     stop();
@@ -297,13 +297,13 @@ TEST_F(LeftHand, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
     EXPECT_FLOAT_EQ(lastGain(2), 1.0f);
     model.change("Mute", [](Mix& mix) { mix.groups[0].isMuted = true; });
     std::vector<int> muted;
-    for (const auto& c : model.saved().log.channels)
+    for (const auto& c : model.savedSession().log.channels)
         if (c.kind == RenderControl::Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
     EXPECT_EQ(muted, (std::vector<int>{0, 1}));
     model.undoManager().undo();
     model.undoManager().undo();
     EXPECT_FLOAT_EQ(lastGain(0), 1.0f);
-    const auto again = readSession(sessionJson(model.saved()), "s.json");
+    const auto again = readSession(sessionJson(model.savedSession()), "s.json");
     ASSERT_TRUE(again) << again.error;
     EXPECT_EQ(mixOf(again.value).groups, model.mix().groups);
     model.detach(0);

@@ -37,12 +37,12 @@ struct Materials : testing::Test {
     }
     const Material& now() const { return model.world().scene().materials[wood]; }
     juce::Slider& slider(const juce::String& title) { return the<juce::Slider>(tab, title); }
-    const std::vector<LiveInput>& inputs() { return model.saved().log.takes.back().inputs; }
+    const std::vector<LiveInput>& inputs() { return model.savedSession().log.runs.back().inputs; }
     /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look
     /// shows the next does not.
     bool isPlayed(const std::function<bool(const CollisionEvent&)>& is) {
-        model.look();
-        return std::ranges::any_of(model.recent().newestFirst(), is, &RecentContact::event);
+        model.poll();
+        return std::ranges::any_of(model.recentContacts().newestFirst(), is, &RecentContact::event);
     }
 };
 
@@ -73,7 +73,7 @@ TEST_F(Materials, OneOfOnesOwnIsACopyWithANameAndNoNameIsThereTwice) {
     slider("Frequency").setValue(205.0, juce::sendNotificationSync);
     EXPECT_EQ(model.world().scene().materials.back().frequencyHz, 205.0) << "it is the chosen one";
     make("my wood");
-    EXPECT_TRUE(runUntil([&] { return model.trouble().contains("my wood"); })) << model.trouble();
+    EXPECT_TRUE(runUntil([&] { return model.messageText().contains("my wood"); })) << model.messageText();
     EXPECT_EQ(all().size(), before + 1);
     model.undoManager().undo();
     model.undoManager().undo();
@@ -157,11 +157,12 @@ TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
     EXPECT_EQ(now().frequencyHz, 205.0);
     model.restart(7);
     EXPECT_EQ(now().frequencyHz, 205.0);
-    EXPECT_TRUE(runUntil(
-        [&] { return model.saved().log.takes.size() > 1 && model.saved().log.takes.back().seed == 7; }));
-    EXPECT_EQ(model.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0)
+    EXPECT_TRUE(runUntil([&] {
+        return model.savedSession().log.runs.size() > 1 && model.savedSession().log.runs.back().seed == 7;
+    }));
+    EXPECT_EQ(model.savedSession().log.runs.back().scene->materials[wood].frequencyHz, 205.0)
         << "it is so from the first hit on";
-    setScene(model, *MixerModel::firstMix().scene);
+    setScene(model, *MixerModel::defaultMix().scene);
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -171,15 +172,16 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_TRUE(tab.isMeasuring());
     EXPECT_EQ(now().frequencyHz, 349.0) << "measured beside the message thread";
     ASSERT_TRUE(runUntil([&] { return !tab.isMeasuring(); }));
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
     EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(now().decayPerSecond, 98.0, 2.0);
     const auto* recording = tab.recordingOf(wood);
     ASSERT_NE(recording, nullptr);
     EXPECT_EQ(recording->name, "knock.wav");
     EXPECT_TRUE(recording->sound.isConfident());
-    const auto peak = std::ranges::max_element(recording->course.levels) - recording->course.levels.begin();
-    EXPECT_NEAR(FrequencyAxis::hzOf(static_cast<int>(peak)), 352.0, 10.0);
+    const auto peak =
+        std::ranges::max_element(recording->waveform.levels) - recording->waveform.levels.begin();
+    EXPECT_NEAR(FrequencyAxis::hzAtPoint(static_cast<int>(peak)), 352.0, 10.0);
     EXPECT_GT(recording->amplitude, 0.4);
     EXPECT_LE(recording->amplitude, 1.0);
     EXPECT_TRUE(the(tab, "Decay of the material").getDescription().contains("confidence high"));
@@ -209,7 +211,7 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         ASSERT_TRUE(test::writeSound(pathOf(file), format, knock.value)) << ending;
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_EQ(model.trouble(), "");
+        EXPECT_EQ(model.messageText(), "");
         ASSERT_NE(tab.recordingOf(wood), nullptr) << ending;
         EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
         EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;
@@ -219,7 +221,7 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         file.replaceWithData(bytes.getData(), 40);
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(model.trouble().startsWith(file.getFileName() + ": expected")) << model.trouble();
+        EXPECT_TRUE(model.messageText().startsWith(file.getFileName() + ": expected")) << model.messageText();
         model.report({});
     }
 }
@@ -228,9 +230,9 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     const auto expect = [&](const juce::File& file, const juce::String& words) {
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(model.trouble().contains(words)) << model.trouble();
-        EXPECT_TRUE(model.trouble().contains(file.getFileName())) << model.trouble();
-        EXPECT_FALSE(model.trouble().containsAnyOf("/\n")) << "the file by its name, in one line";
+        EXPECT_TRUE(model.messageText().contains(words)) << model.messageText();
+        EXPECT_TRUE(model.messageText().contains(file.getFileName())) << model.messageText();
+        EXPECT_FALSE(model.messageText().containsAnyOf("/\n")) << "the file by its name, in one line";
         EXPECT_FALSE(model.undoManager().canUndo());
     };
     expect(folder("none.wav"), "cannot be read");
@@ -252,18 +254,18 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     write(folder("short.wav"), samples);
     expect(folder("short.wav"), "expected at least");
     tab.filesDropped({"a.wav", "b.wav"}, 0, 0);
-    EXPECT_TRUE(model.trouble().contains("2 files"));
+    EXPECT_TRUE(model.messageText().contains("2 files"));
     EXPECT_EQ(tab.recordingOf(wood), nullptr);
     tab.choose(0);
     tab.measure(folder("knock.wav"));
     EXPECT_FALSE(tab.isMeasuring()) << "rubber is silent there";
-    EXPECT_TRUE(model.trouble().contains("that sounds"));
+    EXPECT_TRUE(model.messageText().contains("that sounds"));
 }
 
 TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
     model.setSlowness(0); // nothing else is to be felt
-    tab.feelAt({0.25, 0.75});
-    const auto& strikes = model.saved().log.strikes;
+    tab.playAt({0.25, 0.75});
+    const auto& strikes = model.savedSession().log.strikes;
     ASSERT_EQ(strikes.size(), 1u);
     EXPECT_EQ(strikes[0].frequencyHz, 349.0);
     EXPECT_EQ(strikes[0].decayPerSecond, 106.99);
@@ -276,29 +278,29 @@ TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
     }));
     slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
     the<juce::Button>(tab, "Feel the material at the spot").onClick();
-    EXPECT_EQ(model.saved().log.strikes.back().x, model.world().scene().fieldWidthMetres);
+    EXPECT_EQ(model.savedSession().log.strikes.back().x, model.world().scene().fieldWidthMetres);
     tab.choose(0);
     EXPECT_FALSE(the(tab, "Feel the material at the spot").isEnabled());
-    EXPECT_NE(model.strikes().audition(0, 0.5, 0.5), "") << "rubber is silent there";
-    EXPECT_NE(model.strikes().audition(99, 0.5, 0.5), "");
+    EXPECT_NE(model.eventPlayer().audition(0, 0.5, 0.5), "") << "rubber is silent there";
+    EXPECT_NE(model.eventPlayer().audition(99, 0.5, 0.5), "");
 }
 
 TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
     auto& world = view.world().view();
     ASSERT_TRUE(world.onSpot != nullptr);
     world.onSpot({0.5, 0.5});
-    EXPECT_EQ(model.saved().log.strikes.size(), 1u);
+    EXPECT_EQ(model.savedSession().log.strikes.size(), 1u);
     view.tabs().choose("Output");
     EXPECT_TRUE(world.onSpot == nullptr);
 }
 
 TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 300'000'000; }));
+    ASSERT_TRUE(runUntil([&] { return model.poll().session.sessionNs > 300'000'000; }));
     EXPECT_EQ(model.world().edit("Sound", SoundAction{wood, 205.0, 30.0}), "");
     EXPECT_EQ(model.world().edit("Grain", TextureAction{wood, 0.01}), "");
-    tab.feelAt({0.25, 0.75});
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 1'500'000'000; }));
-    const auto& saved = model.saved();
+    tab.playAt({0.25, 0.75});
+    ASSERT_TRUE(runUntil([&] { return model.poll().session.sessionNs > 1'500'000'000; }));
+    const auto& saved = model.savedSession();
     const auto read = readSession(sessionJson(saved), "again");
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);

@@ -39,9 +39,9 @@ struct MixerClipsTest : testing::Test {
     CollisionEvent felt() {
         std::vector<CollisionEvent> clips;
         EXPECT_TRUE(runUntil([&] {
-            model.look();
+            model.poll();
             clips.clear();
-            for (const RecentContact& contact : model.recent().newestFirst())
+            for (const RecentContact& contact : model.recentContacts().newestFirst())
                 if (isClip(contact.event.sound)) clips.push_back(contact.event);
             return clips.size() > felt_;
         }));
@@ -49,8 +49,8 @@ struct MixerClipsTest : testing::Test {
         return clips.empty() ? CollisionEvent{} : clips.front();
     }
     juce::String refused() {
-        EXPECT_TRUE(runUntil([&] { return model.trouble().isNotEmpty(); }));
-        const auto trouble = model.trouble();
+        EXPECT_TRUE(runUntil([&] { return model.messageText().isNotEmpty(); }));
+        const auto trouble = model.messageText();
         model.report({});
         return trouble;
     }
@@ -60,34 +60,34 @@ private:
 };
 
 TEST_F(MixerClipsTest, InTheFieldAClipIsFeltAtThatPlace) {
-    const auto edits = model.edits();
-    drop(field, knocks, field.placeOfShare({0.3, 0.6}));
+    const auto edits = model.editCount();
+    drop(field, knocks, field.pixelOfShare({0.3, 0.6}));
     const auto clip = felt();
     EXPECT_NEAR(clip.x, 0.3 * model.world().scene().fieldWidthMetres, 0.02);
     EXPECT_NEAR(clip.y, 0.6 * model.world().scene().fieldHeightMetres, 0.02);
     EXPECT_EQ(clip.spread, Spread::layout);
-    EXPECT_TRUE(runUntil([&] { return model.edits() > edits; })) << "the document has to be saved";
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_TRUE(runUntil([&] { return model.editCount() > edits; })) << "the document has to be saved";
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(MixerClipsTest, OnABadgeOrAStripItIsFeltOnThatEnchanterAlone) {
     const double width = model.world().scene().fieldWidthMetres,
                  height = model.world().scene().fieldHeightMetres;
-    drop(field, knocks, field.placeOfEnchanter(1) + juce::Point<float>{5.0f, 5.0f});
+    drop(field, knocks, field.actuatorPixel(1) + juce::Point<float>{5.0f, 5.0f});
     const auto onB = felt();
-    EXPECT_EQ(onB.spread, Spread::alone);
+    EXPECT_EQ(onB.spread, Spread::nearest);
     EXPECT_EQ(onB.x, width);
     EXPECT_EQ(onB.y, height);
     drop(strip("Strip C"), knocks);
     const auto onC = felt();
-    EXPECT_EQ(onC.spread, Spread::alone);
+    EXPECT_EQ(onC.spread, Spread::nearest);
     EXPECT_EQ(onC.x, 0.0);
     EXPECT_EQ(onC.y, 0.0);
 }
 
 TEST_F(MixerClipsTest, RefusalsAreOneLine) {
     folder("broken.wav").replaceWithText("no sound");
-    drop(field, {folder("broken.wav").getFullPathName()}, field.placeOfShare({0.5, 0.5}));
+    drop(field, {folder("broken.wav").getFullPathName()}, field.pixelOfShare({0.5, 0.5}));
     EXPECT_TRUE(refused().endsWith("broken.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file"));
     drop(strip("Strip A"), {"a.wav", "b.wav"});
     EXPECT_EQ(refused(), "Expected one clip, found 2 files");
@@ -96,7 +96,7 @@ TEST_F(MixerClipsTest, RefusalsAreOneLine) {
     for (juce::FileDragAndDropTarget* target :
          {static_cast<juce::FileDragAndDropTarget*>(&field), &strip("Strip A")})
         EXPECT_FALSE(target->isInterestedInFileDrag({"session.json"})) << "documents are the window's";
-    EXPECT_TRUE(model.saved().log.clips.empty());
+    EXPECT_TRUE(model.savedSession().log.clips.empty());
     SessionSetup setup;
     setup.scene = model.world().scene();
     setup.panner = model.mix().panner();
@@ -108,9 +108,9 @@ TEST_F(MixerClipsTest, RefusalsAreOneLine) {
 }
 
 TEST_F(MixerClipsTest, ASavedSessionHasThem) {
-    drop(field, knocks, field.placeOfShare({0.5, 0.5}));
+    drop(field, knocks, field.pixelOfShare({0.5, 0.5}));
     felt();
-    folder("session.json").replaceWithText(sessionJson(model.saved(), pathOf(folder.folder)));
+    folder("session.json").replaceWithText(sessionJson(model.savedSession(), pathOf(folder.folder)));
     const auto read = loadSession(pathOf(folder("session.json")));
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.strikes.size(), 1u);
@@ -137,7 +137,7 @@ TEST_F(MixerClipsTest, WhereItWouldBeFeltIsShownWhileItIsDragged) {
         EXPECT_EQ(pixel(component, seen), before);
         return during != before;
     };
-    const auto middle = field.placeOfShare({0.5, 0.5}), badge = field.placeOfEnchanter(0);
+    const auto middle = field.pixelOfShare({0.5, 0.5}), badge = field.actuatorPixel(0);
     EXPECT_TRUE(shown(field, middle, middle.translated(13.0f, 0.0f)));
     EXPECT_TRUE(shown(field, badge, badge.translated(20.0f, 0.0f)));
     EXPECT_FALSE(shown(field, badge.translated(60.0f, 60.0f), badge.translated(20.0f, 0.0f)));

@@ -13,7 +13,7 @@ namespace physvib::mixer_compare_test {
 using namespace test;
 
 struct Compared : testing::Test {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
     std::vector<CollisionEvent> events;
 
@@ -31,8 +31,8 @@ struct Compared : testing::Test {
         view.keyPressed(KeyPress{'A', {}, 'a'});
         model.dispatchPendingMessages();
     }
-    double db() const { return 10.0 * std::log10(energyOf(model.mix(), events)); }
-    char shown() { return view.world().compare().isOn() ? view.world().compare().shown() : '-'; }
+    double db() const { return 10.0 * std::log10(contactEnergyG2(model.mix(), events)); }
+    char shown() { return view.world().compare().isOn() ? view.world().compare().activeState() : '-'; }
 };
 
 TEST_F(Compared, OneKeyChangesBetweenTwoMixesAtMatchedLevels) {
@@ -43,7 +43,7 @@ TEST_F(Compared, OneKeyChangesBetweenTwoMixesAtMatchedLevels) {
     model.change("Law", [](Mix& mix) {
         mix.law = PanningLaw::energy;
         for (Strip& strip : mix.strips) strip.gainDb = 6.0;
-        mix.layout = presetLayout("phone2", mix.layout.enchanters);
+        mix.layout = presetLayout("phone2", mix.layout.actuators);
         mix.resizeStrips();
     });
     const double louder = db();
@@ -97,7 +97,7 @@ TEST_F(Compared, TheWorldStaysAndUndoEndsTheComparison) {
 // full scales change.
 
 TEST(MatchedLevels, BothSidesHaveTheirOwnAgainWhenTheyAreAlike) {
-    MixerModel desk{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel desk{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{desk};
     const auto key = [&] {
         view.keyPressed(KeyPress{'A', {}, 'a'});
@@ -133,14 +133,14 @@ TEST(NewStrips, GetNoOutputOfEarsOrMeters) {
         DeviceChoice choice;
         choice.isHeadphones = random.chance(0.2);
         for (std::size_t n = random.below(3); n > 0; --n)
-            choice.monitor.push_back(static_cast<int>(random.below(12)));
-        choice.marker = static_cast<int>(random.below(12)) - 1;
+            choice.monitorOutputs.push_back(static_cast<int>(random.below(12)));
+        choice.markerOutput = static_cast<int>(random.below(12)) - 1;
         std::vector<Strip> strips(1 + random.below(8));
         int last = 0;
         for (Strip& strip : strips) strip.output = random.chance(0.2) ? -1 : last++;
         const auto before = strips;
         const std::size_t first = random.below(strips.size());
-        const auto told = placeNew(choice, strips, first);
+        const auto told = assignNewStrips(choice, strips, first);
         std::set<int> used;
         for (std::size_t j = 0; j < strips.size(); ++j) {
             const int output = strips[j].output;
@@ -148,8 +148,8 @@ TEST(NewStrips, GetNoOutputOfEarsOrMeters) {
             if (output < 0) continue;
             ASSERT_TRUE(used.insert(output).second) << "round " << round;
             if (j < first) continue;
-            ASSERT_NE(output, choice.marker) << "round " << round << ": pulses at full scale";
-            ASSERT_EQ(std::ranges::count(choice.monitor, output), 0) << "round " << round;
+            ASSERT_NE(output, choice.markerOutput) << "round " << round << ": pulses at full scale";
+            ASSERT_EQ(std::ranges::count(choice.monitorOutputs, output), 0) << "round " << round;
             ASSERT_TRUE(!choice.isHeadphones || output < 2);
         }
         for (const std::size_t j : told) ASSERT_EQ(strips[j].output, -1);
@@ -167,11 +167,11 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
     ASSERT_EQ(output.open({"hands", {}, 0, 0, 1.0f}), "");
     LayoutDescription layout = presetLayout("phone4");
     const auto withScale = [&](double fullScaleG) {
-        for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = fullScaleG;
+        for (ActuatorDescription& enchanter : layout.actuators) enchanter.fullScaleG = fullScaleG;
         return layout;
     };
     MixerExposure updated{output}, forgetful{output}, ofOne{output};
-    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->use(withScale(1.0));
+    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->setLayout(withScale(1.0));
     const auto play = [&] {
         for (int k = 0; k < 1500; ++k) { // two seconds
             if (k % 4 == 0) session.advance();
@@ -182,7 +182,7 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
     updated.update();
     const double before = updated.squareGSeconds();
     EXPECT_GT(before, 0.0);
-    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(4.0));
+    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->setLayout(withScale(4.0));
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), before);
     play();
     for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->update();

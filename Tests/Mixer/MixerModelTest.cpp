@@ -16,52 +16,52 @@ struct PlayingModel : testing::Test {
 TEST_F(PlayingModel, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) {
     ASSERT_TRUE(model.attach(0.5, 0.25));
     EXPECT_EQ(model.mix().count(), 5);
-    EXPECT_EQ(model.mix().layout.enchanters.back().label, "E");
+    EXPECT_EQ(model.mix().layout.actuators.back().label, "E");
     EXPECT_LT(model.mix().strips.back().gainDb, -6.0);
     EXPECT_EQ(model.mix().strips.back().output, 4);
-    EXPECT_EQ(model.saved().log.panners.back().panner.channels(), 5);
-    EXPECT_EQ(model.saved().channels, 5);
+    EXPECT_EQ(model.savedSession().log.panners.back().panner.channels(), 5);
+    EXPECT_EQ(model.savedSession().channels, 5);
     model.undoManager().undo();
     EXPECT_EQ(model.mix().count(), 4);
-    EXPECT_EQ(model.saved().log.panners.back().panner.channels(), 4);
-    EXPECT_EQ(model.saved().channels, 5) << "it was there for a while";
+    EXPECT_EQ(model.savedSession().log.panners.back().panner.channels(), 4);
+    EXPECT_EQ(model.savedSession().channels, 5) << "it was there for a while";
     model.undoManager().redo();
     model.detach(1);
-    EXPECT_EQ(model.mix().layout.enchanters[1].label, "C");
+    EXPECT_EQ(model.mix().layout.actuators[1].label, "C");
     EXPECT_EQ(model.mix().strips[1].output, 2) << "what plays it goes with it";
 }
 
 TEST_F(PlayingModel, TheLastEnchanterStays) {
     for (int k = 0; k < 5; ++k) model.detach(0);
     ASSERT_EQ(model.mix().count(), 1);
-    EXPECT_EQ(model.mix().layout.enchanters[0].label, "D");
+    EXPECT_EQ(model.mix().layout.actuators[0].label, "D");
 }
 
 TEST(MixerModel, StartsSilentIfItIsAsked) {
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isSilent = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isSilent = true}};
     EXPECT_TRUE(model.isSilent());
     EXPECT_TRUE(model.output().isSilent());
 }
 
 TEST(MixerModel, WhatASessionWasPlayedWithAndTheMixerLacksIsTold) {
     SavedSession session;
-    EXPECT_TRUE(lackingOf(session).isEmpty());
+    EXPECT_TRUE(unsupportedFeatures(session).isEmpty());
     session.equalised[1] = {{175.0, 8.0}, {100.0, 300.0}};
-    EXPECT_TRUE(lackingOf(session).contains("equalisers of its own, which the mixer has not"));
+    EXPECT_TRUE(unsupportedFeatures(session).contains("equalisers of its own, which the mixer has not"));
     session = {};
     session.shaping.truncation = 0.1;
-    EXPECT_TRUE(lackingOf(session).contains("method, remapping and gain of its own"));
+    EXPECT_TRUE(unsupportedFeatures(session).contains("method, remapping and gain of its own"));
 }
 
 TEST_F(PlayingModel, ASavedSessionIsAsLongAsItWasPlayed) {
-    ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > 200'000'000; }));
-    EXPECT_GT(model.saved().lengthNs, 200'000'000);
+    ASSERT_TRUE(runUntil([&] { return model.poll().posesNs > 200'000'000; }));
+    EXPECT_GT(model.savedSession().lengthNs, 200'000'000);
 }
 
 TEST_F(PlayingModel, SoloMutesTheOthers) {
     model.change("Solo", [](Mix& mix) { mix.strips[2].isSolo = true; });
     std::vector<int> muted;
-    for (const auto& c : model.saved().log.channels)
+    for (const auto& c : model.savedSession().log.channels)
         if (c.kind == Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
     EXPECT_EQ(muted, (std::vector<int>{0, 1, 3}));
 }
@@ -71,10 +71,10 @@ TEST(MixerModel, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
         MixerModel model{onlyNoDevice(), noDevice};
         model.change("Layout", [&](Mix& mix) { setLayout(mix, name); });
         for (int j = 0; j < model.mix().count(); ++j) {
-            model.strikes().testPulse(j);
+            model.eventPlayer().testPulse(j);
             ASSERT_TRUE(runUntil(
-                [&] { return model.saved().log.strikes.size() == static_cast<std::size_t>(j) + 1; }));
-            const auto log = model.saved().log;
+                [&] { return model.savedSession().log.strikes.size() == static_cast<std::size_t>(j) + 1; }));
+            const auto log = model.savedSession().log;
             PhantomPanner::Gains gains{};
             const CollisionEvent& pulse = log.strikes.back();
             log.panners.back().panner.gainsAt(pulse, gains);
@@ -88,18 +88,18 @@ TEST_F(PlayingModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     model.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
     // A session that plays already lowers a ceiling in a ramp of 10 ms.
-    const auto changedNs = model.saved().log.channels.back().timeNs;
-    ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > changedNs + 100'000'000; }));
-    for (int k = 0; k < 4; ++k) model.strikes().testPulse(0); // 2 of full scale together
+    const auto changedNs = model.savedSession().log.channels.back().timeNs;
+    ASSERT_TRUE(runUntil([&] { return model.poll().posesNs > changedNs + 100'000'000; }));
+    for (int k = 0; k < 4; ++k) model.eventPlayer().testPulse(0); // 2 of full scale together
     float highest = 0.0f;
     ASSERT_TRUE(runUntil([&] {
-        highest = std::max(highest, model.look().holds[0]);
+        highest = std::max(highest, model.poll().heldPeaks[0]);
         return highest > 0.9f * ceilingOf(model.mix().strips[0]);
     }));
     EXPECT_LE(highest, ceilingOf(model.mix().strips[0]) * 1.0001f);
     const auto ceilings = [&] {
         std::vector<float> all;
-        for (const auto& c : model.saved().log.channels)
+        for (const auto& c : model.savedSession().log.channels)
             if (c.kind == Kind::ceiling) all.push_back(c.value);
         return all;
     };
@@ -136,7 +136,7 @@ TEST_F(PlayingModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
     EXPECT_EQ(std::get<SpawnAction>(model.world().scene().inputs[0].action).body.fixtures[0].material, 0);
     model.undoManager().undo();
     ASSERT_TRUE(runUntil([&] {
-        const auto moment = model.look();
+        const auto moment = model.poll();
         return !moment.poses.empty() && !moment.poses.back().isPresent;
     }));
     EXPECT_NE(model.world().edit("Material", MaterialAction{"floor", everyFixture, 99}), "")
@@ -154,7 +154,7 @@ TEST_F(PlayingModel, AThousandEditsLaterEverythingCanBeUndone) {
     }
     while (model.undoManager().canUndo()) model.undoManager().undo();
     EXPECT_EQ(model.mix().strips, first.strips);
-    EXPECT_EQ(model.mix().layout.enchanters, first.layout.enchanters);
+    EXPECT_EQ(model.mix().layout.actuators, first.layout.actuators);
 }
 
 TEST_F(PlayingModel, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
@@ -165,9 +165,9 @@ TEST_F(PlayingModel, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
         EXPECT_TRUE(error.isEmpty()) << error;
     };
     ASSERT_EQ(model.recording().start(folder("take.wav")), "");
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.recording().seconds() > 2.0; }));
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.recording().seconds() > 2.0; }));
     model.recording().stop();
-    EXPECT_TRUE(runUntil([&] { return model.look(), isDone; }));
+    EXPECT_TRUE(runUntil([&] { return model.poll(), isDone; }));
     juce::AudioFormatManager formats;
     formats.registerBasicFormats();
     const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("take.wav"))};
@@ -188,7 +188,7 @@ TEST(MixerModel, ARecordingThatRunsWhenTheMixerIsClosedIsKept) {
     {
         MixerModel model{onlyNoDevice(), noDevice};
         ASSERT_EQ(model.recording().start(folder("take.wav")), "");
-        EXPECT_TRUE(runUntil([&] { return model.look(), model.recording().seconds() > 0.1; }));
+        EXPECT_TRUE(runUntil([&] { return model.poll(), model.recording().seconds() > 0.1; }));
     }
     EXPECT_GT(folder("take.wav").getSize(), 4 * 4 * 4800);
     EXPECT_TRUE(folder("take.csv").existsAsFile());
@@ -198,33 +198,35 @@ TEST(MixerModel, ARecordingThatRunsWhenTheMixerIsClosedIsKept) {
 TEST(MixerModel, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
     hands.unplug(true);
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }))
-        << model.trouble();
-    EXPECT_FALSE(model.look().device.isRunning);
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.messageText().contains("has stopped"); }))
+        << model.messageText();
+    EXPECT_FALSE(model.poll().device.isRunning);
     hands.isPlugged = true;
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().isEmpty(); })) << model.trouble();
-    EXPECT_TRUE(model.look().device.isRunning);
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.messageText().isEmpty(); })) << model.messageText();
+    EXPECT_TRUE(model.poll().device.isRunning);
     EXPECT_NE(model.open({"Fake:feet", 0, 0}), "");
-    EXPECT_TRUE(model.trouble().contains("feet")) << "never a silent failure";
+    EXPECT_TRUE(model.messageText().contains("feet")) << "never a silent failure";
 }
 
 TEST(MixerModel, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}),
-                     {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1},
-                     MixerModel::firstMix(),
+                     {.name = "Fake:hands", .monitorOutputs = {2, 3}, .markerOutput = 1},
+                     MixerModel::defaultMix(),
                      {.isPaused = true}};
-    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble() << ": an enchanter is there, and is felt";
+    EXPECT_TRUE(model.messageText().isEmpty())
+        << model.messageText() << ": an enchanter is there, and is felt";
     EXPECT_TRUE(model.device().listening().settings().contacts.empty());
     EXPECT_TRUE(model.device().listening().settings().marks.empty());
-    EXPECT_EQ(model.device().listening().monitor({4, 3}, -20.0),
+    EXPECT_EQ(model.device().listening().setMonitor({4, 3}, -20.0),
               "output 4 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(model.device().listening().mark(2),
+    EXPECT_EQ(model.device().listening().setMarker(2),
               "output 3 is an actuator's; expected another one for marks");
-    ASSERT_EQ(model.device().listening().monitor({4, 5}, -10.0), "");
-    EXPECT_EQ(model.device().listening().mark(5), "output 6 is listened to; expected another one for marks");
+    ASSERT_EQ(model.device().listening().setMonitor({4, 5}, -10.0), "");
+    EXPECT_EQ(model.device().listening().setMarker(5),
+              "output 6 is listened to; expected another one for marks");
     model.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
     EXPECT_EQ(model.device().listening().settings().marks, std::vector{1})
         << "it was wanted there, and may be now";
@@ -233,47 +235,47 @@ TEST(MixerModel, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
 TEST(MixerModel, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
-    ASSERT_EQ(model.device().listening().monitor({4, 5}, 0.0), "");
-    ASSERT_EQ(model.device().listening().mark(7), "");
-    EXPECT_EQ(model.device().choice().monitor, (std::vector{4, 5}));
-    EXPECT_EQ(model.device().choice().marker, 7);
+    ASSERT_EQ(model.device().listening().setMonitor({4, 5}, 0.0), "");
+    ASSERT_EQ(model.device().listening().setMarker(7), "");
+    EXPECT_EQ(model.device().choice().monitorOutputs, (std::vector{4, 5}));
+    EXPECT_EQ(model.device().choice().markerOutput, 7);
     float heard = 0.0f, marked = 0.0f;
     EXPECT_TRUE(runUntil([&] {
-        model.look();
+        model.poll();
         const auto out = hands.play(64);
         for (const float x : out[4]) heard = std::max(heard, std::abs(x));
         for (const float x : out[7]) marked = std::max(marked, x);
         return heard > 0.01f && marked == 1.0f;
     }));
     model.change("Output", [](Mix& mix) { mix.strips[0].output = 5; });
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
     EXPECT_TRUE(model.device().listening().settings().contacts.empty()) << "hands first";
     EXPECT_EQ(model.device().listening().settings().marks, std::vector{7});
     model.undoManager().undo();
     EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{4, 5}));
     ListeningSettings noise;
     noise.noise = {4, 5};
-    ASSERT_EQ(model.device().listening().hear(noise), "");
+    ASSERT_EQ(model.device().listening().beginStudy(noise), "");
     EXPECT_TRUE(model.device().listening().settings().contacts.empty()) << "a study's ears are told nothing";
     EXPECT_EQ(model.device().listening().settings().marks, std::vector{7});
     model.device().listening().endStudy();
     EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{4, 5}));
     hands.outputs = 4; // another interface of the same name
     hands.unplug(true);
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.messageText().contains("has stopped"); }));
     hands.isPlugged = true;
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().isEmpty(); })) << model.trouble();
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.messageText().isEmpty(); })) << model.messageText();
     EXPECT_TRUE(model.device().listening().settings().contacts.empty());
-    EXPECT_TRUE(model.look().device.isRunning) << "what cannot be heard does not keep hands from feeling";
+    EXPECT_TRUE(model.poll().device.isRunning) << "what cannot be heard does not keep hands from feeling";
 }
 
 TEST(MixerModel, OnTwoOutputsOneListensInsteadOfFeeling) {
     FakeInterface speakers;
     speakers.outputs = 2;
     MixerModel model{fakeDrivers({&speakers}), {"Fake:hands", 0, 0}};
-    EXPECT_EQ(model.device().listening().monitor({0, 1}, -20.0),
+    EXPECT_EQ(model.device().listening().setMonitor({0, 1}, -20.0),
               "output 1 is an actuator's; expected another one to listen to");
-    ASSERT_EQ(model.monitorInstead({0, 1}, -20.0), "");
+    ASSERT_EQ(model.moveOutputsToMonitor({0, 1}, -20.0), "");
     EXPECT_EQ(model.mix().strips[0].output, -1);
     EXPECT_EQ(model.mix().strips[1].output, -1);
     EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{0, 1}));
@@ -287,7 +289,7 @@ TEST(MixerModel, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet
     const auto lastGain = [&] {
         float gain = 1.0f;
-        for (const auto& c : model.saved().log.channels)
+        for (const auto& c : model.savedSession().log.channels)
             if (c.kind == Kind::gain && c.channel == 1) gain = c.value;
         return gain;
     };
@@ -295,10 +297,10 @@ TEST(MixerModel, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
         model.change("Gain of B", [k](Mix& mix) { mix.strips[1].gainDb = -0.1 * k; });
     EXPECT_NE(lastGain(), channelGain(model.mix().strips[1]));
     EXPECT_TRUE(runUntil(
-        [&] { return hands.play(64), model.look(), lastGain() == channelGain(model.mix().strips[1]); }));
-    const auto told = model.saved().log.channels.size();
-    for (int k = 0; k < 10; ++k) model.look();
-    EXPECT_EQ(model.saved().log.channels.size(), told) << "once";
+        [&] { return hands.play(64), model.poll(), lastGain() == channelGain(model.mix().strips[1]); }));
+    const auto told = model.savedSession().log.channels.size();
+    for (int k = 0; k < 10; ++k) model.poll();
+    EXPECT_EQ(model.savedSession().log.channels.size(), told) << "once";
 }
 
 TEST(MixerModel, TwoHundredBodiesForAWhile) {
@@ -310,13 +312,13 @@ TEST(MixerModel, TwoHundredBodiesForAWhile) {
         ball.fixtures.push_back({CircleShape{0.1}, {}, 0.0, k % 3, false, Voice::own});
         crowd.bodies.push_back(ball);
     }
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     mix.scene = std::make_shared<const Scene>(crowd);
     MixerModel model{onlyNoDevice(), noDevice, mix};
     MixerView view{model};
     EXPECT_TRUE(
-        runUntil([&] { return view.refresh(), model.look().session.sessionNs > 3'000'000'000; }, 60.0));
-    EXPECT_EQ(model.trouble(), "");
+        runUntil([&] { return view.refresh(), model.poll().session.sessionNs > 3'000'000'000; }, 60.0));
+    EXPECT_EQ(model.messageText(), "");
     EXPECT_EQ(view.createComponentSnapshot(view.getLocalBounds()).getWidth(), view.getWidth());
 }
 

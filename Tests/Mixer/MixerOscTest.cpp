@@ -13,9 +13,9 @@ using namespace test;
 struct OscOfMixer : testing::Test {
     MixerModel model{onlyNoDevice(), noDevice};
 
-    void listen() { ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), ""); }
+    void listen() { ASSERT_EQ(model.inputs().configure({OscAccess::thisComputer}), ""); }
     UdpSocket sender() {
-        auto socket = UdpSocket::connected(model.inputs().status()->address);
+        auto socket = UdpSocket::connectTo(model.inputs().status()->address);
         EXPECT_EQ(socket.error, "");
         return std::move(socket.value);
     }
@@ -26,10 +26,10 @@ struct OscOfMixer : testing::Test {
     /// Whether such a gravity has come to the world.
     bool isTiltedTo(bool (*is)(double y)) {
         return runUntil([&] {
-            const auto& takes = model.saved().log.takes;
+            const auto& takes = model.savedSession().log.runs;
             return !takes.empty() && std::ranges::any_of(takes.back().inputs, [&](const LiveInput& input) {
                 const auto* gravity = std::get_if<GravityAction>(&input.action);
-                return gravity != nullptr && is(gravity->metresPerSecond2.y);
+                return gravity != nullptr && is(gravity->gravityMetresPerSecond2.y);
             });
         });
     }
@@ -39,32 +39,32 @@ struct OscOfMixer : testing::Test {
 struct OscInTab : OscOfMixer {
     OutputTab tab{model};
 
-    const Fact& messages() {
-        tab.refresh(model.look());
-        const auto& facts = the<FactList>(tab, "What follows from it").facts();
-        return *std::ranges::find(facts, juce::String{"Messages"}, &Fact::name);
+    const StatusRow& messages() {
+        tab.refresh(model.poll());
+        const auto& facts = the<StatusTable>(tab, "What follows from it").rows();
+        return *std::ranges::find(facts, juce::String{"Messages"}, &StatusRow::name);
     }
 };
 
 TEST_F(OscInTab, ListensToNobodyUntilItIsSwitchedThere) {
     auto& box = the<juce::ComboBox>(tab, "OSC");
-    EXPECT_EQ(model.inputs().choice().use, OscUse::off);
+    EXPECT_EQ(model.inputs().choice().access, OscAccess::off);
     EXPECT_FALSE(model.inputs().status().has_value());
     EXPECT_EQ(messages().value, "none");
     EXPECT_EQ(box.getText(), "nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(model.inputs().choice().use, OscUse::thisComputer);
+    EXPECT_EQ(model.inputs().choice().access, OscAccess::thisComputer);
     EXPECT_TRUE(model.inputs().status()->address.starts_with("127.0.0.1:"));
     send("/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
     send("/physvib/strike", {{"level", 2.0}});
     ASSERT_TRUE(runUntil([&] { return counts().messages == 2; }));
-    const Fact& told = messages();
+    const StatusRow& told = messages();
     EXPECT_TRUE(
         told.value.startsWith(utf8(model.inputs().status()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:"))
         << told.value;
-    EXPECT_EQ(told.shade, Shade::now);
+    EXPECT_EQ(told.shade, Shade::highlight);
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
-    EXPECT_EQ(model.inputs().choice().use, OscUse::off);
+    EXPECT_EQ(model.inputs().choice().access, OscAccess::off);
     EXPECT_FALSE(model.inputs().status().has_value());
 }
 
@@ -72,8 +72,8 @@ TEST_F(OscOfMixer, APhonesAddressIsShownAsTextAndAsACode) {
     MixerView view{model};
     view.tabs().choose("Output");
     the<juce::ComboBox>(view, "OSC").setSelectedItemIndex(2, juce::sendNotificationSync);
-    ASSERT_NE(view.question(), nullptr) << model.trouble();
-    EXPECT_TRUE(view.question()->words().contains(":9")) << view.question()->words();
+    ASSERT_NE(view.question(), nullptr) << model.messageText();
+    EXPECT_TRUE(view.question()->message().contains(":9")) << view.question()->message();
     EXPECT_TRUE(view.question()->picture().isValid());
     view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(runUntil([&] { return view.question() == nullptr; }, 1.0));
@@ -81,15 +81,15 @@ TEST_F(OscOfMixer, APhonesAddressIsShownAsTextAndAsACode) {
 
 TEST_F(OscOfMixer, WhatStrikesIsFeltAndSaved) {
     listen();
-    model.look();
-    const auto edits = model.edits();
+    model.poll();
+    const auto edits = model.editCount();
     send("/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
     EXPECT_TRUE(runUntil([&] {
-        return std::ranges::any_of(model.look().hits,
+        return std::ranges::any_of(model.poll().hits,
                                    [](const auto& hit) { return hit.frequencyHz == 123.0; });
     }));
-    EXPECT_GT(model.edits(), edits) << "the document has to be saved";
-    ASSERT_EQ(model.saved().log.strikes.size(), 1U);
+    EXPECT_GT(model.editCount(), edits) << "the document has to be saved";
+    ASSERT_EQ(model.savedSession().log.strikes.size(), 1U);
 }
 
 TEST_F(OscOfMixer, StripsAndSilenceAreMovedInTheMixer) {
@@ -123,13 +123,13 @@ TEST_F(OscOfMixer, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
         ASSERT_TRUE(comes([&] { return counts().messages == k + 100; }));
     }
     ASSERT_EQ(counts().refused, 200U);
-    EXPECT_EQ(counts().fault.substr(counts().fault.find(": ") + 2), "too many inputs at once");
+    EXPECT_EQ(counts().lastError.substr(counts().lastError.find(": ") + 2), "too many inputs at once");
     EXPECT_TRUE(socket.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
     EXPECT_TRUE(comes([&] { return model.output().isSilent(); }));
     ASSERT_TRUE(comes([&] { return counts().messages == 1201; }));
     EXPECT_EQ(counts().refused, 200U) << "silence is never refused for want of room";
     EXPECT_FALSE(model.isSilent()) << "not yet shown";
-    EXPECT_TRUE(runUntil([&] { return model.look(), model.isSilent(); }));
+    EXPECT_TRUE(runUntil([&] { return model.poll(), model.isSilent(); }));
 }
 
 TEST_F(OscOfMixer, WhatTheMixerRefusesIsReportedToItsSender) {
@@ -153,7 +153,7 @@ TEST_F(OscOfMixer, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
     send("/physvib/silence", {{"on", 0.0}});
     EXPECT_TRUE(runUntil([&] { return counts().messages == 2 && counts().refused == 1; }))
         << "that it did not help is said";
-    EXPECT_EQ(counts().fault, "silence: still asked for at the machine");
+    EXPECT_EQ(counts().lastError, "silence: still asked for at the machine");
     EXPECT_TRUE(model.isSilent());
     EXPECT_TRUE(model.output().isSilent());
     model.setSilent(false);
@@ -172,17 +172,17 @@ TEST_F(OscOfMixer, APhoneTiltsTheWorld) {
     const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
     EXPECT_TRUE(socket.send({upsideDown.data(), upsideDown.size()}));
     EXPECT_TRUE(isTiltedTo([](double y) { return y > 9.8; }));
-    EXPECT_EQ(counts().fault, "");
+    EXPECT_EQ(counts().lastError, "");
 }
 
 TEST_F(OscInTab, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
-    auto receiver = UdpSocket::listening("127.0.0.1", 0);
+    auto receiver = UdpSocket::listenAt("127.0.0.1", 0);
     ASSERT_EQ(receiver.error, "");
     auto& box = the<juce::ComboBox>(tab, "Hits by OSC");
     EXPECT_EQ(box.getText(), "nobody");
     tab.sendHitsTo("127.0.0.1:" + juce::String{receiver.value.port()});
-    EXPECT_EQ(model.trouble(), "");
-    EXPECT_EQ(model.inputs().choice().use, OscUse::off) << "to tell is not to listen";
+    EXPECT_EQ(model.messageText(), "");
+    EXPECT_EQ(model.inputs().choice().access, OscAccess::off) << "to tell is not to listen";
     std::vector<OscMessage> told;
     const auto hasTold = [&](const std::string& address) {
         while (const auto packet = receiver.value.receive())
@@ -197,7 +197,7 @@ TEST_F(OscInTab, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     EXPECT_NE(hit->tag, oscNow) << "when hands feel it";
     EXPECT_EQ(std::get<std::string>(hit->values[2]), "frequency_hz");
     const auto hz = static_cast<float>(std::get<double>(hit->values[3]));
-    EXPECT_TRUE(std::ranges::any_of(model.look().hits, [hz](const CollisionEvent& e) {
+    EXPECT_TRUE(std::ranges::any_of(model.poll().hits, [hz](const CollisionEvent& e) {
         return static_cast<float>(e.frequencyHz) == hz;
     })) << "what was told is still shown";
     EXPECT_TRUE(messages().value.startsWith("to 127.0.0.1:")) << messages().value;
@@ -212,9 +212,9 @@ TEST_F(OscInTab, AWrongReceiverIsRefusedAndAllIsAsBefore) {
     listen();
     auto& box = the<juce::ComboBox>(tab, "Hits by OSC");
     tab.sendHitsTo("my laptop");
-    EXPECT_EQ(model.trouble(), "Hits by OSC: expected HOST:PORT, found \"my laptop\"");
+    EXPECT_EQ(model.messageText(), "Hits by OSC: expected HOST:PORT, found \"my laptop\"");
     EXPECT_EQ(box.getText(), "nobody");
-    EXPECT_EQ(model.inputs().choice(), OscChoice{OscUse::thisComputer});
+    EXPECT_EQ(model.inputs().choice(), OscChoice{OscAccess::thisComputer});
     send("/physvib/silence", {{"on", 1.0}});
     EXPECT_TRUE(runUntil([&] { return model.isSilent(); }));
 }
@@ -222,7 +222,7 @@ TEST_F(OscInTab, AWrongReceiverIsRefusedAndAllIsAsBefore) {
 TEST_F(OscInTab, APhoneMayBeHeldOnItsSide) {
     the<juce::ComboBox>(tab, "OSC").setSelectedItemIndex(1, juce::sendNotificationSync);
     the<juce::ComboBox>(tab, "Phone").setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(model.inputs().choice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
+    EXPECT_EQ(model.inputs().choice(), (OscChoice{OscAccess::thisComputer, {}, 90.0}));
     auto socket = sender();
     using namespace std::string_literals;
     const auto topToTheLeft = "/accelerometer\0\0,fff\0\0\0\0\x41\x1c\xf5\xc3\0\0\0\0\0\0\0\0"s; // x: 9.81
@@ -234,7 +234,7 @@ TEST_F(OscInTab, APhoneMayBeHeldOnItsSide) {
 
 TEST(MixerPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     GamePads pads; // before the virtual one
-    ASSERT_EQ(pads.fault(), "");
+    ASSERT_EQ(pads.error(), "");
     VirtualPad pad{"mixed"};
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
@@ -254,15 +254,16 @@ TEST(MixerPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
 
     pad.detach();
     ASSERT_TRUE(runUntil([&] {
-        return window.model().trouble().contains("mixed is gone; it is looked for");
-    })) << window.model().trouble();
+        return window.model().messageText().contains("mixed is gone; it is looked for");
+    })) << window.model().messageText();
     pad.attach();
-    ASSERT_TRUE(runUntil([&] { return window.model().trouble().isEmpty(); })) << window.model().trouble();
+    ASSERT_TRUE(runUntil([&] { return window.model().messageText().isEmpty(); }))
+        << window.model().messageText();
 }
 
 TEST(MixerPad, OneThatIsNotPluggedInSaysSoAndDelaysNothingUntilItComes) {
     GamePads pads; // before the virtual one
-    ASSERT_EQ(pads.fault(), "");
+    ASSERT_EQ(pads.error(), "");
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const auto latency = [&] { return window.model().device().outputLatencySeconds(); };
@@ -276,10 +277,10 @@ TEST(MixerPad, OneThatIsNotPluggedInSaysSoAndDelaysNothingUntilItComes) {
     window.view().tabs().choose("Output");
     chooseIn(window.view(), "Device", "Game controller: none is plugged in");
     auto& model = window.model();
-    EXPECT_TRUE(model.trouble().contains("Its two motors follow all hits")) << model.trouble();
-    ASSERT_EQ(model.messages().shown().act.name, "Use it once it is there");
+    EXPECT_TRUE(model.messageText().contains("Its two motors follow all hits")) << model.messageText();
+    ASSERT_EQ(model.messages().current().action.name, "Use it once it is there");
     EXPECT_TRUE(model.device().choice().sinks.empty());
-    model.messages().shown().act.run();
+    model.messages().current().action.run();
     ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
     ASSERT_TRUE(runUntil([&] {
         return the(window.view(), "Board state").getDescription().contains("No controller");

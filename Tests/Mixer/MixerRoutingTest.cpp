@@ -14,7 +14,7 @@ using namespace test;
 
 /// A model of four strips on eight outputs, in a world that stands still.
 struct RoutedModel {
-    explicit RoutedModel(Mix mix = MixerModel::firstMix())
+    explicit RoutedModel(Mix mix = MixerModel::defaultMix())
         : model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}, std::move(mix), {.isPaused = true}} {
         for (int k = 0; k < 50; ++k) hands.play(64);
     }
@@ -27,7 +27,7 @@ struct RoutedModel {
             for (std::size_t o = 0; o < block.size(); ++o)
                 for (const float x : block[o]) peaks[o] = std::max(peaks[o], std::abs(x));
         };
-        model.strikes().testPulse(strip);
+        model.eventPlayer().testPulse(strip);
         EXPECT_TRUE(runUntil([&] { return hear(), model.session().status().render.played > played; }));
         for (int k = 0; k < 60; ++k) hear();
         for (int k = 0; k < 400; ++k) hands.play(64); // it rings out
@@ -39,7 +39,7 @@ struct RoutedModel {
         return static_cast<int>(loudest - peaks.begin());
     }
     void give(std::size_t strip, int output) { // as the strip's list does
-        model.change("Output", [&](Mix& mix) { giveOutput(mix.strips, strip, output); });
+        model.change("Output", [&](Mix& mix) { assignOutput(mix.strips, strip, output); });
     }
     void expectAsShown(const std::string& after) {
         for (int j = 0; j < model.mix().count(); ++j) {
@@ -79,7 +79,7 @@ TEST_F(RoutedOutputs, EveryStripsTestOnEveryOutputIsHeardWhereTheStripSays) {
             ASSERT_EQ(model.mix().strips[j].output, output);
             expectAsShown("strip " + std::to_string(j) + " to output " + std::to_string(output));
         }
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(RoutedOutputs, AnOutputThatAnotherHasIsExchanged) {
@@ -97,43 +97,43 @@ TEST_F(RoutedOutputs, AnOutputThatAnotherHasIsExchanged) {
     give(2, 3);
     EXPECT_EQ(outputs(), (std::vector{2, 1, 3, -1})) << "who had none gives none";
     expectAsShown("taken");
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(RoutedOutputs, ARefusedOutputIsNeitherShownNorSaved) {
     ListeningSettings ofStudy;
     ofStudy.noise = {noise = 6};
-    ASSERT_EQ(model.device().listening().hear(ofStudy), "");
+    ASSERT_EQ(model.device().listening().beginStudy(ofStudy), "");
     give(0, 6);
-    EXPECT_TRUE(model.trouble().contains("output 7")) << model.trouble();
+    EXPECT_TRUE(model.messageText().contains("output 7")) << model.messageText();
     EXPECT_EQ(outputs(), (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(model.saved().mix->strips[0].output, 0);
+    EXPECT_EQ(model.savedSession().mix->strips[0].output, 0);
     EXPECT_FALSE(model.undoManager().canUndo()) << "nothing to take back";
-    EXPECT_EQ(model.edits(), 0U) << "nothing to save";
+    EXPECT_EQ(model.editCount(), 0U) << "nothing to save";
     expectAsShown("refused");
     model.change("Output and level", [](Mix& mix) {
-        giveOutput(mix.strips, 0, 6);
+        assignOutput(mix.strips, 0, 6);
         mix.levelDb = -30.0;
     });
     EXPECT_EQ(model.undoManager().getUndoDescription(), "Output and level") << "half of it was done";
     EXPECT_EQ(model.mix().levelDb, -30.0);
-    ASSERT_EQ(model.device().listening().hear({}), ""); // the study ends
+    ASSERT_EQ(model.device().listening().beginStudy({}), ""); // the study ends
     give(0, 6);
     EXPECT_EQ(outputs(), (std::vector{6, 1, 2, 3}));
     model.undoManager().undo();
-    ASSERT_EQ(model.device().listening().hear(ofStudy), "");
+    ASSERT_EQ(model.device().listening().beginStudy(ofStudy), "");
     model.undoManager().redo();
     EXPECT_TRUE(model.undoManager().canUndo()) << "a redo that is refused forgets no step";
 }
 
 TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     RoutedModel first;
-    const auto session = opened(first.model.saved(), {0, 0, 2, 2});
+    const auto session = opened(first.model.savedSession(), {0, 0, 2, 2});
     RoutedModel routed{mixOf(session)};
-    EXPECT_TRUE(routed.model.look().device.isRunning);
+    EXPECT_TRUE(routed.model.poll().device.isRunning);
     EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 2, -1}));
     routed.expectAsShown("opened");
-    EXPECT_EQ(routed.model.trouble(), "B, D have no outputs: other actuators have them");
+    EXPECT_EQ(routed.model.messageText(), "B, D have no outputs: other actuators have them");
     MixerView view{routed.model};
     auto& button = the<juce::Button>(view, "Give free outputs");
     EXPECT_TRUE(button.isVisible());
@@ -141,16 +141,17 @@ TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
     routed.expectAsShown("healed");
     routed.model.dispatchPendingMessages();
-    EXPECT_EQ(routed.model.trouble(), "");
+    EXPECT_EQ(routed.model.messageText(), "");
     EXPECT_FALSE(button.isVisible());
 }
 
 TEST(MixerRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     setOutputs(mix, {0, 0, 2, 2});
     FakeInterface hands;
-    MixerModel model{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {4}, .marker = 1}, mix};
-    const auto heal = model.messages().shown().act.run;
+    MixerModel model{
+        fakeDrivers({&hands}), {.name = "Fake:hands", .monitorOutputs = {4}, .markerOutput = 1}, mix};
+    const auto heal = model.messages().current().action.run;
     ASSERT_TRUE(heal);
     heal();
     EXPECT_EQ(model.mix().strips[1].output, 3);
@@ -158,22 +159,22 @@ TEST(MixerRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
 }
 
 TEST(MixerRouting, WhereNoOutputIsFreeItSaysSo) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     setOutputs(mix, {0, 0, 1, 1});
     FakeInterface two;
     two.outputs = 2;
     MixerModel model{fakeDrivers({&two}), {"Fake:hands", 0, 0}, mix};
-    const auto heal = model.messages().shown().act.run;
+    const auto heal = model.messages().current().action.run;
     ASSERT_TRUE(heal);
     heal();
-    EXPECT_EQ(model.trouble(), "The device has no other free output");
+    EXPECT_EQ(model.messageText(), "The device has no other free output");
 }
 
 TEST(MixerRouting, NewActuatorsAreNoLouderThanTheQuietest) {
     MixerModel model{onlyNoDevice(), noDevice};
     model.change("Gains", [](Mix& mix) {
         mix.strips[1].gainDb = -30.0;
-        mix.strips[2].gainDb = leastStripDb; // silence is no level
+        mix.strips[2].gainDb = minStripDb; // silence is no level
     });
     model.change("Preset", [](Mix& mix) { setLayout(mix, "vest16"); });
     ASSERT_TRUE(model.attach(0.5, 0.5));
@@ -184,7 +185,7 @@ TEST(MixerRouting, NewActuatorsAreNoLouderThanTheQuietest) {
 TEST(MixerRouting, FortyRandomRoutingsAreSavedAndOpened) {
     SeededRandom random{59};
     RoutedModel first;
-    const SavedSession saved = first.model.saved();
+    const SavedSession saved = first.model.savedSession();
     for (int k = 0; k < 40; ++k) {
         std::vector<int> wanted(4);
         for (int& output : wanted) output = static_cast<int>(random.below(10)) - 1; // none, or one of nine
@@ -195,12 +196,12 @@ TEST(MixerRouting, FortyRandomRoutingsAreSavedAndOpened) {
                 wanted.begin() + static_cast<std::ptrdiff_t>(j))
                 expected[j] = -1;
         ASSERT_EQ(routed.outputs(), expected) << k;
-        const auto told = routed.model.trouble();
+        const auto told = routed.model.messageText();
         ASSERT_EQ(told.contains(" no output: another") || told.contains(" no outputs: other"),
                   expected != wanted)
             << k << told;
-        ASSERT_TRUE(routed.model.look().device.isRunning) << k;
-        const auto again = readSession(sessionJson(routed.model.saved()), "session");
+        ASSERT_TRUE(routed.model.poll().device.isRunning) << k;
+        const auto again = readSession(sessionJson(routed.model.savedSession()), "session");
         ASSERT_TRUE(again) << again.error;
         ASSERT_EQ(mixOf(again.value).strips, routed.model.mix().strips) << k;
         if (k % 10 == 0) routed.expectAsShown("routing " + std::to_string(k));
@@ -217,46 +218,46 @@ juce::String shownOutput(MixerView& view, MixerModel& model, const juce::String&
 
 TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     RoutedModel routed{[] {
-        Mix mix = MixerModel::firstMix();
+        Mix mix = MixerModel::defaultMix();
         setLayout(mix, "phone2");
         return mix;
     }()};
     MixerModel& model = routed.model;
     MixerView view{model};
-    ASSERT_EQ(useHeadphones(model, {"Fake:hands", 0, 0}), "");
+    ASSERT_EQ(openHeadphones(model, {"Fake:hands", 0, 0}), "");
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1}));
     EXPECT_EQ(shownOutput(view, model, "A"), "L");
     EXPECT_EQ(shownOutput(view, model, "B"), "R");
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
     ASSERT_TRUE(model.attach(0.5, 0.5));
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1})) << "though the device has eight";
-    EXPECT_EQ(model.trouble(), "C has no output: headphones have two, L and R");
+    EXPECT_EQ(model.messageText(), "C has no output: headphones have two, L and R");
     EXPECT_EQ(shownOutput(view, model, "C"), "none");
     CollisionEvent hit;
     hit.amplitude = 1.0, hit.frequencyHz = 200.0, hit.decayPerSecond = 30.0;
     hit.x = 0.5 * model.world().scene().fieldWidthMetres,
     hit.y = 0.5 * model.world().scene().fieldHeightMetres;
-    EXPECT_NE(strongestOf(model, hit).enchanter, 2) << "nothing of it is felt";
-    EXPECT_EQ(whyOnlySeen(model, hit), "C has no output");
+    EXPECT_NE(strongestActuatorFor(model, hit).actuator, 2) << "nothing of it is felt";
+    EXPECT_EQ(reasonNotPlayed(model, hit), "C has no output");
     hit.x *= 0.5; // between A and C
-    EXPECT_GT(strongestOf(model, hit).levelG, 0.0);
+    EXPECT_GT(strongestActuatorFor(model, hit).levelG, 0.0);
     model.change("Mute", [](Mix& mix) { mix.strips[0].isMuted = true; });
-    EXPECT_EQ(strongestOf(model, hit).levelG, 0.0) << "who is muted plays nothing";
+    EXPECT_EQ(strongestActuatorFor(model, hit).levelG, 0.0) << "who is muted plays nothing";
     CollisionEvent atA = hit;
     atA.x = 0.0;
-    EXPECT_EQ(whyOnlySeen(model, atA), "A is muted");
+    EXPECT_EQ(reasonNotPlayed(model, atA), "A is muted");
     model.undoManager().undo();
     model.change("Solo", [](Mix& mix) { mix.strips[1].isSolo = true; });
-    EXPECT_EQ(whyOnlySeen(model, atA), "A is not soloed");
+    EXPECT_EQ(reasonNotPlayed(model, atA), "A is not soloed");
     model.undoManager().undo();
-    model.strikes().testPulse(2);
-    EXPECT_FALSE(runUntil([&] { return model.look().meters.peaks[2] > 0.0f; }, 0.5));
+    model.eventPlayer().testPulse(2);
+    EXPECT_FALSE(runUntil([&] { return model.poll().meters.peaks[2] > 0.0f; }, 0.5));
     routed.expectAsShown("attached");
     model.report({});
     model.change("Preset", [](Mix& mix) { setLayout(mix, "phone4"); });
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
     EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1, -1, -1}));
-    EXPECT_EQ(model.trouble(), "D has no output: headphones have two, L and R");
+    EXPECT_EQ(model.messageText(), "D has no output: headphones have two, L and R");
     routed.give(2, 4); // whoever asks for it gets it
     EXPECT_EQ(shownOutput(view, model, "C"), "out 5");
     routed.expectAsShown("asked for");
@@ -269,12 +270,12 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
 
 TEST_F(RoutedOutputs, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
     model.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
-    ASSERT_EQ(useHeadphones(model, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
+    ASSERT_EQ(openHeadphones(model, {.name = "Fake:hands", .monitorOutputs = {4, 5}, .markerOutput = 1}), "");
     EXPECT_EQ(outputs(), (std::vector{0, 1, -1, -1}));
-    EXPECT_EQ(model.trouble(), "C, D have no output: headphones have two, L and R");
-    EXPECT_EQ(model.mix().levelDb, safeContactDb);
-    EXPECT_TRUE(model.device().choice().monitor.empty()) << "A and B are heard in its place";
-    EXPECT_EQ(model.device().choice().marker, -1);
+    EXPECT_EQ(model.messageText(), "C, D have no output: headphones have two, L and R");
+    EXPECT_EQ(model.mix().levelDb, defaultContactDb);
+    EXPECT_TRUE(model.device().choice().monitorOutputs.empty()) << "A and B are heard in its place";
+    EXPECT_EQ(model.device().choice().markerOutput, -1);
     expectAsShown("headphones");
 }
 
@@ -284,18 +285,18 @@ TEST(Headphones, ThatAreGoneAreHeardByNobodyAndWhoHasNoEarStaysStruckOut) {
     MixerView view{model};
     view.setSize(1024, 700);
     view.tabs().choose("Output");
-    const auto& facts = the<FactList>(view, "What follows from it");
-    ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
+    const auto& facts = the<StatusTable>(view, "What follows from it");
+    ASSERT_EQ(openHeadphones(model, model.device().choice()), "");
     const auto heard = [&] {
         view.refresh();
-        for (const auto& fact : facts.facts())
+        for (const auto& fact : facts.rows())
             if (fact.name == "Heard") return fact.value;
         return juce::String{};
     };
     EXPECT_EQ(heard(), "left: A, right: B");
     EXPECT_GE(facts.getHeight(), facts.heightFor(facts.getWidth())) << "no row is cut";
     hands.unplug(true);
-    ASSERT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    ASSERT_TRUE(runUntil([&] { return model.poll(), model.messageText().contains("has stopped"); }));
     EXPECT_EQ(heard(), "by nobody: the device is not there");
     for (const auto& cut : readTexts(*find(view, "Transport and device")).cut) ADD_FAILURE() << cut.words;
     EXPECT_TRUE(model.device().isPlayed(1));
@@ -307,16 +308,16 @@ TEST_F(RoutedOutputs, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {
     give(3, -1);
     const auto before = outputs();
     DeviceChoice choice = model.device().choice();
-    ASSERT_EQ(useHeadphones(model, choice), "");
-    ASSERT_EQ(useHeadphones(model, model.device().choice()), "") << "again";
+    ASSERT_EQ(openHeadphones(model, choice), "");
+    ASSERT_EQ(openHeadphones(model, model.device().choice()), "") << "again";
     EXPECT_EQ(outputs(), (std::vector{0, 1, -1, -1}));
-    EXPECT_TRUE(model.trouble().contains("headphones have two"));
+    EXPECT_TRUE(model.messageText().contains("headphones have two"));
     ASSERT_EQ(model.open(choice), "");
     EXPECT_EQ(outputs(), before);
-    EXPECT_EQ(model.trouble(), "") << "no headphones are there";
-    EXPECT_EQ(model.mix().levelDb, safeContactDb) << "nothing is louder by itself";
+    EXPECT_EQ(model.messageText(), "") << "no headphones are there";
+    EXPECT_EQ(model.mix().levelDb, defaultContactDb) << "nothing is louder by itself";
     expectAsShown("back");
-    ASSERT_EQ(useHeadphones(model, choice), "");
+    ASSERT_EQ(openHeadphones(model, choice), "");
     give(2, 7); // a choice meanwhile stays
     ASSERT_EQ(model.open(choice), "");
     EXPECT_EQ(outputs(), (std::vector{5, 1, 7, -1}));
@@ -324,10 +325,11 @@ TEST_F(RoutedOutputs, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {
 
 TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     FakeInterface hands;
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     setLayout(mix, "phone2");
     setOutputs(mix, {2, 3});
-    MixerModel model{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {0, 1}, .marker = 4}, mix};
+    MixerModel model{
+        fakeDrivers({&hands}), {.name = "Fake:hands", .monitorOutputs = {0, 1}, .markerOutput = 4}, mix};
     MixerView view{model};
     ASSERT_TRUE(model.attach(0.5, 0.5));
     EXPECT_EQ(model.mix().strips[2].output, 5);
@@ -352,10 +354,10 @@ TEST_F(RoutedOutputs, WhatIsChosenInAListIsWhatPlays) {
     view.tabs().choose("Output");
     view.refresh();
     chooseIn(view, "Marks", "output 6");
-    EXPECT_EQ(model.device().choice().marker, 5);
+    EXPECT_EQ(model.device().choice().markerOutput, 5);
     chooseIn(view, "Marks", "none");
-    EXPECT_EQ(model.device().choice().marker, -1);
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.device().choice().markerOutput, -1);
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
@@ -373,7 +375,7 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
         EXPECT_TRUE(facts.contains(words)) << facts;
     };
     says("Actuators: 4 of 4 have an output there");
-    ASSERT_EQ(model.monitorInstead({0, 1}, -20.0), "");
+    ASSERT_EQ(model.moveOutputsToMonitor({0, 1}, -20.0), "");
     EXPECT_EQ(monitor(), "1 and 2");
     says("Actuators: 2 of 4 have an output there");
     says("Heard: left on 1, right on 2");
@@ -382,7 +384,7 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     says("Heard: not there: an actuator, or no output");
     model.undoManager().redo();
     EXPECT_EQ(monitor(), "1 and 2");
-    ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
+    ASSERT_EQ(openHeadphones(model, model.device().choice()), "");
     EXPECT_EQ(monitor(), "none");
     says("Heard: left: A, right: B");
     model.change("None", [](Mix& mix) { mix.strips[1].output = -1; });
@@ -406,7 +408,7 @@ TEST(MixerRouting, WithoutADeviceNoOutputIsMissedAndNoneIsSaidToBeThere) {
 
 TEST(Headphones, AreInTheListAgainAfterNoDevice) {
     FakeInterface hands;
-    MixerModel model{withNoDevice(fakeDrivers({&hands})), {"Fake:hands", 0, 0}};
+    MixerModel model{withNullDevice(fakeDrivers({&hands})), {"Fake:hands", 0, 0}};
     MixerView view{model};
     view.tabs().choose("Output");
     auto& list = the<juce::ComboBox>(view, "Device");
@@ -433,16 +435,16 @@ TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     MixerView view{model};
-    for (int j = 0; j < 4; ++j) EXPECT_TRUE(model.output().isPlaced(j)) << j;
+    for (int j = 0; j < 4; ++j) EXPECT_TRUE(model.output().hasOutput(j)) << j;
     EXPECT_EQ(shownOutput(view, model, "D"), "out 4");
     hands.outputs = 3;
     hands.unplug(true);
-    ASSERT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    ASSERT_TRUE(runUntil([&] { return model.poll(), model.messageText().contains("has stopped"); }));
     EXPECT_EQ(shownOutput(view, model, "A"), "out 1 (not there)");
     hands.isPlugged = true;
-    ASSERT_TRUE(runUntil([&] { return model.look(), model.output().isPlaced(0); }));
-    EXPECT_FALSE(model.output().isPlaced(3));
-    EXPECT_EQ(model.trouble(), "Fake:hands: 1 of 4 actuators have no output there") << "and no more";
+    ASSERT_TRUE(runUntil([&] { return model.poll(), model.output().hasOutput(0); }));
+    EXPECT_FALSE(model.output().hasOutput(3));
+    EXPECT_EQ(model.messageText(), "Fake:hands: 1 of 4 actuators have no output there") << "and no more";
     EXPECT_EQ(shownOutput(view, model, "A"), "out 1");
     EXPECT_EQ(shownOutput(view, model, "D"), "out 4 (not there)");
 }

@@ -19,7 +19,7 @@ inline const bool isProgram = (
         [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); },
     true);
 
-inline const DeviceChoice noDevice{std::string{noDeviceType} + ":" + noDeviceName, 48000, 128};
+inline const DeviceChoice noDevice{std::string{nullDeviceType} + ":" + nullDeviceName, 48000, 128};
 
 /// A folder that is gone afterwards.
 struct TestFolder {

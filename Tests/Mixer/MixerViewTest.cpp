@@ -93,15 +93,15 @@ TEST_F(ShownMixer, AnotherTabDoesNotFoldTheDrawerOnTheWay) {
 TEST_F(ShownMixer, WhatComesLaterHasARingAsWell) {
     setScene(model, *findBuiltInScene("marbles"));
     model.dispatchPendingMessages();
-    view.world().drawing().use(DrawTool::choose);
-    view.world().drawing().choose({model.world().drawing().drawn().bodies.back().name});
+    view.world().drawing().setTool(DrawTool::select);
+    view.world().drawing().select({model.world().drawing().drawn().bodies.back().name});
     auto& palette = the(view, "Materials to draw with");
     EXPECT_GT(palette.getNumChildComponents(), 1) << "materials of the new scene";
     expectRings(view.world());
-    view.world().drawing().use(DrawTool::hand);
+    view.world().drawing().setTool(DrawTool::hand);
     model.script().start();
     ASSERT_TRUE(runUntil([&] { return view.refresh(), model.script().seconds() > 0.0; }));
-    ASSERT_EQ(model.world().act(TiltAction{0.3}), "");
+    ASSERT_EQ(model.world().apply(TiltAction{0.3}), "");
     expectRings(view.world());
     model.script().stop();
     model.dispatchPendingMessages();
@@ -149,13 +149,13 @@ TEST_F(ShownMixer, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 f
                                                        // drawn
     for (const auto theme : {Theme::dark, Theme::light}) {
         view.setTheme(theme);
-        for (const auto on : {Shade::panel, Shade::ground, Shade::well, Shade::raised})
-            for (const auto what : {Shade::text, Shade::muted, Shade::now, Shade::limit, Shade::accent})
+        for (const auto on : {Shade::panel, Shade::background, Shade::well, Shade::raised})
+            for (const auto what : {Shade::text, Shade::muted, Shade::highlight, Shade::limit, Shade::accent})
                 EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5)
                     << static_cast<int>(what) << " on " << static_cast<int>(on)
                     << (theme == Theme::dark ? " dark" : " light");
         for (int j = 0; j < 64; ++j)
-            EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
+            EXPECT_GE(contrast(actuatorColour(view, j), shade(view, Shade::panel)), 3.0) << j;
     }
 }
 
@@ -259,11 +259,11 @@ TEST_F(ShownMixer, WhatIsSilentStandsStill) {
         const auto& moment = view.latest();
         return moment.masterPeak == 0.0f &&
                std::ranges::all_of(moment.meters.peaks, [](float p) { return p == 0.0f; }) &&
-               std::ranges::all_of(moment.holds, [](float p) { return p == 0.0f; });
+               std::ranges::all_of(moment.heldPeaks, [](float p) { return p == 0.0f; });
     };
-    const auto played = model.look().session.render.played;
+    const auto played = model.poll().session.render.played;
     EXPECT_TRUE(isStill()) << "at once";
-    EXPECT_TRUE(runUntil([&] { return model.look().session.render.played > played + 5; }));
+    EXPECT_TRUE(runUntil([&] { return model.poll().session.render.played > played + 5; }));
     EXPECT_TRUE(isStill()) << "though the world goes on";
     model.setSilent(false);
     EXPECT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
@@ -286,17 +286,17 @@ TEST_F(ShownMixer, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_FALSE(label.isVisible());
     model.messages().add({"three", false, {"Heal", [] {}}});
     model.report("four");
-    EXPECT_EQ(model.trouble(), "four");
+    EXPECT_EQ(model.messageText(), "four");
     model.report({});
-    EXPECT_EQ(model.trouble(), "three") << "nobody has acted on it yet";
+    EXPECT_EQ(model.messageText(), "three") << "nobody has acted on it yet";
     model.report("five"); // "three" still waits for its button
     model.report({});
     model.report({});
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(ShownMixer, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
-    view.faultMs = 100.0;
+    view.errorShownMs = 100.0;
     const auto move = [&] {
         const auto source = juce::Desktop::getInstance().getMainMouseSource();
         const auto now = juce::Time::getCurrentTime();
@@ -307,13 +307,13 @@ TEST_F(ShownMixer, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
         show();
         runFor(0.3);
         view.refresh();
-        return model.trouble();
+        return model.messageText();
     };
     model.report("a past fault");
     EXPECT_EQ(shown(), "a past fault") << "nobody has seen it";
     move();
     EXPECT_EQ(shown(), "");
-    model.messages().show({"a joint holds a body", false, {"Pause", [] {}}, triedLabel});
+    model.messages().show({"a joint holds a body", false, {"Pause", [] {}}, attemptLabel});
     EXPECT_EQ(shown(), "a joint holds a body") << "a mouse that moved before has not seen it";
     move();
     EXPECT_EQ(shown(), "");
@@ -323,7 +323,7 @@ TEST_F(ShownMixer, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
     EXPECT_EQ(shown(), "the device is gone") << "it still is";
     model.messages().withdraw("device");
     model.change("None", [](Mix& mix) { mix.strips[2].output = -1; });
-    reportWithout(model, {2});
+    reportNoOutput(model, {2});
     EXPECT_EQ(shown(), "C has no output: another actuator has it");
     model.change("An output", [](Mix& mix) { mix.strips[2].output = 2; });
     EXPECT_EQ(shown(), "") << "it has one";
@@ -332,21 +332,21 @@ TEST_F(ShownMixer, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
 TEST(MixerView, WhatWasLostIsToldUntilItHasBeenFineForSomeSeconds) {
     MixerModel model{onlyNoDevice(), noDevice};
     TopBar bar{model}; // a window's own would be told of other moments by its timer
-    bar.setPlay(true);
+    bar.setPlayMode(true);
     bar.setSize(760, 60);
-    MixerMoment moment;
+    MixerSnapshot moment;
     const auto isTold = [&] {
         for (int k = 0; k < 12; ++k) bar.refresh(moment);
         return the(bar, "Load").isVisible();
     };
     EXPECT_FALSE(isTold());
-    moment.session.render.untold = 1499;
+    moment.session.render.unsent = 1499;
     EXPECT_TRUE(isTold());
     runFor(1.0);
     EXPECT_TRUE(isTold());
     runFor(4.5);
     EXPECT_FALSE(isTold());
-    ++moment.session.render.untold;
+    ++moment.session.render.unsent;
     EXPECT_TRUE(isTold());
 }
 
@@ -372,7 +372,7 @@ TEST_F(ShownMixer, AMessageOfManyWordsHasRoomForThemBesideALongButton) {
     const auto& banner = the<juce::Label>(view, "Trouble");
     const auto room = banner.getBorderSize().subtractedFrom(banner.getLocalBounds());
     EXPECT_GE(room.getWidth(), 200) << banner.getBounds().toString() << view.world().getBounds().toString();
-    EXPECT_GE(room.getHeight(), text::high(banner.getFont(), banner.getText(), room.getWidth()));
+    EXPECT_GE(room.getHeight(), text::heightInLines(banner.getFont(), banner.getText(), room.getWidth()));
     for (const char* name : {"Choose Model or sound instead", "Dismiss the message"})
         EXPECT_FALSE(the(view, name).getBounds().intersects(room + banner.getPosition())) << name;
     EXPECT_TRUE(view.world().getBounds().contains(banner.getBounds()));
@@ -383,17 +383,17 @@ TEST(MixerView, AMessageIsFoundByItsLabel) {
     auto& messages = model.messages();
     messages.show({"the device is gone", false, {}, "device"});
     messages.show({"the board is gone", false, {}, "board"});
-    EXPECT_EQ(model.trouble(), "the board is gone");
+    EXPECT_EQ(model.messageText(), "the board is gone");
     messages.show({"the board answers slowly", false, {}, "board"}); // of a label there is one
     messages.add({"the device is gone: searched for", false, {}, "device"});
     messages.withdraw("board");
-    EXPECT_EQ(model.trouble(), "the device is gone: searched for") << "in place of what waited";
+    EXPECT_EQ(model.messageText(), "the device is gone: searched for") << "in place of what waited";
     messages.add({"saved", true});
     messages.withdraw("board");
-    EXPECT_EQ(model.trouble(), "the device is gone: searched for");
+    EXPECT_EQ(model.messageText(), "the device is gone: searched for");
     messages.withdraw("device");
-    EXPECT_EQ(model.trouble(), "saved");
-    EXPECT_EQ(model.device().trouble(), "") << "whatever is shown";
+    EXPECT_EQ(model.messageText(), "saved");
+    EXPECT_EQ(model.device().error(), "") << "whatever is shown";
 }
 
 TEST(MixerView, AnOfferStaysUntilItIsAnsweredDismissedOrWithdrawn) {
@@ -402,18 +402,18 @@ TEST(MixerView, AnOfferStaysUntilItIsAnsweredDismissedOrWithdrawn) {
     messages.show({"an offer", true, {"Take it", [] {}}, "offer"});
     messages.show({"written", true, {"Show", [] {}}, savedLabel});
     messages.show({"a fault"});
-    EXPECT_EQ(model.trouble(), "a fault");
+    EXPECT_EQ(model.messageText(), "a fault");
     model.report({});
-    EXPECT_EQ(model.trouble(), "an offer") << "what was written does not last";
+    EXPECT_EQ(model.messageText(), "an offer") << "what was written does not last";
     messages.show({"a later fault"});
     messages.withdraw("offer");
     model.report({});
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(ShownMixer, NothingCoversTheButtonThatSilencesInAShow) {
     view.setVisible(true);
-    view.setShow(true);
+    view.setShowMode(true);
     model.messages().add(
         {juce::String::repeatedString("a long message ", 30), false, {"Do it", [] {}}, "long"});
     model.dispatchPendingMessages();
@@ -445,14 +445,14 @@ TEST_F(ShownMixer, NothingCoversTheButtonThatSilencesInAShow) {
 
 TEST_F(ShownMixer, NoToolIsChosenWhereNoneIsShown) {
     auto& pane = view.world().drawing();
-    view.setShow(true);
+    view.setShowMode(true);
     view.keyPressed(KeyPress{'B', {}, 'b'});
     EXPECT_EQ(pane.tool(), DrawTool::hand);
     view.keyPressed(KeyPress{'G', {}, 'g'});
-    EXPECT_FALSE(pane.snaps());
-    pane.use(DrawTool::ball); // as a new scene does
+    EXPECT_FALSE(pane.isSnapping());
+    pane.setTool(DrawTool::ball); // as a new scene does
     EXPECT_EQ(pane.tool(), DrawTool::hand);
-    view.setShow(false);
+    view.setShowMode(false);
     view.keyPressed(KeyPress{'B', {}, 'b'});
     EXPECT_EQ(pane.tool(), DrawTool::ball);
 }
@@ -478,7 +478,7 @@ TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; it
     MixerView view{model};
     model.dispatchPendingMessages();
     model.change("Fewer", [](Mix& mix) {
-        mix.layout = presetLayout("phone2", mix.layout.enchanters);
+        mix.layout = presetLayout("phone2", mix.layout.actuators);
         mix.resizeStrips();
         mix.groups.clear();
     });
@@ -521,21 +521,22 @@ TEST_F(ShownMixer, ADragPushesByItsStrengthWhateverItPulls) {
     strength.setValue(8'000.0, juce::sendNotificationSync);
     model.dispatchPendingMessages();
     auto& world = view.world().view();
-    EXPECT_EQ(world.pullText(0.02), "drag 0.16 " + juce::String::fromUTF8("kN\xc2\xb7s"));
-    world.onPull("large rubber ball", {0.02, 0.0}, {});
-    const auto& inputs = model.saved().log.takes.back().inputs;
+    EXPECT_EQ(world.flingText(0.02), "drag 0.16 " + juce::String::fromUTF8("kN\xc2\xb7s"));
+    world.onFling("large rubber ball", {0.02, 0.0}, {});
+    const auto& inputs = model.savedSession().log.runs.back().inputs;
     ASSERT_EQ(inputs.size(), 1u);
-    EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds, (Vector{160.0, 0.0}));
-    world.onPull("small rubber ball", {0.0, 0.5}, {});
-    EXPECT_EQ(std::get<ImpulseAction>(model.saved().log.takes.back().inputs[1].action).newtonSeconds,
-              (Vector{0.0, 4000.0}));
+    EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).impulseNewtonSeconds, (Vector{160.0, 0.0}));
+    world.onFling("small rubber ball", {0.0, 0.5}, {});
+    EXPECT_EQ(
+        std::get<ImpulseAction>(model.savedSession().log.runs.back().inputs[1].action).impulseNewtonSeconds,
+        (Vector{0.0, 4000.0}));
     model.undoManager().undo();
     model.dispatchPendingMessages();
     EXPECT_EQ(strength.getValue(), 32'000.0);
 }
 
 TEST_F(ShownMixer, AStripIsTestedAndSweptByButtonAndByKey) {
-    const auto strikes = [&] { return model.saved().log.strikes.size(); };
+    const auto strikes = [&] { return model.savedSession().log.strikes.size(); };
     auto *strip = find(view, "Strip C"), *sweep = find(view, "Sweep on C");
     ASSERT_TRUE(strip != nullptr && sweep != nullptr);
     ASSERT_TRUE(strip->keyPressed(KeyPress{'t'}));
@@ -544,11 +545,11 @@ TEST_F(ShownMixer, AStripIsTestedAndSweptByButtonAndByKey) {
     EXPECT_EQ(strikes(), 41u);
     dynamic_cast<juce::Button&>(*sweep).onClick();
     EXPECT_EQ(strikes(), 81u);
-    EXPECT_NEAR(model.saved().log.strikes.back().frequencyHz, 400.0, 1e-6);
+    EXPECT_NEAR(model.savedSession().log.strikes.back().frequencyHz, 400.0, 1e-6);
 }
 
 TEST(MixerView, APresetIsKnownByItsPlaces) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     mix.layout.name = "own"; // as a session that `physvib play` saved
     MixerModel model{onlyNoDevice(), noDevice, mix};
     MixerView view{model};

@@ -6,7 +6,7 @@
 namespace physvib::test {
 
 inline AudioDrivers onlyNoDevice() {
-    return withNoDevice([] { return std::vector<std::unique_ptr<AudioDriver>>{}; });
+    return withNullDevice([] { return std::vector<std::unique_ptr<AudioDriver>>{}; });
 }
 
 } // namespace physvib::test

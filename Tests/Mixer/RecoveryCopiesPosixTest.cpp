@@ -51,13 +51,13 @@ private:
 class RecoveryCopiesTest : public FolderTest {
 protected:
     fs::path copy(const std::string& name) const { return folder / ("recovery-" + name + ".json"); }
-    std::size_t copies() const { return RecoveryCopies(folder).leftBehind().size(); }
+    std::size_t copies() const { return RecoveryCopies(folder).abandonedCopies().size(); }
     /// A run that keeps a copy, or forgets it again, and goes on.
     auto keeping(bool forgets) const {
         return [this, forgets](auto ready) {
             RecoveryCopies mine(folder);
-            EXPECT_EQ(mine.keep("{}"), "");
-            if (forgets) mine.forget(); // its lock stays
+            EXPECT_EQ(mine.write("{}"), "");
+            if (forgets) mine.discardOwn(); // its lock stays
             ready();
             pause();
         };
@@ -87,29 +87,29 @@ TEST_F(RecoveryCopiesTest, ANumberOfALivingProcessIsJustAName) {
 TEST_F(RecoveryCopiesTest, WhatIsGoneOnFromStaysWhileTheDiskIsFull) {
     put(copy("before"), "{\"whole\": 1}");
     RecoveryCopies mine(folder);
-    mine.goOnFrom(copy("before"));
+    mine.adopt(copy("before"));
     {
         const FileSizeLimit full{4};
-        EXPECT_NE(mine.keep("{\"whole\": 2}"), "");
+        EXPECT_NE(mine.write("{\"whole\": 2}"), "");
     }
     EXPECT_EQ(contentOf(copy("before")), "{\"whole\": 1}");
-    EXPECT_TRUE(mine.leftBehind().empty()) << "this run has it already";
-    EXPECT_EQ(mine.keep("{\"whole\": 2}"), "");
+    EXPECT_TRUE(mine.abandonedCopies().empty()) << "this run has it already";
+    EXPECT_EQ(mine.write("{\"whole\": 2}"), "");
     EXPECT_FALSE(fs::exists(copy("before")));
-    mine.forget();
+    mine.discardOwn();
     EXPECT_EQ(copies(), 0u);
 }
 
 TEST_F(RecoveryCopiesTest, OfTwoThousandOneIsGoneOnFromAndTheOthersStay) {
     for (int k = 0; k < 2000; ++k) put(copy(std::to_string(k)), "{}");
     RecoveryCopies mine(folder);
-    const auto found = mine.leftBehind();
+    const auto found = mine.abandonedCopies();
     ASSERT_EQ(found.size(), 2000u);
     for (std::size_t k = 1; k < found.size(); ++k)
         EXPECT_GE(fs::last_write_time(found[k - 1]), fs::last_write_time(found[k]));
-    mine.goOnFrom(found.front());
-    EXPECT_EQ(mine.keep("{}"), "");
-    EXPECT_EQ(mine.leftBehind().size(), 1999u);
+    mine.adopt(found.front());
+    EXPECT_EQ(mine.write("{}"), "");
+    EXPECT_EQ(mine.abandonedCopies().size(), 1999u);
 }
 
 TEST_F(RecoveryCopiesTest, WhatIsNoWholeCopyIsToldAndStays) {
@@ -118,7 +118,7 @@ TEST_F(RecoveryCopiesTest, WhatIsNoWholeCopyIsToldAndStays) {
     put(copy("cut"), "{\"physvib_session\": 8, \"takes\": [");
     fs::create_directory(copy("folder"));
     fs::create_symlink("/dev/zero", copy("link"));
-    for (const auto& each : RecoveryCopies(folder).leftBehind()) {
+    for (const auto& each : RecoveryCopies(folder).abandonedCopies()) {
         const auto session = RecoveryCopies::read(each);
         EXPECT_FALSE(session);
         EXPECT_TRUE(session.error.starts_with(each.string() + ": ")) << session.error;
@@ -142,17 +142,17 @@ void keepCopies(const fs::path& folder, unsigned seed, int run) {
     std::mt19937 random(seed);
     RecoveryCopies mine(folder);
     std::string names = "run" + std::to_string(run) + " ";
-    if (const auto found = mine.leftBehind(); !found.empty() && random() % 3 != 0) {
+    if (const auto found = mine.abandonedCopies(); !found.empty() && random() % 3 != 0) {
         const auto& from = found[random() % found.size()];
         const std::string text = contentOf(from);
         if (!text.ends_with("whole")) return;
         names += text.substr(0, text.find('\n')); // all that it holds is held on
-        mine.goOnFrom(from);
+        mine.adopt(from);
     }
     for (;;) {
         std::optional<FileSizeLimit> full;
         if (random() % 4 == 0) full.emplace(random() % 40'000);
-        (void)mine.keep(names + "\n" + std::string(random() % 60'000, '.') + "whole");
+        (void)mine.write(names + "\n" + std::string(random() % 60'000, '.') + "whole");
     }
 }
 
@@ -167,7 +167,7 @@ TEST_F(RecoveryCopiesTest, OfTwoHundredKillsNoneLosesWhatWasWhole) {
             usleep(random() % 20'000);
         }
         std::set<std::string> held;
-        for (const auto& each : RecoveryCopies(folder).leftBehind()) {
+        for (const auto& each : RecoveryCopies(folder).abandonedCopies()) {
             const std::string text = contentOf(each);
             EXPECT_TRUE(text.ends_with("whole"));
             std::istringstream names(text.substr(0, text.find('\n')));
@@ -199,9 +199,9 @@ TEST_F(SettingsTest, OldOnesLoad) {
                         folder.string() + "/s&#228;ge.json\"/>\n"));
     put(folder / "s\xc3\xa4ge.json", "{}");
     MixerFiles files{asFile()};
-    EXPECT_EQ(files.settingsFault(), "");
+    EXPECT_EQ(files.settingsError(), "");
     EXPECT_EQ(files.settings().getValue("look"), "light");
-    EXPECT_EQ(files.recent().getNumFiles(), 1);
+    EXPECT_EQ(files.recentFiles().getNumFiles(), 1);
 }
 
 TEST_F(SettingsTest, WhatCannotBeReadIsPutAsideInOneLine) {
@@ -217,9 +217,9 @@ TEST_F(SettingsTest, WhatCannotBeReadIsPutAsideInOneLine) {
     for (const auto& [name, text] : bad) {
         put(settings(), text);
         MixerFiles files{asFile()};
-        EXPECT_TRUE(files.settingsFault().starts_with(settings().string() + ": "))
-            << name << ": " << files.settingsFault();
-        EXPECT_EQ(files.settingsFault().find('\n'), std::string::npos);
+        EXPECT_TRUE(files.settingsError().starts_with(settings().string() + ": "))
+            << name << ": " << files.settingsError();
+        EXPECT_EQ(files.settingsError().find('\n'), std::string::npos);
         EXPECT_EQ(fs::file_size(folder / "mixer.settings.unread"), text.size()) << name;
         files.settings().setValue("look", "light");
         EXPECT_TRUE(files.settings().save());
@@ -230,8 +230,8 @@ TEST_F(SettingsTest, WhatCannotBeReadIsPutAsideInOneLine) {
 TEST_F(SettingsTest, APipeIsPutAsideAndNotWaitedFor) {
     ASSERT_EQ(mkfifo(settings().c_str(), 0600), 0);
     MixerFiles files{asFile()};
-    EXPECT_NE(files.settingsFault().find("expected a regular file"), std::string::npos)
-        << files.settingsFault();
+    EXPECT_NE(files.settingsError().find("expected a regular file"), std::string::npos)
+        << files.settingsError();
     EXPECT_FALSE(fs::exists(settings()));
 }
 

@@ -18,7 +18,7 @@ struct Played {
         view.setSize(1440, 900);
         setScene(model, findScene(scene).value);
     }
-    float x(const std::string& body) { return view.refresh(), panel.view().placeOfBody(body).x; }
+    float x(const std::string& body) { return view.refresh(), panel.view().pixelOfBody(body).x; }
     bool isSeen(const std::function<bool()>& is) { return runUntil(is); }
     void press(int code) {
         panel.keyPressed(KeyPress{code});
@@ -26,7 +26,7 @@ struct Played {
     }
     template <class A>
     A last() {
-        const auto& inputs = model.saved().log.takes.back().inputs;
+        const auto& inputs = model.savedSession().log.runs.back().inputs;
         return !inputs.empty() && std::holds_alternative<A>(inputs.back().action)
                    ? std::get<A>(inputs.back().action)
                    : A{};
@@ -39,7 +39,7 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
     played.press(KeyPress::rightKey);
     EXPECT_TRUE(played.isSeen([&] {
         return played.view.refresh(),
-               played.last<VelocityAction>().metresPerSecond.x == ScenePlayer::mostMetresPerSecond;
+               played.last<VelocityAction>().velocityMetresPerSecond.x == ScenePlayer::maxMetresPerSecond;
     }));
     EXPECT_TRUE(std::ranges::none_of(played.model.mix().scene->script, [](const ScriptInput& input) {
         return std::holds_alternative<VelocityAction>(input.action);
@@ -47,14 +47,14 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
     const float start = played.x("basket");
     EXPECT_TRUE(played.isSeen([&] { return played.x("basket") > start + 60.0f; }));
     played.panel.keyStateChanged(false);
-    EXPECT_EQ(played.last<VelocityAction>().metresPerSecond.x, 0.0) << "the key is let go";
+    EXPECT_EQ(played.last<VelocityAction>().velocityMetresPerSecond.x, 0.0) << "the key is let go";
     auto& world = played.panel.view();
-    const auto to = world.placeOfShare({0.25, 0.5});
+    const auto to = world.pixelOfShare({0.25, 0.5});
     played.panel.mouseDrag(mouseAt(world, to));
     EXPECT_TRUE(played.isSeen([&] { return std::abs(played.x("basket") - to.x) < 12.0f; }))
         << played.x("basket") << " for " << to.x;
     played.panel.mouseUp(mouseAt(world, to));
-    EXPECT_EQ(played.last<VelocityAction>().metresPerSecond.x, 0.0);
+    EXPECT_EQ(played.last<VelocityAction>().velocityMetresPerSecond.x, 0.0);
     played.model.undoManager().undo();
     EXPECT_TRUE(std::ranges::any_of(played.model.mix().scene->script, [](const ScriptInput& input) {
         return std::holds_alternative<VelocityAction>(input.action);
@@ -66,9 +66,9 @@ TEST(ScenePlay, ABasketStopsAtTheFieldsEdge) {
     ASSERT_TRUE(played.isSeen([&] { return played.x("basket") > 0.0f; }));
     played.press(KeyPress::leftKey);
     EXPECT_TRUE(played.isSeen([&] {
-        return played.x("basket") > 0.0f && played.last<VelocityAction>().metresPerSecond.x == 0.0;
+        return played.x("basket") > 0.0f && played.last<VelocityAction>().velocityMetresPerSecond.x == 0.0;
     })) << "nobody lets the key go";
-    EXPECT_GT(played.x("basket"), played.panel.view().placeOfShare({0.0, 0.0}).x);
+    EXPECT_GT(played.x("basket"), played.panel.view().pixelOfShare({0.0, 0.0}).x);
 }
 
 TEST(ScenePlay, ACarGoesAStepFasterWithEachKey) {
@@ -77,14 +77,14 @@ TEST(ScenePlay, ACarGoesAStepFasterWithEachKey) {
     played.press(KeyPress::rightKey);
     EXPECT_TRUE(played.isSeen([&] {
         return played.view.refresh(),
-               played.last<MotorAction>().radiansPerSecond == -ScenePlayer::stepRadiansPerSecond;
+               played.last<MotorAction>().speedRadiansPerSecond == -ScenePlayer::stepRadiansPerSecond;
     }));
     const float start = played.x("car");
     played.press(KeyPress::rightKey);
-    EXPECT_EQ(played.last<MotorAction>().radiansPerSecond, -2.0 * ScenePlayer::stepRadiansPerSecond);
+    EXPECT_EQ(played.last<MotorAction>().speedRadiansPerSecond, -2.0 * ScenePlayer::stepRadiansPerSecond);
     EXPECT_TRUE(played.isSeen([&] { return played.x("car") > start + 20.0f; }));
     played.press(KeyPress::downKey);
-    EXPECT_EQ(played.last<MotorAction>().radiansPerSecond, 0.0);
+    EXPECT_EQ(played.last<MotorAction>().speedRadiansPerSecond, 0.0);
 }
 
 } // namespace physvib::scene_play_test

@@ -27,12 +27,12 @@ int picturesIn(const juce::File& webp) {
 class SessionMovie : public testing::Test {
 protected:
     bool play(std::int64_t untilNs) {
-        return runUntil([&] { return model.look().session.sessionNs >= untilNs; });
+        return runUntil([&] { return model.poll().session.sessionNs >= untilNs; });
     }
     /// More than a second of the first scene.
     SavedSession someSecond() {
         EXPECT_TRUE(play(1'200'000'000));
-        return model.saved();
+        return model.savedSession();
     }
     std::string path(const char* name) const { return folder(name).getFullPathName().toStdString(); }
     template <class GoesOn>
@@ -53,7 +53,7 @@ TEST_F(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     setScene(model, *findBuiltInScene("drop"));
     model.setSlowness(1);
     ASSERT_TRUE(play(1'200'000'000));
-    const SavedSession session = model.saved();
+    const SavedSession session = model.savedSession();
     double last = 0.0;
     EXPECT_EQ(write(session, 1.0, path("last.webp"),
                     [&](double share) {
@@ -136,8 +136,9 @@ TEST_F(SessionMovie, IsCancelledWhileFfmpegWorks) {
 TEST_F(SessionMovie, ACancelledOneLeavesNothing) {
     ASSERT_TRUE(play(300'000'000));
     for (const double end : {0.0, 0.2, 0.6})
-        EXPECT_EQ(write(model.saved(), 60.0, path("last.webp"), [end](double share) { return share < end; }),
-                  "cancelled");
+        EXPECT_EQ(
+            write(model.savedSession(), 60.0, path("last.webp"), [end](double share) { return share < end; }),
+            "cancelled");
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
 }
 
@@ -155,7 +156,7 @@ std::string unpacked(const juce::String& code) {
 }
 
 TEST(PageLink, ABuiltInSceneIsItsNameAndOnlyWhatDiffersIsSaid) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     EXPECT_EQ(pageLink(mix, *mix.scene).value, "scene=shake-the-box");
     mix.seed = 3;
     mix.law = PanningLaw::energy;
@@ -165,7 +166,7 @@ TEST(PageLink, ABuiltInSceneIsItsNameAndOnlyWhatDiffersIsSaid) {
 }
 
 TEST(PageLink, ASceneOfOnesOwnGoesAlongWhole) {
-    const Mix mix = MixerModel::firstMix();
+    const Mix mix = MixerModel::defaultMix();
     Scene own = *mix.scene;
     own.name = "my scene & more";
     own.materials[0].frequencyHz = 165.0;
@@ -206,7 +207,7 @@ TEST(PageLink, AnAddressOfThisComputerAloneIsKnown) {
 }
 
 TEST(PageLink, WhatALinkCannotHoldIsSaid) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     mix.exponent = 2.0;
     EXPECT_NE(pageLink(mix, *mix.scene).error.find("exponent"), std::string::npos);
     mix.exponent = 1.0;
@@ -232,14 +233,14 @@ TEST(PageLink, AsAQrCodeItIsReadByOthers) {
     if (juce::ChildProcess reader; !reader.start("zbarimg --version") ||
                                    !reader.waitForProcessToFinish(5000) || reader.getExitCode() != 0)
         GTEST_SKIP() << "needs the package zbar-tools";
-    const Mix mix = MixerModel::firstMix();
+    const Mix mix = MixerModel::defaultMix();
     Scene own = *mix.scene;
     own.name = "mine";
     for (const Scene& scene : {*mix.scene, own}) {
         const auto link = "http://127.0.0.1:8000/#" + pageLink(mix, scene).value;
         const auto picture = qrPicture(link);
         ASSERT_FALSE(picture.isNull()) << link.size();
-        EXPECT_LE(picture.getWidth(), mostPicture);
+        EXPECT_LE(picture.getWidth(), maxPictureSize);
         if (scene.name == own.name) EXPECT_GT(picture.getWidth(), 400) << "three pixels a module";
         EXPECT_EQ(decoded(picture), juce::String{link});
     }

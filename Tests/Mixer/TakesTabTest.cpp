@@ -31,7 +31,7 @@ void writeTake(const juce::File& file, double seconds) {
 struct ListedTakes : testing::Test {
     TestFolder folder;
     juce::SharedResourcePointer<UserFolder> user;
-    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::defaultMix(), {.isPaused = true}};
     MixerView view{model};
     TakesTab* takes = nullptr;
 
@@ -60,12 +60,12 @@ TEST_F(ListedTakes, ListsNamesAndLengthsAndWhatIsRecordedLater) {
 
 TEST_F(ListedTakes, ATakeIsPlayedEachChannelOnItsActuatorUntilItIsStopped) {
     writeTake(folder("hands-take.wav"), 60.0);
-    takes->look();
+    takes->rescan();
     takes->choose(0);
     auto& play = button("Play the take on the device");
     const auto isFelt = [&] { return view.refresh(), view.latest().meters.peaks[2] > 0.01f; };
     play.onClick();
-    EXPECT_TRUE(runUntil(isFelt)) << model.trouble();
+    EXPECT_TRUE(runUntil(isFelt)) << model.messageText();
     EXPECT_EQ(view.latest().meters.peaks[0], 0.0f);
     EXPECT_EQ(play.getButtonText(), "Stop");
     play.onClick();
@@ -80,7 +80,7 @@ TEST_F(ListedTakes, ATakeIsCopiedAndDeletedWithItsEvents) {
     ASSERT_NE(card, nullptr);
     EXPECT_EQ(card->name(), "hands-take");
     folder("copies").createDirectory();
-    card->enter(folder("copies"));
+    card->openFolder(folder("copies"));
     card->accept();
     ASSERT_TRUE(runUntil([&] { return view.card() == nullptr; }));
     EXPECT_TRUE(folder("copies/hands-take.wav").hasIdenticalContentTo(folder("hands-take.wav")));
@@ -116,7 +116,7 @@ void writeSoundInSilence(const juce::File& file) {
 struct TrimmedTake : ListedTakes {
     TrimmedTake() {
         writeSoundInSilence(folder("hands-take.wav"));
-        takes->look();
+        takes->rescan();
         takes->choose(0);
     }
     juce::String shown() { return list().getModel()->getNameForRow(0); }
@@ -150,8 +150,8 @@ TEST_F(TrimmedTake, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
     EXPECT_FALSE(kept.existsAsFile()) << "nothing is left of a trim that was taken back";
     auto& trimmer = the(view, "Start and end of the take");
     trimmer.keyPressed(KeyPress{KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
-    EXPECT_EQ(keptPart(folder("hands-take.wav"), 1.5), (juce::Range{0.0, 1.49}));
-    EXPECT_EQ(keptPart(folder("hands-take.wav"), 1.6), (juce::Range{0.0, 1.6})) << "another of its name";
+    EXPECT_EQ(loadPart(folder("hands-take.wav"), 1.5), (juce::Range{0.0, 1.49}));
+    EXPECT_EQ(loadPart(folder("hands-take.wav"), 1.6), (juce::Range{0.0, 1.6})) << "another of its name";
     for (const char* broken : {"", "{", "[1]", R"({"from_s": 1, "to_s": 0.5, "of_s": 1.5})",
                                R"({"from_s": 0, "to_s": 2, "of_s": 1.5})", R"({"from_s": "x"})"}) {
         kept.replaceWithText(broken);
@@ -195,7 +195,7 @@ TEST_F(TrimmedTake, ATrimmedTakePlaysThatPartFromAFileThatStays) {
     EXPECT_TRUE(runUntil([&] {
         view.refresh();
         return view.latest().meters.peaks[1] > 0.01f;
-    })) << model.trouble();
+    })) << model.messageText();
     EXPECT_EQ(list().getModel()->getNumRows(), 1) << "the part is not listed";
     trimmer.mouseDrag(mouseAt(trimmer, {-50.0f, 5.0f}));
     EXPECT_EQ(shown(), "hands-take, 0.0 s of 1.5 s") << "not less than nothing";
@@ -243,13 +243,13 @@ TEST_F(TrimmedTake, TwoPartsWithinAMillisecondAreTwoFiles) {
 
 TEST_F(ListedTakes, AMinuteIsNotSixtySeconds) {
     writeTake(folder("hands-take.wav"), 59.96);
-    takes->look();
+    takes->rescan();
     EXPECT_EQ(list().getModel()->getNameForRow(0), "hands-take, 1:00");
 }
 
 TEST(TakesTab, WhatIsSilentThroughoutIsNotTrimmed) {
-    EXPECT_EQ(soundingPart(std::vector<float>(10, 0.0f), 2.0), (juce::Range{0.0, 2.0}));
-    EXPECT_EQ(soundingPart({0.0f, 0.5f, 0.0f, 0.002f, 0.0005f}, 5.0), (juce::Range{1.0, 4.0}));
+    EXPECT_EQ(perceptiblePart(std::vector<float>(10, 0.0f), 2.0), (juce::Range{0.0, 2.0}));
+    EXPECT_EQ(perceptiblePart({0.0f, 0.5f, 0.0f, 0.002f, 0.0005f}, 5.0), (juce::Range{1.0, 4.0}));
 }
 
 } // namespace physvib::takes_tab_test

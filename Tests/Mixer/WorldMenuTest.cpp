@@ -11,7 +11,7 @@ struct Field : NewSceneRig {
     WorldPanel& panel = view.world();
 
     void add(DrawTool tool, double x, double y) { pane.addAt(tool, share(x, y)), settle(); }
-    juce::PopupMenu menuAt(Vector place) { return panel.menuAt(world.placeOfMetres(place)); }
+    juce::PopupMenu makeMenu(Vector place) { return panel.makeMenu(world.pixelOfMetres(place)); }
 };
 
 struct OnField : testing::Test, Field {};
@@ -34,8 +34,8 @@ void press(const juce::PopupMenu& menu, const juce::String& words) {
 
 TEST_F(OnField, EachThingHasItsOwn) {
     add(DrawTool::ball, 0.5, 0.5);
-    const auto ball = wordsOf(menuAt(share(0.5, 0.5))), empty = wordsOf(menuAt(share(0.2, 0.8))),
-               badge = wordsOf(panel.menuAt(world.placeOfEnchanter(0)));
+    const auto ball = wordsOf(makeMenu(share(0.5, 0.5))), empty = wordsOf(makeMenu(share(0.2, 0.8))),
+               badge = wordsOf(panel.makeMenu(world.actuatorPixel(0)));
     for (const char* words : {"ball 1", "Material", "Motor here", "Copy", "Delete"})
         EXPECT_TRUE(ball.contains(words)) << words << ": " << ball.joinIntoString(", ");
     for (const char* words : {"Add ball", "Add box", "Add rain", "Paste here", "Attach an actuator here"})
@@ -45,21 +45,21 @@ TEST_F(OnField, EachThingHasItsOwn) {
     EXPECT_FALSE(ball.contains("Detach") || badge.contains("Material") || empty.contains("Delete"));
     const auto& floor = drawn().bodies[0];
     const auto under =
-        wordsOf(menuAt(world.poseOfBody(floor.name) ? Vector{world.poseOfBody(floor.name)->xMetres,
-                                                             world.poseOfBody(floor.name)->yMetres}
-                                                    : Vector{}));
+        wordsOf(makeMenu(world.poseOfBody(floor.name) ? Vector{world.poseOfBody(floor.name)->xMetres,
+                                                               world.poseOfBody(floor.name)->yMetres}
+                                                      : Vector{}));
     EXPECT_TRUE(under.contains(utf8(floor.name)) && under.contains("Material")) << under.joinIntoString(", ");
 }
 
 TEST_F(OnField, ABodyThatWasLetGoIsNotHeldAgain) {
     add(DrawTool::ball, 0.5, 0.5);
     for (int k = 0; k < 20; ++k) world.onHold("ball 1", {}, share(0.5, 0.5 + 0.01 * k)); // one still waits
-    world.onLetGo("ball 1");
+    world.onRelease("ball 1");
     runFor(0.05);
     view.refresh();
     const GripAction* last = nullptr;
-    const auto saved = model.saved();
-    for (const LiveInput& input : saved.log.takes.back().inputs)
+    const auto saved = model.savedSession();
+    for (const LiveInput& input : saved.log.runs.back().inputs)
         if (const auto* grip = std::get_if<GripAction>(&input.action)) last = grip;
     ASSERT_NE(last, nullptr);
     EXPECT_FALSE(last->toMetres);
@@ -71,34 +71,34 @@ TEST_F(OnField, WhatItSaysIsDone) {
     const int own = body("ball 1")->fixtures[0].material;
     int other = 0;
     while (other == own || nth(drawn().materials, other).frequencyHz <= 0.0) ++other;
-    press(menuAt(at), utf8(nth(drawn().materials, other).name));
-    EXPECT_EQ(body("ball 1")->fixtures[0].material, other) << model.trouble();
-    press(menuAt(at), "Copy");
-    press(menuAt(share(0.2, 0.8)), "Paste here");
+    press(makeMenu(at), utf8(nth(drawn().materials, other).name));
+    EXPECT_EQ(body("ball 1")->fixtures[0].material, other) << model.messageText();
+    press(makeMenu(at), "Copy");
+    press(makeMenu(share(0.2, 0.8)), "Paste here");
     settle();
     const auto* pasted = body("ball 2");
-    ASSERT_NE(pasted, nullptr) << model.trouble();
+    ASSERT_NE(pasted, nullptr) << model.messageText();
     EXPECT_NEAR(pasted->positionMetres.x, share(0.2, 0.8).x, 0.01 * drawn().fieldWidthMetres);
     EXPECT_NEAR(pasted->positionMetres.y, share(0.2, 0.8).y, 0.01 * drawn().fieldHeightMetres);
-    pane.use(DrawTool::hand);
-    press(menuAt(at), "Delete");
+    pane.setTool(DrawTool::hand);
+    press(makeMenu(at), "Delete");
     EXPECT_EQ(body("ball 1"), nullptr);
     undo();
     EXPECT_NE(body("ball 1"), nullptr);
     settle();
-    press(menuAt(share(0.8, 0.8)), "Add box");
+    press(makeMenu(share(0.8, 0.8)), "Add box");
     EXPECT_NE(body("box 1"), nullptr);
     EXPECT_EQ(pane.tool(), DrawTool::hand) << "the tool stays";
-    press(menuAt(share(0.6, 0.9)), "Attach an actuator here");
+    press(makeMenu(share(0.6, 0.9)), "Attach an actuator here");
     EXPECT_EQ(model.mix().count(), 5);
     settle();
-    press(panel.menuAt(world.placeOfEnchanter(4)), "Detach");
+    press(panel.makeMenu(world.actuatorPixel(4)), "Detach");
     EXPECT_EQ(model.mix().count(), 4);
-    const auto strikes = model.saved().log.strikes.size();
-    press(panel.menuAt(world.placeOfEnchanter(1)), "Mute");
+    const auto strikes = model.savedSession().log.strikes.size();
+    press(panel.makeMenu(world.actuatorPixel(1)), "Mute");
     EXPECT_TRUE(model.mix().strips[1].isMuted);
-    press(panel.menuAt(world.placeOfEnchanter(1)), "Test pulse");
-    EXPECT_EQ(model.saved().log.strikes.size(), strikes + 1);
+    press(panel.makeMenu(world.actuatorPixel(1)), "Test pulse");
+    EXPECT_EQ(model.savedSession().log.strikes.size(), strikes + 1);
 }
 
 TEST_F(OnField, ARightClickOpensItWithEveryToolAndDrawsNothing) {
@@ -107,7 +107,7 @@ TEST_F(OnField, ARightClickOpensItWithEveryToolAndDrawsNothing) {
     const auto bodies = drawn().bodies.size();
     const auto click = mouseAt(pane, {300.0f, 200.0f}, juce::ModifierKeys::rightButtonModifier);
     for (const auto& words : drawTools) {
-        pane.use(words.tool);
+        pane.setTool(words.tool);
         pane.mouseDown(click);
         pane.mouseUp(click);
     }
@@ -119,23 +119,23 @@ TEST_F(OnField, ARightClickOpensItWithEveryToolAndDrawsNothing) {
 
 TEST_F(OnField, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
     add(DrawTool::box, 0.5, 0.5);
-    press(menuAt(share(0.5, 0.5)), "Motor here");
-    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
+    press(makeMenu(share(0.5, 0.5)), "Motor here");
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.messageText();
     settle();
     const auto before = driveOf(drawn().joints[0]);
     EXPECT_GT(before.maxTorqueNewtonMetres, 0.0);
-    press(menuAt(share(0.5, 0.5)), "Motor: speed and torque");
+    press(makeMenu(share(0.5, 0.5)), "Motor: speed and torque");
     auto *speed = dynamic_cast<juce::Slider*>(find(panel, "Motor speed")),
          *torque = dynamic_cast<juce::Slider*>(find(panel, "Motor torque"));
     ASSERT_TRUE(speed != nullptr && torque != nullptr);
-    EXPECT_NEAR(speed->getValue(), before.radiansPerSecond, 0.05);
+    EXPECT_NEAR(speed->getValue(), before.speedRadiansPerSecond, 0.05);
     EXPECT_TRUE(speed->getTextFromValue(speed->getValue()).endsWith(" rad/s"));
     EXPECT_TRUE(torque->getTextFromValue(torque->getValue()).endsWith(" N m"));
     EXPECT_GT(speed->getHeight(), 14);
     speed->setValue(-8.0, juce::sendNotificationSync);
     torque->setValue(5'000.0, juce::sendNotificationSync);
-    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
-    EXPECT_NEAR(driveOf(drawn().joints[0]).radiansPerSecond, -8.0, 1e-9);
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.messageText();
+    EXPECT_NEAR(driveOf(drawn().joints[0]).speedRadiansPerSecond, -8.0, 1e-9);
     EXPECT_NEAR(driveOf(drawn().joints[0]).maxTorqueNewtonMetres, 5'000.0, 1e-9);
     settle();
     model.setSlowness(1);
@@ -146,28 +146,28 @@ TEST_F(OnField, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
     undo();
     undo();
     EXPECT_EQ(driveOf(drawn().joints[0]), before);
-    pane.choose({"box 1"});
+    pane.select({"box 1"});
     add(DrawTool::ball, 0.2, 0.8);
-    pane.use(DrawTool::choose);
-    pane.choose({"ball 1"});
+    pane.setTool(DrawTool::select);
+    pane.select({"ball 1"});
     EXPECT_FALSE(speed->isVisible()) << "a body without one has no such rows";
 }
 
 TEST_F(OnField, HangsABodyAndItsStiffnessIsChangedInTheInspectorAndUndone) {
     add(DrawTool::ball, 0.5, 0.5);
-    press(menuAt(share(0.5, 0.5)), "Spring here");
-    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
+    press(makeMenu(share(0.5, 0.5)), "Spring here");
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.messageText();
     settle();
     const auto spring = std::get<DistanceJoint>(drawn().joints[0].joint);
     EXPECT_FALSE(spring.isSlack);
     EXPECT_GT(spring.springHz, 0.0);
-    press(menuAt(share(0.5, 0.5)), "Spring: stiffness");
+    press(makeMenu(share(0.5, 0.5)), "Spring: stiffness");
     auto& stiffness = the<juce::Slider>(panel, "Stiffness of the spring");
     EXPECT_NEAR(stiffness.getValue(), spring.springHz, 0.05);
     EXPECT_GT(stiffness.getHeight(), 14);
     EXPECT_LE(stiffness.getBottom(), stiffness.getParentComponent()->getHeight());
     stiffness.setValue(0.5, juce::sendNotificationSync);
-    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.messageText();
     const auto softer = std::get<DistanceJoint>(drawn().joints[0].joint);
     EXPECT_NEAR(softer.springHz, 0.5, 1e-9);
     EXPECT_EQ(softer.anchorAMetres, spring.anchorAMetres);
@@ -184,14 +184,14 @@ TEST_F(OnField, HangsABodyAndItsStiffnessIsChangedInTheInspectorAndUndone) {
 }
 
 TEST_F(OnField, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
-    pane.use(DrawTool::rain);
+    pane.setTool(DrawTool::rain);
     auto& count = the<juce::ComboBox>(panel, "Balls of a rain");
     EXPECT_TRUE(count.isVisible());
     count.setSelectedId(100, juce::sendNotificationSync);
     pane.setMaterial(2);
     const auto before = drawn().bodies.size();
     add(DrawTool::rain, 0.5, 0.7);
-    ASSERT_EQ(drawn().bodies.size(), before + 100) << model.trouble();
+    ASSERT_EQ(drawn().bodies.size(), before + 100) << model.messageText();
     const auto& balls = drawn().bodies;
     for (std::size_t i = before; i < balls.size(); ++i) {
         EXPECT_EQ(balls[i].fixtures[0].material, 2);
@@ -204,28 +204,28 @@ TEST_F(OnField, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
     }
     undo();
     EXPECT_EQ(drawn().bodies.size(), before) << "one edit";
-    pane.use(DrawTool::ball);
+    pane.setTool(DrawTool::ball);
     EXPECT_FALSE(count.isVisible());
 }
 
 TEST_F(OnField, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
-    pane.use(DrawTool::choose);
+    pane.setTool(DrawTool::select);
     auto* inspector = find(panel, "Chosen bodies");
     for (const auto& [x, y] : {std::pair{0.93, 0.93}, {0.07, 0.93}, {0.93, 0.15}, {0.07, 0.15}, {0.5, 0.5}}) {
         add(DrawTool::ball, x, y);
-        pane.use(DrawTool::choose);
+        pane.setTool(DrawTool::select);
         const auto name = drawn().bodies.back().name;
-        pane.choose({name});
+        pane.select({name});
         view.refresh();
         ASSERT_TRUE(inspector->isVisible());
-        const auto body = juce::Rectangle<float>{70.0f, 70.0f}.withCentre(world.placeOfBody(name));
+        const auto body = juce::Rectangle<float>{70.0f, 70.0f}.withCentre(world.pixelOfBody(name));
         EXPECT_FALSE((inspector->getBounds() - world.getPosition()).toFloat().intersects(body))
             << x << ", " << y;
         EXPECT_TRUE(panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
     }
     pane.setMaterial(3);
     model.dispatchPendingMessages();
-    pane.choose({drawn().bodies.back().name});
+    pane.select({drawn().bodies.back().name});
     EXPECT_EQ(pane.material(), 3);
     const auto& named = the<juce::Button>(*inspector, "Material of what is chosen");
     EXPECT_EQ(named.getButtonText(), utf8(drawn().materials[3].name));
@@ -235,8 +235,8 @@ TEST_F(OnField, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
     std::vector<std::string> names;
     for (const double x : {0.3, 0.6})
         add(DrawTool::ball, x, 0.5), names.push_back(drawn().bodies.back().name);
-    pane.use(DrawTool::ball); // the palette is for the next one
-    pane.choose(names);
+    pane.setTool(DrawTool::ball); // the palette is for the next one
+    pane.select(names);
     const auto materials = [&] {
         std::vector<int> all;
         for (const auto& name : names) all.push_back(body(name)->fixtures[0].material);
@@ -250,7 +250,7 @@ TEST_F(OnField, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
     const int next = pane.material();
     swatch.onClick();
     settle();
-    EXPECT_EQ(materials(), (std::vector{1, 1})) << model.trouble();
+    EXPECT_EQ(materials(), (std::vector{1, 1})) << model.messageText();
     EXPECT_TRUE(swatch.getToggleState());
     EXPECT_EQ(pane.material(), next);
     undo();
@@ -259,11 +259,11 @@ TEST_F(OnField, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
 
 TEST_F(OnField, CoversNoBadgeAndStaysWhereItIs) {
     view.setSize(1280, 800);
-    pane.use(DrawTool::rain);
+    pane.setTool(DrawTool::rain);
     pane.addAt(DrawTool::rain, share(0.5, 0.9));
     settle();
-    pane.use(DrawTool::choose);
-    pane.choose({drawn().bodies.back().name});
+    pane.setTool(DrawTool::select);
+    pane.select({drawn().bodies.back().name});
     view.refresh();
     auto& inspector = the(panel, "Chosen bodies");
     ASSERT_TRUE(inspector.isVisible());
@@ -278,7 +278,7 @@ TEST_F(OnField, CoversNoBadgeAndStaysWhereItIs) {
     view.setSize(1024, 700);
     view.refresh();
     auto& world = panel.view();
-    const auto field = juce::Rectangle<float>{world.placeOfShare({0.0, 1.0}), world.placeOfShare({1.0, 0.0})};
+    const auto field = juce::Rectangle<float>{world.pixelOfShare({0.0, 1.0}), world.pixelOfShare({1.0, 0.0})};
     EXPECT_TRUE((inspector.getBounds() - world.getPosition()).toFloat().getIntersection(field).isEmpty())
         << "nothing of the field is hidden";
     EXPECT_GE(field.getWidth() * field.getHeight(), 0.45f * 1024.0f * 700.0f);
@@ -299,17 +299,17 @@ TEST_F(OnField, CoversNoCornerNoBodyAndNoTopWallBesideADrawer) {
     auto& inspector = the(panel, "Chosen bodies");
     for (const auto& [x, y] : {std::pair{0.9, 0.9}, {0.1, 0.9}, {0.5, 0.5}, {0.9, 0.1}}) {
         add(DrawTool::ball, x, y);
-        pane.use(DrawTool::choose);
+        pane.setTool(DrawTool::select);
         const auto name = drawn().bodies.back().name;
-        pane.choose({name});
+        pane.select({name});
         view.refresh();
         const auto place = inspector.getBounds() - world.getPosition();
         EXPECT_FALSE(place.toFloat().intersects(
-            juce::Rectangle<float>{40.0f, 40.0f}.withCentre(world.placeOfBody(name))))
+            juce::Rectangle<float>{40.0f, 40.0f}.withCentre(world.pixelOfBody(name))))
             << x << ", " << y;
         for (int j = 0; j < model.mix().count(); ++j)
             EXPECT_FALSE(place.toFloat().intersects(world.badgeAt(j))) << j << " at " << x << ", " << y;
-        EXPECT_GT(place.toFloat().getY(), world.placeOfShare({0.0, 1.0}).y + 4.0f) << "the wall is in sight";
+        EXPECT_GT(place.toFloat().getY(), world.pixelOfShare({0.0, 1.0}).y + 4.0f) << "the wall is in sight";
         EXPECT_TRUE(panel.getLocalBounds().contains(inspector.getBounds()));
     }
 }
@@ -319,13 +319,13 @@ TEST(Inspector, HasAPlaceOfItsOwnWhereverTheBodyIs) {
         Field f;
         f.view.setSize(width, height);
         f.view.setMode(width > 1200 ? Mode::engineer : Mode::play);
-        f.pane.use(DrawTool::choose);
+        f.pane.setTool(DrawTool::select);
         auto& inspector = the(f.panel, "Chosen bodies");
         std::vector<juce::Rectangle<int>> places;
         for (const double y : {0.2, 0.5, 0.8}) {
             f.add(DrawTool::ball, 0.45, y);
-            f.pane.use(DrawTool::choose);
-            f.pane.choose({f.drawn().bodies.back().name});
+            f.pane.setTool(DrawTool::select);
+            f.pane.select({f.drawn().bodies.back().name});
             f.view.refresh();
             places.push_back(inspector.getBounds());
         }
@@ -339,7 +339,7 @@ TEST_F(OnField, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     }
     model.dispatchPendingMessages();
     for (int j = 0; j < 64; ++j) {
-        const auto label = utf8(nth(model.mix().layout.enchanters, j).label);
+        const auto label = utf8(nth(model.mix().layout.actuators, j).label);
         EXPECT_GE(world.badgeAt(j).getWidth(), text::width(text::font(text::small, juce::Font::bold), label))
             << label;
     }

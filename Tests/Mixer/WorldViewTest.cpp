@@ -21,15 +21,15 @@ TEST(WorldView, ABodyIsSeenWhereItIsWhenThatIsFelt) {
         view.update({{BodyPose{5e-9 * static_cast<double>(now), 5.0}}, now, aheadNs, {}, {}});
         // the last step before what is felt
         const std::int64_t felt = std::max<std::int64_t>(0, (now - aheadNs) / stepNs * stepNs);
-        EXPECT_NEAR(view.placeOfBody("ball").x,
-                    view.placeOfShare({0.5e-9 * static_cast<double>(felt), 0.5}).x, 1e-3)
+        EXPECT_NEAR(view.pixelOfBody("ball").x,
+                    view.pixelOfShare({0.5e-9 * static_cast<double>(felt), 0.5}).x, 1e-3)
             << "at " << now / ms << " ms";
     }
 }
 
 // At once its middle is white; the ring of one that is silenced is empty.
 TEST(WorldView, AGlowIsOfWhatIsFelt) {
-    Mix mix = MixerModel::firstMix();
+    Mix mix = MixerModel::defaultMix();
     Scene scene = *mix.scene;
     scene.bodies.clear();
     WorldView view;
@@ -45,7 +45,7 @@ TEST(WorldView, AGlowIsOfWhatIsFelt) {
         view.show(mix.layout, mix.panner(), std::move(muted));
         nowMs += 500.0; // longer than one is seen
         view.update({{}, 0, 0, std::span{&hit, 1}, {}, isFelt, nowMs});
-        const auto at = view.placeOfShare({0.5, 0.5}).toInt();
+        const auto at = view.pixelOfShare({0.5, 0.5}).toInt();
         return view.createComponentSnapshot(view.getLocalBounds()).getPixelAt(at.x, at.y).getBrightness() >
                0.9f;
     };
@@ -56,7 +56,7 @@ TEST(WorldView, AGlowIsOfWhatIsFelt) {
 }
 
 TEST(WorldView, AnActuatorWithoutAnOutputLooksOtherwiseThanAMutedOneAndThanOneThatPlays) {
-    const Mix mix = MixerModel::firstMix();
+    const Mix mix = MixerModel::defaultMix();
     WorldView view;
     view.setSize(600, 400);
     view.show(*mix.scene);
@@ -84,11 +84,11 @@ TEST(WorldView, AnActuatorWithoutAnOutputLooksOtherwiseThanAMutedOneAndThanOneTh
 // A small disc that is copied looks as one that is drawn, wherever it lies.
 
 constexpr int sidePixels = 40;
-const BallPictures::Ball orangeBall{5.3f, juce::Colours::orange, juce::Colours::black.withAlpha(0.45f),
+const DiscPictures::Disc orangeBall{5.3f, juce::Colours::orange, juce::Colours::black.withAlpha(0.45f),
                                     juce::Colours::yellow};
 
 template <class Draw>
-juce::Image drawnBall(float scale, Draw draw) {
+juce::Image makeBall(float scale, Draw draw) {
     const int pixels = juce::roundToInt(scale * sidePixels);
     const juce::Image image{juce::Image::RGB, pixels, pixels, true, juce::SoftwareImageType{}};
     juce::Graphics g{image};
@@ -99,7 +99,7 @@ juce::Image drawnBall(float scale, Draw draw) {
 }
 
 juce::Image ballByHand(float scale, juce::Point<float> at, float angle) {
-    return drawnBall(scale, [&](juce::Graphics& g) {
+    return makeBall(scale, [&](juce::Graphics& g) {
         const auto place = juce::AffineTransform::rotation(angle).translated(at);
         juce::Path disc, spoke;
         disc.addEllipse(-orangeBall.radius, -orangeBall.radius, 2.0f * orangeBall.radius,
@@ -128,14 +128,14 @@ double meanDifference(const juce::Image& a, const juce::Image& b) {
 }
 
 TEST(BallPictures, LookAsDrawnAtAnyPlaceAngleAndScale) {
-    BallPictures pictures;
+    DiscPictures pictures;
     juce::Random random{3};
     for (const float scale : {1.0f, 1.25f, 2.0f})
         for (int k = 0; k < 40; ++k) {
             const juce::Point<float> at{15.0f + 9.0f * random.nextFloat(), 15.0f + 9.0f * random.nextFloat()};
             const float angle = 40.0f * (random.nextFloat() - 0.5f);
             bool isDrawn = false;
-            const auto image = drawnBall(
+            const auto image = makeBall(
                 scale, [&](juce::Graphics& g) { isDrawn = pictures.draw(g, orangeBall, at, angle); });
             ASSERT_TRUE(isDrawn);
             const auto wanted = ballByHand(scale, at, angle);
@@ -147,13 +147,13 @@ TEST(BallPictures, LookAsDrawnAtAnyPlaceAngleAndScale) {
 }
 
 TEST(BallPictures, ALargeOneIsLeftToBeDrawn) {
-    BallPictures pictures;
+    DiscPictures pictures;
     auto large = orangeBall;
     large.radius = 9.0f;
-    const auto image = drawnBall(2.0f, [&](juce::Graphics& g) {
+    const auto image = makeBall(2.0f, [&](juce::Graphics& g) {
         EXPECT_FALSE(pictures.draw(g, large, {20.0f, 20.0f}, 0.0f));
     });
-    EXPECT_EQ(meanDifference(image, drawnBall(2.0f, [](juce::Graphics&) {})), 0.0);
+    EXPECT_EQ(meanDifference(image, makeBall(2.0f, [](juce::Graphics&) {})), 0.0);
 }
 
 TEST(GlowPictures, LookAsTheirGradient) {
@@ -163,12 +163,12 @@ TEST(GlowPictures, LookAsTheirGradient) {
             const juce::Point<float> at{20.3f, 19.6f}, edge{at.x + radius, at.y};
             const auto colour = juce::Colours::orange.withAlpha(0.6f);
             const auto drawn =
-                drawnBall(scale, [&](juce::Graphics& g) { pictures.draw(g, at, radius, colour); });
-            const auto wanted = drawnBall(scale, [&](juce::Graphics& g) {
+                makeBall(scale, [&](juce::Graphics& g) { pictures.draw(g, at, radius, colour); });
+            const auto wanted = makeBall(scale, [&](juce::Graphics& g) {
                 g.setGradientFill({colour, at, colour.withAlpha(0.0f), edge, true});
                 g.fillAll();
             });
-            const double light = meanDifference(wanted, drawnBall(scale, [](juce::Graphics&) {}));
+            const double light = meanDifference(wanted, makeBall(scale, [](juce::Graphics&) {}));
             EXPECT_LT(meanDifference(drawn, wanted), 0.2 * light) << radius << " at " << scale;
         }
 }
@@ -184,7 +184,7 @@ void expectApart(const std::vector<juce::Rectangle<float>>& badges, juce::Rectan
                  const std::string& what) {
     for (std::size_t i = 0; i < badges.size(); ++i) {
         EXPECT_TRUE(in.expanded(0.01f).contains(badges[i])) << what << ": " << i;
-        EXPECT_GE(badges[i].getHeight(), lowestBadge) << what;
+        EXPECT_GE(badges[i].getHeight(), minBadgeHeight) << what;
         for (std::size_t k = 0; k < i; ++k)
             EXPECT_FALSE(badges[i].reduced(0.5f).intersects(badges[k])) << what << ": " << k << ", " << i;
     }
@@ -205,15 +205,15 @@ TEST(Badges, DoNotOverlapWhateverTheyAreNamed) {
     for (const int count : {0, 1, 4, 16, 64})
         for (const float words : {12.0f, 25.0f, 300.0f}) {
             const std::vector<float> widths(static_cast<std::size_t>(count), words);
-            expectApart(badgesAround(grid(count, room.reduced(60.0f, 40.0f)), widths, room), room,
+            expectApart(layOutBadges(grid(count, room.reduced(60.0f, 40.0f)), widths, room), room,
                         std::to_string(count) + " of " + std::to_string(words));
         }
 }
 
 TEST(Badges, OfOnePlaceLieBesideEachOther) {
     const Places places(64, room.getCentre());
-    expectApart(badgesAround(places, std::vector<float>(64, 25.0f), room), room, "in the middle");
-    expectApart(badgesAround(Places(16, room.getTopLeft()), std::vector<float>(16, 200.0f), room), room,
+    expectApart(layOutBadges(places, std::vector<float>(64, 25.0f), room), room, "in the middle");
+    expectApart(layOutBadges(Places(16, room.getTopLeft()), std::vector<float>(16, 200.0f), room), room,
                 "in a corner");
     SeededRandom random{59};
     for (int k = 0; k < 20; ++k) {
@@ -224,26 +224,26 @@ TEST(Badges, OfOnePlaceLieBesideEachOther) {
                                                 static_cast<float>(random.below(100)) / 99.0f));
             widths.push_back(static_cast<float>(10 + random.below(120)));
         }
-        expectApart(badgesAround(any, widths, room), room, "random " + std::to_string(k));
+        expectApart(layOutBadges(any, widths, room), room, "random " + std::to_string(k));
     }
 }
 
 TEST(Badges, StayWhereTheirActuatorsAreWhereThereIsRoom) {
     const auto places = grid(16, room.reduced(40.0f));
-    const auto badges = badgesAround(places, std::vector<float>(16, 20.0f), room);
+    const auto badges = layOutBadges(places, std::vector<float>(16, 20.0f), room);
     for (std::size_t j = 0; j < 16; ++j) {
         EXPECT_NEAR(badges[j].getCentreX(), places[j].x, 0.5f);
         EXPECT_NEAR(badges[j].getCentreY(), places[j].y, 0.5f);
-        EXPECT_EQ(badges[j].getHeight(), highestBadge);
+        EXPECT_EQ(badges[j].getHeight(), maxBadgeHeight);
     }
 }
 
 TEST(Badges, ALongNameGetsWhatItsNeighbourDoesNotNeed) {
     const Places two{{100.0f, 100.0f}, {170.0f, 100.0f}};
-    const auto unlike = badgesAround(two, std::vector{200.0f, 12.0f}, room),
-               alike = badgesAround(two, std::vector{200.0f, 200.0f}, room);
-    EXPECT_EQ(unlike[0].getWidth(), widestBadge);
-    EXPECT_EQ(unlike[1].getWidth(), highestBadge);
+    const auto unlike = layOutBadges(two, std::vector{200.0f, 12.0f}, room),
+               alike = layOutBadges(two, std::vector{200.0f, 200.0f}, room);
+    EXPECT_EQ(unlike[0].getWidth(), maxBadgeWidth);
+    EXPECT_EQ(unlike[1].getWidth(), maxBadgeHeight);
     EXPECT_EQ(alike[0].getWidth(), alike[1].getWidth());
     EXPECT_NEAR(alike[0].getWidth(), 67.0f, 0.1f);
 }
@@ -257,13 +257,13 @@ TEST(Badges, AreGrippedWhereTheyAreDrawn) {
     model.dispatchPendingMessages();
     auto& world = view.world().view();
     EXPECT_FALSE(world.badgeAt(4).intersects(world.badgeAt(5)));
-    for (const int j : {4, 5}) EXPECT_EQ(world.targetAt(world.badgeAt(j).getCentre()).enchanter, j);
+    for (const int j : {4, 5}) EXPECT_EQ(world.targetAt(world.badgeAt(j).getCentre()).actuator, j);
     const auto before = world.badgeAt(4);
     view.setSize(1920, 1080);
     EXPECT_NE(world.badgeAt(4), before) << "placed again";
     model.detach(5);
     model.dispatchPendingMessages();
-    EXPECT_EQ(world.badgeAt(4).getCentre(), world.placeOfEnchanter(4));
+    EXPECT_EQ(world.badgeAt(4).getCentre(), world.actuatorPixel(4));
 }
 
 } // namespace physvib::world_view_test

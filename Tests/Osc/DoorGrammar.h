@@ -24,7 +24,8 @@ public:
 
     /// As OscPort does: the reader silences, the worker does the rest.
     void packet(std::span<const char> bytes) {
-        const std::uint64_t before = silence_.asked(MuteRequester::osc), asked = silencesIn(bytes);
+        const std::uint64_t before = silence_.requestCount(MuteRequester::osc),
+                            asked = countSilenceRequests(bytes);
         if (asked > 0) silence_.request(MuteRequester::osc, before + asked);
         const OscCounts counted = door_.counts();
         answers_.clear();
@@ -32,9 +33,10 @@ public:
         door_.receive(bytes, clock_, answers_, before);
         const auto read = readOscPacket(bytes);
         demand(door_.counts().messages - counted.messages == read.value.size(), "messages counted otherwise");
-        demand(silence_.asked(MuteRequester::osc) == before + asked, "silences counted otherwise than done");
+        demand(silence_.requestCount(MuteRequester::osc) == before + asked,
+               "silences counted otherwise than done");
         demand(asked == 0 || hasLifted_ || silence_.isSilent(), "asked for, and not silent");
-        demandLine(door_.counts().fault);
+        demandLine(door_.counts().lastError);
         for (const auto& answer : answers_)
             demand(static_cast<bool>(readOscPacket(answer)), "an answer that cannot be read");
         goOn();
@@ -42,7 +44,7 @@ public:
 
     /// As InputListener does.
     void line(const std::string& text) {
-        const bool silences = asksForSilence(text);
+        const bool silences = requestsSilence(text);
         if (silences) silence_.request(MuteRequester::standardInput);
         const auto read =
             readInputLine(text, session_->world().state().scene->materials, session_->channels());
@@ -50,24 +52,25 @@ public:
         std::string fault = read.error;
         if (read) {
             if (const auto* message = std::get_if<PlainMessage>(&read.value))
-                fault = messages_.take(*message, nullptr, fuzz::anyClip).error;
+                fault = messages_.handle(*message, nullptr, fuzz::anyClip).error;
             else
                 fault = act(read.value, MuteRequester::standardInput);
         }
-        demand(!silences || silence_.isHeldBy(MuteRequester::standardInput), "asked for, and not silent");
+        demand(!silences || silence_.isRequestedBy(MuteRequester::standardInput),
+               "asked for, and not silent");
         demandLine(fault);
         goOn();
     }
 
     /// The stop doors open, whatever came before.
     void demandThatSilenceSilences() {
-        silence_.liftAll();
+        silence_.withdrawAll();
         demand(!silence_.isSilent(), "silent after all was lifted");
         packet(oscPacket(std::string{oscSilenceAddress}, {"", {{"on", 1.0}}}));
-        demand(silence_.isHeldBy(MuteRequester::osc), "/physvib/silence did not silence");
+        demand(silence_.isRequestedBy(MuteRequester::osc), "/physvib/silence did not silence");
         demand(answers_.size() == 1 && door_.refusals().empty(), "/physvib/silence was not answered");
         line(R"({"control": "silence", "on": true})");
-        demand(silence_.isHeldBy(MuteRequester::standardInput), "a line did not silence");
+        demand(silence_.isRequestedBy(MuteRequester::standardInput), "a line did not silence");
         packet(oscPacket(std::string{oscSilenceAddress}, {"", {{"on", 0.0}}}));
         line(R"({"control": "silence", "on": false})");
         demand(!silence_.isSilent(), "its own off did not lift it");
@@ -92,17 +95,17 @@ private:
         const auto* asked = std::get_if<SilenceControl>(&input);
         demand(asked != nullptr, "a message where none may be");
         SilenceControl control = *asked;
-        if (control.number == SilenceControl::unnumbered) control.number = silence_.asked(from);
+        if (control.number == SilenceControl::unnumbered) control.number = silence_.requestCount(from);
         hasLifted_ = hasLifted_ || !control.isOn;
-        return takeSilence(silence_, control, from);
+        return applySilence(silence_, control, from);
     }
 
     void goOn() {
         if (++tries_ % triesPerBlock != 0) return;
         if (++blocks_ % blocksPerSession == 0) session_->prepare(8000, blockFrames);
         session_->advance();
-        std::array<std::array<float, blockFrames>, limits::maxEnchanters> samples;
-        std::array<float*, limits::maxEnchanters> out{};
+        std::array<std::array<float, blockFrames>, limits::maxActuators> samples;
+        std::array<float*, limits::maxActuators> out{};
         for (std::size_t j = 0; j < out.size(); ++j) out[j] = samples[j].data();
         session_->render(out.data(), blockFrames, RenderMode::realtime);
         for (int j = 0; j < session_->channels(); ++j)
@@ -133,7 +136,7 @@ public:
             names_.emplace_back(message.name);
             for (const auto& argument : message.arguments) arguments_.push_back(&argument);
         }
-        for (const auto& argument : messages::when) arguments_.push_back(&argument);
+        for (const auto& argument : messages::timeArguments) arguments_.push_back(&argument);
         for (const auto& control : controlTable) {
             names_.emplace_back(control.name);
             if (!control.field.empty()) fields_.emplace_back(control.field);
@@ -162,7 +165,7 @@ public:
             if (!control->field.empty())
                 plain.values.push_back(
                     {std::string{control->field},
-                     oneIn(2) ? random_.uniform(control->least, control->most) : number()});
+                     oneIn(2) ? random_.uniform(control->minimum, control->maximum) : number()});
         }
         const auto act = std::ranges::find(acts, plain.name, &Act::name);
         if (act != acts.end() && !oneIn(4)) {
@@ -172,7 +175,7 @@ public:
             if (act->numbers == 1) plain.values.push_back({act->field, numbers[0]});
             if (act->numbers > 1) plain.values.push_back({act->field, std::move(numbers)});
         }
-        if (namesSilence(plain.name) && oneIn(2))
+        if (containsSilenceWord(plain.name) && oneIn(2))
             plain.values.push_back({"on", static_cast<double>(oneIn(2))});
         while (oneIn(3)) plain.values.push_back({any(fields_), value()});
         return plain;
@@ -254,8 +257,8 @@ private:
     PlainValue valueOf(const MessageArgument& argument) {
         if (oneIn(6)) return value();
         if (argument.type == MessageArgument::Type::number) {
-            if (oneIn(4)) return oneIn(2) ? argument.least : std::min(argument.most, 30.0);
-            return random_.uniform(argument.least, std::min(argument.most, 500.0));
+            if (oneIn(4)) return oneIn(2) ? argument.minimum : std::min(argument.maximum, 30.0);
+            return random_.uniform(argument.minimum, std::min(argument.maximum, 500.0));
         }
         if (argument.type == MessageArgument::Type::word || oneIn(2)) return word();
         std::vector<double> numbers(static_cast<std::size_t>(2 * (1 + random_.below(6))));

@@ -46,7 +46,7 @@ TEST(OscPackets, WhatIsWrittenIsRead) {
     ASSERT_EQ(all.value.size(), 1U);
     EXPECT_EQ(all.value[0].address, "/physvib/x");
     EXPECT_EQ(all.value[0].tag, oscNow);
-    const auto plain = plainOf("x", all.value[0].values);
+    const auto plain = parseOscValues("x", all.value[0].values);
     EXPECT_EQ(plain.error, "");
     EXPECT_EQ(plain.value, message);
 }
@@ -73,7 +73,7 @@ TEST(OscPackets, TheInnermostTagCounts) {
 TEST(OscPackets, WhatIsWrongIsNothing) {
     const std::string now = "\0\0\0\0\0\0\0\1"s, one = words("/a", "n", "w");
     std::string deep = element(one);
-    for (int i = 0; i <= deepestBundle; ++i)
+    for (int i = 0; i <= maxBundleDepth; ++i)
         deep = "\0\0"s +
                std::string{static_cast<char>(bundle(now, deep).size() >> 8),
                            static_cast<char>(bundle(now, deep).size())} +
@@ -101,11 +101,11 @@ TEST(OscPackets, EveryCutOfAPacketIsNothing) {
 
 TEST(OscPackets, ValuesHaveNames) {
     EXPECT_EQ(
-        plainOf("path", {"places"s, 0.0, 0.5, 2.0, 0.5, "law"s, "energy"s, "seconds"s, 1.0}).value,
+        parseOscValues("path", {"places"s, 0.0, 0.5, 2.0, 0.5, "law"s, "energy"s, "seconds"s, 1.0}).value,
         (PlainMessage{"path",
                       {{"places", std::vector{0.0, 0.5, 2.0, 0.5}}, {"law", "energy"s}, {"seconds", 1.0}}}));
-    EXPECT_EQ(plainOf("strike", {0.5}).error, "strike: expected a name before 0.5");
-    EXPECT_EQ(plainOf("strike", {"level"s}).error, "strike: level: expected a value");
+    EXPECT_EQ(parseOscValues("strike", {0.5}).error, "strike: expected a name before 0.5");
+    EXPECT_EQ(parseOscValues("strike", {"level"s}).error, "strike: level: expected a value");
 }
 
 TEST(OscPackets, PatternsAreThoseOfTheStandard) {
@@ -171,19 +171,20 @@ TEST(OscPage, HasTheSensorPrograms) {
     std::string table = "| address | numbers | times |\n| --- | --- | --- |\n";
     for (const auto& format : sensorFormats)
         table += "| `" + std::string(format.address) + "` | " + partOf(format) + " | " +
-                 numberText(format.toPull) + " |\n";
+                 numberText(format.metresPerSecond2PerUnit) + " |\n";
     expectOnThePage(table);
 }
 
 TEST(OscPage, HasTheFigures) {
-    expectOnThePage("`" + std::string(oscThisComputer) + "`");
-    expectOnThePage("at most " + std::to_string(deepestBundle) + " deep");
-    expectOnThePage(numberText(PhoneSensors::leastChange) + " m/s²");
+    expectOnThePage("`" + std::string(oscLoopbackAddress) + "`");
+    expectOnThePage("at most " + std::to_string(maxBundleDepth) + " deep");
+    expectOnThePage(numberText(PhoneSensors::minChangeMetresPerSecond2) + " m/s²");
     expectOnThePage("by more than " + numberText(1e-6 * static_cast<double>(OscClock::slackNs)) + " ms");
     expectOnThePage("at most " + std::to_string(OscClock::maxSlewPpm) + " ppm");
-    expectOnThePage("once per cause and " + std::to_string(OscReplies::refusalEveryNs / 1'000'000) + " ms");
-    expectOnThePage(std::to_string(OscReplies::freeBytes) + " bytes a second");
-    expectOnThePage("at most " + std::to_string(OscReplies::maxSenders) + " senders");
+    expectOnThePage("once per cause and " + std::to_string(OscReplyLimiter::refusalIntervalNs / 1'000'000) +
+                    " ms");
+    expectOnThePage(std::to_string(OscReplyLimiter::freeBytes) + " bytes a second");
+    expectOnThePage("at most " + std::to_string(OscReplyLimiter::maxSenders) + " senders");
 }
 
 } // namespace physvib::osc_packet_test

@@ -19,7 +19,7 @@ using namespace test;
 
 /// A device whose blocks are asked for by the test.
 struct FakeOutput final : OutputClock {
-    FakeOutput() { tell({1'000'000'000, 1'000'000'000, 50'000'000}); }
+    FakeOutput() { publish({1'000'000'000, 1'000'000'000, 50'000'000}); }
 };
 
 struct Played {
@@ -51,7 +51,7 @@ bool comes(const std::function<bool()>& isTrue) {
 
 UdpSocket senderTo(const OscPort& port) {
     return std::move(
-        UdpSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value);
+        UdpSocket::connectTo(std::string(oscLoopbackAddress) + ":" + std::to_string(port.port())).value);
 }
 
 /// The next packet that comes.
@@ -110,9 +110,9 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_TRUE(comes([&] { return port->status().counts.packets == 2 * each; }));
     const OscCounts counts = port->status().counts;
     EXPECT_EQ(counts.messages, each);
-    EXPECT_EQ(counts.bad, each);
+    EXPECT_EQ(counts.malformed, each);
     EXPECT_EQ(counts.lost, 0U);
-    EXPECT_TRUE(counts.fault.starts_with("127.0.0.1:")) << counts.fault;
+    EXPECT_TRUE(counts.lastError.starts_with("127.0.0.1:")) << counts.lastError;
     EXPECT_EQ(played.session.world().size().strikes, 0U) << "they were for now";
 }
 
@@ -120,11 +120,11 @@ TEST(OscPorts, WhatIsSentIsCounted) {
 struct HeldUp : Played {
     std::unique_ptr<OscPort> openHeldUp() {
         OscHooks hooks;
-        hooks.act = [this](const LineInput& input, const OscOrigin&) {
+        hooks.apply = [this](const LineInput& input, const OscOrigin&) {
             isHeldUp = true;
             while (!keepGoing) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             const auto* silence = std::get_if<SilenceControl>(&input);
-            return silence != nullptr ? takeSilence(output.silence(), *silence, MuteRequester::osc)
+            return silence != nullptr ? applySilence(output.silence(), *silence, MuteRequester::osc)
                                       : std::string{};
         };
         auto port = std::make_unique<OscPort>(anyPort(), session, messages, output, std::move(hooks));
@@ -191,7 +191,7 @@ TEST(OscPorts, WhatCouldNotBeDoneAfterAllIsToldToItsSender) {
     Played played;
     OscHooks hooks;
     std::promise<OscOrigin> taken;
-    hooks.act = [&taken](const LineInput&, const OscOrigin& origin) {
+    hooks.apply = [&taken](const LineInput&, const OscOrigin& origin) {
         return taken.set_value(origin), std::string{};
     };
     OscPort port{anyPort(), played.session, played.messages, played.output, std::move(hooks)};
@@ -220,15 +220,15 @@ TEST(OscPorts, NobodyGetsMuchMoreThanHeSends) {
     std::size_t bytes = 0, answers = 0;
     for (; asks.wait(100); ++answers) bytes += asks.receive()->size();
     EXPECT_GT(answers, 0U);
-    EXPECT_LE(bytes, each * status.size() + static_cast<std::size_t>(seconds) * OscReplies::freeBytes);
-    EXPECT_EQ(port->status().counts.held, each - answers);
+    EXPECT_LE(bytes, each * status.size() + static_cast<std::size_t>(seconds) * OscReplyLimiter::freeBytes);
+    EXPECT_EQ(port->status().counts.heldBack, each - answers);
 }
 
 TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     Played played;
-    auto in = std::move(UdpSocket::listening(oscThisComputer, 0).value);
+    auto in = std::move(UdpSocket::listenAt(oscLoopbackAddress, 0).value);
     OscSettings out;
-    out.receiver = std::string(oscThisComputer) + ":" + std::to_string(in.port());
+    out.receiver = std::string(oscLoopbackAddress) + ":" + std::to_string(in.port());
     const auto port = played.open(out);
     ASSERT_EQ(port->error(), "");
     EXPECT_EQ(port->port(), 0) << "nothing is taken";
@@ -238,12 +238,12 @@ TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     hit.frequencyHz = 250.0;
     hit.amplitude = 0.5;
     hit.x = 1.5;
-    port->played({hit, 0, false}, hostRate);
+    port->onPlayed({hit, 0, false}, hostRate);
     const OscMessage told = nextOf(in);
     EXPECT_EQ(told.address, oscHitAddress);
-    EXPECT_LT(std::abs(unixNsOf(told.tag) - unixAheadNs() - 2'500'000'000), 1'000'000)
+    EXPECT_LT(std::abs(unixNsFromTag(told.tag) - unixMinusSteadyNs() - 2'500'000'000), 1'000'000)
         << "session time is the steady clock's there";
-    const auto plain = plainOf("hit", told.values);
+    const auto plain = parseOscValues("hit", told.values);
     EXPECT_EQ(plain.value.values.at(0), (NamedValue{"session_s", 2.5}));
     EXPECT_EQ(plain.value.values.at(1), (NamedValue{"frequency_hz", 250.0}));
     EXPECT_EQ(plain.value.values.at(4), (NamedValue{"x_m", 1.5}));
@@ -259,7 +259,7 @@ TEST(OscRepliesLimits, NoSecondHasMoreThanCamePlusTwoKilobytes) {
         std::int64_t atNs;
         std::size_t came, sent;
     };
-    OscReplies replies;
+    OscReplyLimiter replies;
     std::mt19937 random{5};
     std::map<std::string, std::deque<Passed>> last;
     std::size_t most = 0;
@@ -268,65 +268,66 @@ TEST(OscRepliesLimits, NoSecondHasMoreThanCamePlusTwoKilobytes) {
         now += static_cast<std::int64_t>(random() % (k % 10'000 < 5'000 ? ms : 20 * ms));
         const std::string address = "198.51.100." + std::to_string(random() % 3);
         Passed passed{now, 8 + random() % 120, 0};
-        replies.begin(address + ":" + std::to_string(random() % 60'000), passed.came, now);
+        replies.packetReceived(address + ":" + std::to_string(random() % 60'000), passed.came, now);
         for (auto answers = random() % 4; answers > 0; --answers)
-            if (const std::size_t bytes = 20 + random() % 600; replies.mayReply(bytes)) passed.sent += bytes;
+            if (const std::size_t bytes = 20 + random() % 600; replies.tryReply(bytes)) passed.sent += bytes;
         auto& second = last[address];
         second.push_back(passed);
         while (second.front().atNs <= now - 1000 * ms) second.pop_front();
         std::size_t came = 0, sent = 0;
         for (const Passed& one : second) came += one.came, sent += one.sent;
         most = std::max(most, sent - std::min(sent, came));
-        ASSERT_LE(sent, came + OscReplies::freeBytes) << k;
+        ASSERT_LE(sent, came + OscReplyLimiter::freeBytes) << k;
     }
-    EXPECT_GT(most, OscReplies::freeBytes * 3 / 4) << "it is this limit that holds";
+    EXPECT_GT(most, OscReplyLimiter::freeBytes * 3 / 4) << "it is this limit that holds";
 }
 
 TEST(OscRepliesLimits, ARefusalOfACauseIsSentTenTimesASecond) {
-    OscReplies replies;
+    OscReplyLimiter replies;
     int told = 0, others = 0;
     for (std::int64_t now = 0; now < 1000 * ms; now += ms) {
-        replies.begin("192.0.2.1:5", 100, now);
-        told += replies.mayRefuse("strike: level: expected 0 to 1, found " + std::to_string(now)) ? 1 : 0;
-        replies.begin("192.0.2.2:5", 100, now);
-        others += replies.mayRefuse("strike: level: expected 0 to 1, found 2") ? 1 : 0;
+        replies.packetReceived("192.0.2.1:5", 100, now);
+        told += replies.tryRefusal("strike: level: expected 0 to 1, found " + std::to_string(now)) ? 1 : 0;
+        replies.packetReceived("192.0.2.2:5", 100, now);
+        others += replies.tryRefusal("strike: level: expected 0 to 1, found 2") ? 1 : 0;
     }
     EXPECT_EQ(told, 10);
     EXPECT_EQ(others, 10) << "each address by itself";
-    replies.begin("192.0.2.1:5", 100, 1000 * ms);
-    EXPECT_TRUE(replies.mayRefuse("strike: level: expected 0 to 1, found 3"));
-    EXPECT_TRUE(replies.mayRefuse("gain: channel: expected a channel from 1 to 4, found 9"))
+    replies.packetReceived("192.0.2.1:5", 100, 1000 * ms);
+    EXPECT_TRUE(replies.tryRefusal("strike: level: expected 0 to 1, found 3"));
+    EXPECT_TRUE(replies.tryRefusal("gain: channel: expected a channel from 1 to 4, found 9"))
         << "another cause";
-    EXPECT_FALSE(replies.mayRefuse("gain: channel: expected a channel from 1 to 4, found 5"));
+    EXPECT_FALSE(replies.tryRefusal("gain: channel: expected a channel from 1 to 4, found 5"));
 }
 
 TEST(OscRepliesLimits, ProgramsOfThisComputerAreToldApartOthersByTheirComputer) {
-    OscReplies replies;
+    OscReplyLimiter replies;
     const auto spend = [&replies](const char* sender, std::int64_t now) {
         std::size_t sent = 0;
-        replies.begin(sender, 0, now);
-        while (replies.mayReply(100)) sent += 100;
+        replies.packetReceived(sender, 0, now);
+        while (replies.tryReply(100)) sent += 100;
         return sent;
     };
-    EXPECT_EQ(spend("127.0.0.1:4000", 0), OscReplies::freeBytes);
-    EXPECT_EQ(spend("127.0.0.1:4001", 0), OscReplies::freeBytes);
-    EXPECT_EQ(spend("192.0.2.1:4000", 0), OscReplies::freeBytes);
+    EXPECT_EQ(spend("127.0.0.1:4000", 0), OscReplyLimiter::freeBytes);
+    EXPECT_EQ(spend("127.0.0.1:4001", 0), OscReplyLimiter::freeBytes);
+    EXPECT_EQ(spend("192.0.2.1:4000", 0), OscReplyLimiter::freeBytes);
     EXPECT_EQ(spend("192.0.2.1:4001", 0), 0U) << "a port is easily made up";
     EXPECT_EQ(spend("192.0.2.1:4001", 999 * ms), 0U);
-    EXPECT_EQ(spend("192.0.2.1:4001", 1000 * ms), OscReplies::freeBytes);
+    EXPECT_EQ(spend("192.0.2.1:4001", 1000 * ms), OscReplyLimiter::freeBytes);
 }
 
 TEST(OscRepliesLimits, AddressesThatAreMadeUpGetLittleTogether) {
-    OscReplies replies;
+    OscReplyLimiter replies;
     std::size_t sent = 0;
     for (int k = 0; k < 10'000; ++k) {
-        replies.begin("10.0." + std::to_string(k / 250) + '.' + std::to_string(k % 250) + ":1", 24, 0);
+        replies.packetReceived("10.0." + std::to_string(k / 250) + '.' + std::to_string(k % 250) + ":1", 24,
+                               0);
         for (int answers = 0; answers < 100; ++answers)
-            if (replies.mayReply(100)) sent += 100;
+            if (replies.tryReply(100)) sent += 100;
     }
-    EXPECT_LE(sent, OscReplies::maxSenders * (OscReplies::freeBytes + 24));
-    replies.begin("192.0.2.1:5", 24, 1000 * ms);
-    EXPECT_TRUE(replies.mayReply(100)) << "a second later there is room again";
+    EXPECT_LE(sent, OscReplyLimiter::maxSenders * (OscReplyLimiter::freeBytes + 24));
+    replies.packetReceived("192.0.2.1:5", 24, 1000 * ms);
+    EXPECT_TRUE(replies.tryReply(100)) << "a second later there is room again";
 }
 
 } // namespace physvib::osc_port_test

@@ -43,7 +43,7 @@ struct Open {
     /// which is the system's.
     void play(int blocks = 47) {
         for (int k = 0; k < blocks; ++k) {
-            clock.follow(
+            clock.update(
                 {session.timeline().presentNs() - 1, 1'000'000'000 + session.timeline().presentNs(), 1}, 0);
             session.advance();
             session.render(block.at.data(), 512, RenderMode::realtime);
@@ -67,7 +67,7 @@ TEST(OscReceivers, ATagIsTheSessionTimeToTheNanosecond) {
     Open open;
     open.play();
     const std::int64_t wanted = open.session.timeline().presentNs() + 123'456'789;
-    open.strike(0.5, tagOf(1'000'000'000 + wanted));
+    open.strike(0.5, tagFromUnixNs(1'000'000'000 + wanted));
     open.play();
     const auto struck = open.struck();
     ASSERT_EQ(struck.size(), 1U);
@@ -78,12 +78,12 @@ TEST(OscReceivers, ATagIsTheSessionTimeToTheNanosecond) {
 
 // As the page says: the play-out delay after its tag, or a block and the limiter where the session is direct.
 TEST(OscReceivers, ATagIsFeltToTheFrameInADirectSessionAsWell) {
-    for (const Direct direct : {Direct::no, Direct::told}) {
+    for (const Direct direct : {Direct::no, Direct::inputs}) {
         Open open{direct};
         open.play();
         const std::int64_t now = open.session.timeline().framesRendered();
         // 5,000 frames and a half from now
-        open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate));
+        open.strike(0.5, tagFromUnixNs(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate));
         open.play();
         const auto delay = direct == Direct::no ? open.session.timeline().outputLatencyFrames()
                                                 : 512 + HapticRenderer::latencyFramesAt(hostRate);
@@ -98,7 +98,7 @@ TEST(OscReceivers, LateOnesAreCountedAndFeltAtOnce) {
     Open open;
     open.play();
     const std::int64_t now = open.session.timeline().presentNs();
-    open.strike(0.5, tagOf(1'000'000'000 + now - 1'000'000));
+    open.strike(0.5, tagFromUnixNs(1'000'000'000 + now - 1'000'000));
     open.strike(0.5, oscNow);
     const auto struck = open.struck();
     ASSERT_EQ(struck.size(), 2U);
@@ -112,10 +112,10 @@ TEST(OscReceivers, ATagAndATimeOfItsOwnAreTwo) {
     open.play();
     open.take(oscBundle("/physvib/strike",
                         {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}, {"in", 2.0}}},
-                        tagOf(3'000'000'000)));
-    open.strike(0.5, tagOf(1'000'000'000 + std::int64_t{100'000} * 1'000'000'000));
+                        tagFromUnixNs(3'000'000'000)));
+    open.strike(0.5, tagFromUnixNs(1'000'000'000 + std::int64_t{100'000} * 1'000'000'000));
     EXPECT_EQ(open.door.counts().refused, 2U);
-    EXPECT_EQ(open.door.counts().fault, "strike: time tag: expected at most 86400 s from now");
+    EXPECT_EQ(open.door.counts().lastError, "strike: time tag: expected at most 86400 s from now");
     EXPECT_EQ(open.session.world().size().strikes, 0U);
     EXPECT_TRUE(open.struck().empty());
 }
@@ -125,7 +125,7 @@ TEST(OscReceivers, EveryMessageOfTheTableHasAnAddress) {
     for (const auto& message : messageTable) {
         Open open;
         open.take(oscPacket("/physvib/" + std::string(message.name), {}));
-        EXPECT_EQ(open.door.counts().fault.find("expected the name"), std::string::npos) << message.name;
+        EXPECT_EQ(open.door.counts().lastError.find("expected the name"), std::string::npos) << message.name;
         EXPECT_EQ(open.answers.size(), message.isQuery() ? 1U : 0U) << message.name;
     }
 }
@@ -140,7 +140,7 @@ TEST(OscReceivers, QueriesAreAnswered) {
                status = readOscPacket(open.answers[1]).value.at(0);
     EXPECT_EQ(layout.address, "/physvib/answer/layout");
     EXPECT_EQ(std::get<std::string>(layout.values.at(1)), "linear");
-    const auto plain = plainOf("status", status.values);
+    const auto plain = parseOscValues("status", status.values);
     EXPECT_EQ(plain.value.values.front().name, "session_s");
     EXPECT_NEAR(std::get<double>(plain.value.values.front().value),
                 1e-9 * static_cast<double>(open.session.timeline().presentNs()), 1e-6);
@@ -157,7 +157,7 @@ TEST(OscReceivers, InputsAndControlsAreThoseOfLines) {
     open.take(oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}}));
     open.take(oscPacket("/physvib/silence", {"", {{"on", 0.0}}}));
     open.take(oscPacket("/phone/gravity", {"", {}}));
-    EXPECT_EQ(open.door.counts().fault, "/phone/gravity: expected 3 numbers");
+    EXPECT_EQ(open.door.counts().lastError, "/phone/gravity: expected 3 numbers");
     ASSERT_EQ(open.acted.size(), 5U);
     EXPECT_EQ(std::get<Action>(open.acted[0]), Action{TiltAction{0.5}});
     EXPECT_EQ(std::get<Action>(open.acted[1]), (Action{GravityAction{{1.0, -9.0}}}));
@@ -214,15 +214,16 @@ TEST(OscReceivers, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
         EXPECT_EQ(open.door.refusals()[0].address, one.address);
         EXPECT_NE(open.door.refusals()[0].reason.find(one.reason), std::string::npos)
             << open.door.refusals()[0].reason;
-        EXPECT_NE(open.door.counts().fault.find(one.reason), std::string::npos) << open.door.counts().fault;
+        EXPECT_NE(open.door.counts().lastError.find(one.reason), std::string::npos)
+            << open.door.counts().lastError;
     }
-    EXPECT_EQ(open.door.counts().bad, 3U) << "of another type, not finite, and no OSC";
+    EXPECT_EQ(open.door.counts().malformed, 3U) << "of another type, not finite, and no OSC";
     EXPECT_EQ(open.door.counts().refused, std::size(wrong) - 3);
     open.closed = "a study is running";
     open.strike(0.5, oscNow);
     ASSERT_EQ(open.door.refusals().size(), 1U);
     EXPECT_EQ(open.door.refusals()[0].reason, "a study is running");
-    EXPECT_EQ(open.door.counts().fault, "a study is running");
+    EXPECT_EQ(open.door.counts().lastError, "a study is running");
     EXPECT_TRUE(open.answers.empty());
     EXPECT_TRUE(open.struck().empty());
     EXPECT_TRUE(open.acted.empty());
@@ -231,19 +232,19 @@ TEST(OscReceivers, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
 // Two programs that refuse each other's refusals would never end.
 TEST(OscReceivers, WhatIsAReplyIsCountedAndNotRefused) {
     Open open;
-    open.take(oscWords(std::string(oscErrorAddress),
-                       {"/physvib/strike", "strike: level: expected 0 to 1, found 2"}));
+    open.take(oscStringPacket(std::string(oscErrorAddress),
+                              {"/physvib/strike", "strike: level: expected 0 to 1, found 2"}));
     open.take(oscPacket("/physvib/answer/status", {"", {{"session_s", 1.0}}}));
     open.take(oscPacket(std::string(oscHitAddress), {"", {{"session_s", 1.0}}}));
     open.take(rawMessage(std::string(oscErrorAddress), "b", ""));
-    EXPECT_EQ(open.door.counts().wrong(), 4U);
+    EXPECT_EQ(open.door.counts().failures(), 4U);
     EXPECT_TRUE(open.door.refusals().empty());
 }
 
 TEST(OscReceivers, ClipsAreReadWhereTheDoorHasAFolder) {
     Open closed;
     closed.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
-    EXPECT_EQ(closed.door.counts().fault,
+    EXPECT_EQ(closed.door.counts().lastError,
               "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_TRUE(closed.struck().empty());
     Open open{
@@ -254,7 +255,7 @@ TEST(OscReceivers, ClipsAreReadWhereTheDoorHasAFolder) {
             return Result<LoadedClip>{clip};
         }};
     open.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
-    EXPECT_EQ(open.door.counts().fault, "");
+    EXPECT_EQ(open.door.counts().lastError, "");
     ASSERT_EQ(open.struck().size(), 1U);
 }
 
@@ -278,12 +279,13 @@ TEST(OscReceivers, SilenceIsTakenAndAnsweredAlwaysAndInOrder) {
 
 TEST(OscReceivers, WhatIsNoOffInItsRightFormSilencesAndIsRefused) {
     for (const auto& packet :
-         {oscPacket("/physvib/silence", {}), oscWords("/physvib/silence", {"on", "1"}),
+         {oscPacket("/physvib/silence", {}), oscStringPacket("/physvib/silence", {"on", "1"}),
           oscPacket("/physvib/silence", {"", {{"on", 0.0}, {"id", 7.0}}}),
           oscPacket("/physvib/silence/", {"", {{"on", 0.0}}}),
-          oscWords("/physvib/silence", {"message", "stop"}), // a line of another kind
-          oscWords("/physvib/silence", {"input", "tilt"}), oscWords("/physvib/silence", {"control", "gain"}),
-          oscWords("/physvib/silence", {"", ""}),
+          oscStringPacket("/physvib/silence", {"message", "stop"}), // a line of another kind
+          oscStringPacket("/physvib/silence", {"input", "tilt"}),
+          oscStringPacket("/physvib/silence", {"control", "gain"}),
+          oscStringPacket("/physvib/silence", {"", ""}),
           // only the address itself lifts
           oscPacket("/physvib/sil*", {"", {{"on", 0.0}}}), oscPacket("/physvib/s?lenc[d-f]", {}),
           oscPacket("/*/{stop,silence}", {}),
@@ -294,7 +296,7 @@ TEST(OscReceivers, WhatIsNoOffInItsRightFormSilencesAndIsRefused) {
         ASSERT_EQ(open.acted.size(), 1U);
         EXPECT_TRUE(std::get<SilenceControl>(open.acted[0]).isOn);
         EXPECT_EQ(std::get<SilenceControl>(open.acted[0]).number, 7U) << "counted as silencesIn() counts";
-        EXPECT_EQ(silencesIn(packet), 1U);
+        EXPECT_EQ(countSilenceRequests(packet), 1U);
         ASSERT_EQ(open.answers.size(), 1U);
         EXPECT_EQ(readOscPacket(open.answers[0]).value.at(0).values, (std::vector<OscValue>{"on"s, 1.0}));
         ASSERT_EQ(open.door.refusals().size(), 1U);
@@ -305,25 +307,27 @@ TEST(OscReceivers, WhatIsNoOffInItsRightFormSilencesAndIsRefused) {
 
 TEST(OscReceivers, SilencesOfAPacketAreCountedAsTheyAreRead) {
     const PlainMessage on{"", {{"on", 1.0}}}, off{"", {{"on", 0.0}}};
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", on)), 1U);
-    EXPECT_EQ(silencesIn(oscBundle("/physvib/silence", on, 12345)), 1U);
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", off)), 0U);
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", {"", {{"of", 1.0}}})), 1U)
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/silence", on)), 1U);
+    EXPECT_EQ(countSilenceRequests(oscBundle("/physvib/silence", on, 12345)), 1U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/silence", off)), 0U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/silence", {"", {{"of", 1.0}}})), 1U)
         << "no off in its right form";
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/Silence/1", off)), 1U);
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/answer/silence", on)), 0U) << "what such a program as this says";
-    EXPECT_EQ(silencesIn(oscPacket("/elsewhere/silence", on)), 0U);
-    EXPECT_EQ(
-        silencesIn(oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", "/physvib/silence"s}}})), 0U);
-    EXPECT_EQ(silencesIn(std::string{"/physvib/silence"}), 1U) << "broken, but readable so far";
-    EXPECT_EQ(silencesIn(std::string{"/physvib/strike"}), 0U);
-    EXPECT_EQ(silencesIn(std::string{"/physvib/str*"}), 0U);
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/st{op,rike}", {})), 0U);
-    EXPECT_EQ(silencesIn(oscPacket("/physvib/answer/*", on)), 0U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/Silence/1", off)), 1U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/answer/silence", on)), 0U)
+        << "what such a program as this says";
+    EXPECT_EQ(countSilenceRequests(oscPacket("/elsewhere/silence", on)), 0U);
+    EXPECT_EQ(countSilenceRequests(
+                  oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", "/physvib/silence"s}}})),
+              0U);
+    EXPECT_EQ(countSilenceRequests(std::string{"/physvib/silence"}), 1U) << "broken, but readable so far";
+    EXPECT_EQ(countSilenceRequests(std::string{"/physvib/strike"}), 0U);
+    EXPECT_EQ(countSilenceRequests(std::string{"/physvib/str*"}), 0U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/st{op,rike}", {})), 0U);
+    EXPECT_EQ(countSilenceRequests(oscPacket("/physvib/answer/*", on)), 0U);
     auto both = oscBundle("/physvib/silence", on, oscNow);
     const auto second = oscBundle("/physvib/silence", off, oscNow);
     both.insert(both.end(), second.begin() + 16, second.end());
-    EXPECT_EQ(silencesIn(both), 1U);
+    EXPECT_EQ(countSilenceRequests(both), 1U);
 }
 
 } // namespace physvib::osc_receiver_test

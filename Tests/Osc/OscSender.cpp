@@ -45,7 +45,7 @@ void paced(int count, double perSecond, Send send) {
 
 void sendStrike(lo_address to, std::int64_t unixNs, double frequency, double decay, double level, double x,
                 double y) {
-    const OscTag tag = tagOf(unixNs);
+    const OscTag tag = tagFromUnixNs(unixNs);
     const lo_bundle bundle =
         lo_bundle_new({static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint32_t>(tag)});
     const lo_message strike = lo_message_new();
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     if (argc < 4) return 2;
     const std::string command = argv[2];
     const lo_address to = lo_address_new("127.0.0.1", argv[1]);
-    auto socket = UdpSocket::connected(std::string("127.0.0.1:") + argv[1]);
+    auto socket = UdpSocket::connectTo(std::string("127.0.0.1:") + argv[1]);
     if (!socket) return 2;
     const int count = static_cast<int>(number(3));
     if (command == "flood")

@@ -20,8 +20,8 @@ std::optional<GravityAction> pullOf(PhoneSensors& phone, const std::string& addr
 
 void expectPull(const std::optional<GravityAction>& found, double x, double y) {
     ASSERT_TRUE(found.has_value());
-    EXPECT_NEAR(found->metresPerSecond2.x, x, 1e-6);
-    EXPECT_NEAR(found->metresPerSecond2.y, y, 1e-6);
+    EXPECT_NEAR(found->gravityMetresPerSecond2.x, x, 1e-6);
+    EXPECT_NEAR(found->gravityMetresPerSecond2.y, y, 1e-6);
 }
 
 TEST(PhoneSensors, UprightPhonesOfBothKindsPullDown) {
@@ -71,12 +71,12 @@ TEST(PhoneSensors, TenMinutesDoNotDrift) {
                      y = 9.81 * std::cos(angle);
         const double tremble = 1e-4 * (random.below(201) - 100);
         if (const auto pull = pullOf(phone, "/accelerometer", {x + tremble, y, 0.0})) now = *pull, ++told;
-        ASSERT_LT(std::hypot(now.metresPerSecond2.x + x + tremble, now.metresPerSecond2.y + y),
-                  PhoneSensors::leastChange);
+        ASSERT_LT(std::hypot(now.gravityMetresPerSecond2.x + x + tremble, now.gravityMetresPerSecond2.y + y),
+                  PhoneSensors::minChangeMetresPerSecond2);
     }
     EXPECT_LT(told, 30'000) << "what does not matter is not logged";
     now = *pullOf(phone, "/accelerometer", {0.0, 9.0, 0.0});
-    EXPECT_NEAR(now.metresPerSecond2.y, -9.0, 1e-12);
+    EXPECT_NEAR(now.gravityMetresPerSecond2.y, -9.0, 1e-12);
 }
 
 // What phones and time tags may do at most: no pull beyond a world's limit on either axis, however the phone
@@ -96,8 +96,10 @@ TEST(BoundedInputs, NoPhonePullsBeyondTheWorldsLimitOnAnyAxis) {
                 // a phone tells what holds it: the pull is the other way
                 const double wantedX = -(std::cos(turn) * x - std::sin(turn) * y),
                              wantedY = -(std::sin(turn) * x + std::cos(turn) * y);
-                EXPECT_NEAR(pull.value->metresPerSecond2.x, std::clamp(wantedX, -most, most), 1e-6 * most);
-                EXPECT_NEAR(pull.value->metresPerSecond2.y, std::clamp(wantedY, -most, most), 1e-6 * most);
+                EXPECT_NEAR(pull.value->gravityMetresPerSecond2.x, std::clamp(wantedX, -most, most),
+                            1e-6 * most);
+                EXPECT_NEAR(pull.value->gravityMetresPerSecond2.y, std::clamp(wantedY, -most, most),
+                            1e-6 * most);
             }
 }
 
@@ -114,8 +116,8 @@ TEST(BoundedInputs, TheClockNeverGoesFasterThanItMay) {
                 std::int64_t steady =
                     7 * second + std::llround(static_cast<double>(session) * (1.0 + 1e-6 * ppm));
                 if (session > 5 * second) steady += stepNs; // as after a pause of the driver
-                clock.follow({session, steady, 0}, 0);
-                const std::int64_t now = clock.isReady() ? clock.sessionNs(0) : 0;
+                clock.update({session, steady, 0}, 0);
+                const std::int64_t now = clock.isReady() ? clock.sessionNsFromUnix(0) : 0;
                 if (session > 3 * second && before != 0) {
                     const std::int64_t most = (steady - last) * OscClock::maxSlewPpm / 1'000'000;
                     EXPECT_LE(std::abs(now - before), most + 1)
@@ -146,7 +148,7 @@ struct Device {
     void play(double seconds, double ppm, int mostDelayNs) {
         for (const std::int64_t end = block + static_cast<std::int64_t>(seconds * 1e9) / blockNs; block < end;
              ++block)
-            clock.follow(
+            clock.update(
                 blockAt(block * blockNs,
                         7'000'000'000 + std::llround(static_cast<double>(block * blockNs) * (1 + 1e-6 * ppm)),
                         random.below(mostDelayNs + 1)),
@@ -155,51 +157,51 @@ struct Device {
 };
 
 TEST(OscClocks, TagsAreSecondsSince1900) {
-    EXPECT_EQ(unixNsOf(OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32), 0);
-    EXPECT_EQ(unixNsOf((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u),
+    EXPECT_EQ(unixNsFromTag(OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32), 0);
+    EXPECT_EQ(unixNsFromTag((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u),
               500'000'000);
     // the last is behind 2036
     for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789,
                                   std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}})
-        EXPECT_EQ(unixNsOf(tagOf(ns)), ns);
+        EXPECT_EQ(unixNsFromTag(tagFromUnixNs(ns)), ns);
 }
 
 TEST(OscClocks, WhatIsTaggedIsMeantForThePresentAndFeltLater) {
     Device device;
     device.play(3.0, 0.0, 0);
     const std::int64_t present = 5'000'000'000, unix = unixAhead + 7'000'000'000 + present;
-    EXPECT_EQ(device.clock.sessionNs(unix), present);
-    EXPECT_EQ(device.clock.presentUnixNs(present), unix);
-    EXPECT_EQ(device.clock.feltUnixNs(present), unix + outputLatencyNs + deviceNs);
+    EXPECT_EQ(device.clock.sessionNsFromUnix(unix), present);
+    EXPECT_EQ(device.clock.unixNsFromSession(present), unix);
+    EXPECT_EQ(device.clock.outputUnixNs(present), unix + outputLatencyNs + deviceNs);
 }
 
 TEST(OscClocks, TheMomentIsHeldWhileBlocksComeLate) {
     Device device;
     device.play(3.0, 0.0, 3'000'000);
-    const std::int64_t before = device.clock.sessionNs(unixAhead);
+    const std::int64_t before = device.clock.sessionNsFromUnix(unixAhead);
     EXPECT_LT(std::abs(before + 7'000'000'000), 400'000) << "the earliest block of a second";
     device.play(60.0, 0.0, 3'000'000);
-    EXPECT_EQ(device.clock.sessionNs(unixAhead), before) << "to the nanosecond";
+    EXPECT_EQ(device.clock.sessionNsFromUnix(unixAhead), before) << "to the nanosecond";
 }
 
 TEST(OscClocks, ADriftingDeviceIsFollowed) {
     Device device;
     device.play(600.0, 80.0, 100'000);
     const auto now = static_cast<double>(device.block * blockNs);
-    EXPECT_NEAR(
-        static_cast<double>(device.clock.presentUnixNs(device.block * blockNs) - unixAhead - 7'000'000'000),
-        now * (1 + 80e-6), 1'200'000);
+    EXPECT_NEAR(static_cast<double>(device.clock.unixNsFromSession(device.block * blockNs) - unixAhead -
+                                    7'000'000'000),
+                now * (1 + 80e-6), 1'200'000);
 }
 
 TEST(OscClocks, AnotherDeviceIsAnotherBeginning) {
     Device device;
     device.play(3.0, 0.0, 0);
-    device.clock.follow(blockAt(0, 90'000'000'000, 0), unixAhead);
-    EXPECT_EQ(device.clock.sessionNs(unixAhead + 90'000'000'000), 0);
+    device.clock.update(blockAt(0, 90'000'000'000, 0), unixAhead);
+    EXPECT_EQ(device.clock.sessionNsFromUnix(unixAhead + 90'000'000'000), 0);
 }
 
 TEST(OscClocks, TheSystemsClockIsReadAgainTheSame) {
-    EXPECT_LT(std::abs(unixAheadNs() - unixAheadNs()), 100'000'000);
+    EXPECT_LT(std::abs(unixMinusSteadyNs() - unixMinusSteadyNs()), 100'000'000);
 }
 
 } // namespace physvib::phone_sensors_test

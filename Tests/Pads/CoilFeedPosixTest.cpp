@@ -16,7 +16,7 @@ namespace physvib::coil_feed_posix_test {
 constexpr std::int64_t ms = 1'000'000;
 
 PhantomPanner panner(const char* preset) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset(preset, layout);
     return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
 }
@@ -38,7 +38,7 @@ struct Fed {
                     for (float& sample : samples[j]) sample = value(j, frame + (&sample - samples[j].data()));
                 const float* const at[] = {samples[0].data(), samples[1].data(), samples[2].data(),
                                            samples[3].data()};
-                feed->rendered({at, 480, frame, 48000});
+                feed->onBlock({at, 480, frame, 48000});
                 frame += 480;
             }
             if (const auto report = feed->next((1000 + now) * ms, 0, level)) reports.push_back(*report);
@@ -155,7 +155,7 @@ TEST(CoilFeed, WhatItsRateCannotCarryIsFilteredAtEveryRateOfADevice) {
 class Device final : public OutputClock {
 public:
     Device() { setLevel(1.0f); }
-    void block(std::int64_t sessionNs) { tell({sessionNs, steadyNs(), 0, 48000}); }
+    void block(std::int64_t sessionNs) { publish({sessionNs, steadyNs(), 0, 48000}); }
     static std::int64_t steadyNs() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 };
 
@@ -185,7 +185,7 @@ protected:
         const float* const channels[] = {samples.data(), samples.data()};
         for (std::int64_t i = first; i < first + 10; ++i) {
             device.block(10 * ms * i);
-            output.rendered({channels, 480, 480 * i, 48000});
+            output.onBlock({channels, 480, 480 * i, 48000});
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
     }
@@ -212,11 +212,11 @@ TEST_F(HidOutputTest, FollowsADeviceAndLeavesSilenceBehind) {
     const std::string sent{std::istreambuf_iterator<char>{file}, {}};
     const std::size_t reports = output.counts().reports;
     EXPECT_GE(reports, 10u);
-    EXPECT_EQ(sent.size(), 4 * 4 + 64 * (reports + silentReports) + 2 * 4) << "on, samples, silence, off";
+    EXPECT_EQ(sent.size(), 4 * 4 + 64 * (reports + silentReportCount) + 2 * 4) << "on, samples, silence, off";
     EXPECT_EQ(sent.substr(0, 16), (std::string{"\x86\1\2\0\x86\1\5\0\x86\2\2\1\x86\2\5\1", 16}));
     EXPECT_EQ(sent.substr(sent.size() - 8), (std::string{"\x86\1\2\0\x86\1\5\0", 8}));
     EXPECT_EQ(sent.substr(sent.size() - 8 - 62, 62), std::string(62, '\0'));
-    EXPECT_NE(sent.substr(sent.size() - 8 - 64 * silentReports - 62, 30), std::string(30, '\0'));
+    EXPECT_NE(sent.substr(sent.size() - 8 - 64 * silentReportCount - 62, 30), std::string(30, '\0'));
 }
 
 TEST_F(HidOutputTest, AControllerThatTakesNothingHoldsUpNobody) {

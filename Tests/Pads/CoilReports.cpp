@@ -44,11 +44,11 @@ void playHits(double seconds, const PhantomPanner& panner) {
             hit.amplitude = 0.1 + 0.1 * (made % 10);
             hit.x = made % 2;
             hit.y = 0.5;
-            feed.made(hit);
+            feed.onCollision(hit);
             if (made % 3 != 0) continue;
             hit.frequencyHz *= 2.0;
             hit.amplitude *= 0.5;
-            feed.made(hit);
+            feed.onCollision(hit);
         }
         if (const auto report = feed.next(ns, ns, 1.0f)) print(ns, *report);
     }
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     if (argc != 4) return 2;
     const CoilFormat& format = std::string{argv[1]} == "steam" ? steamSamples() : dualSenseSamples();
     const double seconds = std::atof(argv[2]), clock = 1.0 + 1e-6 * std::atof(argv[3]);
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone2", layout);
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 1.0};
     if (std::string{argv[1]} == "switch") return playHits(seconds, panner), 0;
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
                 const CoilFrame now = signalAt(frame + static_cast<std::int64_t>(n));
                 left[n] = now[0], right[n] = now[1];
             }
-            feed->rendered({channels, blockFrames, frame, rateHz});
+            feed->onBlock({channels, blockFrames, frame, rateHz});
             frame += blockFrames;
             blockNs = static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / rateHz / clock) +
                       chance % 5'000'000u;

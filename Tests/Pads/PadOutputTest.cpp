@@ -39,7 +39,8 @@ TEST_F(OnePadInRealTime, WhatTheMotorsAreToldIsTheModelToTheCommand) {
         events.push_back(hit((200 + 90 * i) * ms, i % 2 ? 50.0 : 220.0, 0.05 * (1 + i % 7 * 3), i / 11.0));
     std::size_t made = 0;
     device.run(1800 * ms, [&](std::int64_t ns) {
-        for (; made < events.size() && events[made].timeNs < ns + 100 * ms; ++made) output.made(events[made]);
+        for (; made < events.size() && events[made].timeNs < ns + 100 * ms; ++made)
+            output.onCollision(events[made]);
     });
     output.follow(nullptr);
     const auto model = padCommands(builtInPads().front().law, events, {}, phone(), 1800 * ms);
@@ -67,7 +68,7 @@ TEST_F(OnePad, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     CollisionEvent tone = hit(100 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 60'000 * ms;
-    output.made(tone);
+    output.onCollision(tone);
     EXPECT_TRUE(soon([&] { return device.block(), !pad.isAtRest(); }));
     device.setSilent(true);
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
@@ -79,7 +80,7 @@ TEST_F(OnePad, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
     device.setLevel(1.0f);
     EXPECT_TRUE(soon([&] { return !pad.isAtRest(); }));
-    output.posted({.timeNs = device.sessionNs()}); // a stop
+    output.onControl({.timeNs = device.sessionNs()}); // a stop
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
 }
 
@@ -92,7 +93,7 @@ TEST_F(Pads, NothingIsFeltWhenNobodyIsFollowedAndWhenTheSinkEnds) {
         device.block();
         CollisionEvent tone = hit(device.sessionNs(), 60.0, 1.0, 0.5);
         tone.decayPerSecond = 0.1;
-        output.made(tone);
+        output.onCollision(tone);
         return soon([&] { return !pad.isAtRest(); });
     };
     {
@@ -113,7 +114,7 @@ TEST_F(OnePadInRealTime, AfterAPauseOfTheDeviceTheyAreOnTimeAgain) {
     device.beganNs += 400 * ms;
     device.block();
     const std::int64_t atNs = device.sessionNs() + 50 * ms;
-    output.made(hit(atNs, 60.0, 1.0, 0.5));
+    output.onCollision(hit(atNs, 60.0, 1.0, 0.5));
     device.run(atNs + 120 * ms);
     ASSERT_FALSE(pad.told().empty()) << "it waits for the time that the device stood still";
     EXPECT_GE(pad.told().front().steadyNs, device.beganNs + atNs - 60 * ms);
@@ -122,21 +123,22 @@ TEST_F(OnePadInRealTime, AfterAPauseOfTheDeviceTheyAreOnTimeAgain) {
 TEST_F(OnePad, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     pad.detach();
     EXPECT_TRUE(soon([&] { return !output.state().isReady; }));
-    EXPECT_EQ(output.state().trouble, "one is gone; it is looked for");
-    output.made(hit(device.sessionNs(), 60.0, 1.0, 0.5)); // lost on nobody's account: no controller is there
+    EXPECT_EQ(output.state().error, "one is gone; it is looked for");
+    output.onCollision(hit(device.sessionNs(), 60.0, 1.0, 0.5)); // lost on nobody's account: no controller is
+                                                                 // there
     pad.attach();
     EXPECT_TRUE(soon([&] { return output.state().isReady; }));
-    EXPECT_EQ(output.state().trouble, "");
+    EXPECT_EQ(output.state().error, "");
     const auto before = pad.told().size();
     device.block();
-    output.made(hit(device.sessionNs() + 50 * ms, 60.0, 1.0, 0.5));
+    output.onCollision(hit(device.sessionNs() + 50 * ms, 60.0, 1.0, 0.5));
     EXPECT_TRUE(soon([&] { return pad.told().size() > before; }));
     EXPECT_EQ(output.counts().connections, 2u);
 }
 
 TEST_F(OnePad, AControllerThatHangsHoldsUpNobody) {
     pad.hangs = true;
-    output.made(hit(50 * ms, 60.0, 1.0, 0.5));
+    output.onCollision(hit(50 * ms, 60.0, 1.0, 0.5));
     EXPECT_TRUE(soon([&] { return device.block(), pad.isHanging.load(); }));
     auto asked = std::async(std::launch::async, [&] {
         const bool isReady = output.state().isReady;
@@ -152,11 +154,11 @@ TEST_F(OnePad, AControllerThatHangsHoldsUpNobody) {
 /// A hit that begins and ends while the controller holds up a call is felt when it returns, then the rest.
 TEST_F(OnePad, AHitDuringACallThatHangsIsFeltAfterIt) {
     pad.hangs = true;
-    output.made(hit(50 * ms, 60.0, 0.02, 0.5));
+    output.onCollision(hit(50 * ms, 60.0, 0.02, 0.5));
     ASSERT_TRUE(soon([&] { return device.block(), pad.isHanging.load(); }));
     CollisionEvent thump = hit(device.sessionNs() + 40 * ms, 60.0, 1.0, 0.5);
     thump.decayPerSecond = 100.0;
-    output.made(thump);
+    output.onCollision(thump);
     device.run(600 * ms);
     pad.hangs = false;
     EXPECT_TRUE(soon([&] { return device.block(), pad.told().size() > 2 && pad.isAtRest(); }));
@@ -184,7 +186,7 @@ TEST_F(OnePadInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms 
     CollisionEvent tone = hit(50 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 800 * ms;
-    output.made(tone);
+    output.onCollision(tone);
     device.run(1200 * ms);
     std::int64_t zeroNs = 0;
     for (const auto& told : pad.told())
@@ -220,7 +222,7 @@ TEST_F(PadStopsInRealTime, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
         CollisionEvent tone = hit(device.sessionNs(), 60.0, 1.0, 0.5);
         tone.decayPerSecond = 0.0;
         tone.durationNs = 60'000 * ms;
-        output.made(tone);
+        output.onCollision(tone);
         std::int64_t quickest = INT64_MAX;
         for (int i = 0; i < 5 && quickest > 100 * ms; ++i) {
             ASSERT_TRUE(soon([&] { return device.block(), !pad.isAtRest(); }));
@@ -250,7 +252,7 @@ TEST_F(PadStopsInRealTime, ASessionThatBeginsAnewIsFelt) {
             device.block();
             std::this_thread::sleep_for(std::chrono::milliseconds{5});
         }
-        output.made(hit(device.sessionNs(), 60.0, 1.0, 0.5));
+        output.onCollision(hit(device.sessionNs(), 60.0, 1.0, 0.5));
         EXPECT_TRUE(soon([&] { return device.block(), !pad.isAtRest(); })) << (isAnew ? "anew" : "before");
         EXPECT_TRUE(soon([&] { return device.block(), pad.isAtRest(); }));
     }

@@ -41,7 +41,7 @@ public:
                  static_cast<float>(0.5 * along + noise())};
     }
     double strongest() const { return std::max(commands_[0], commands_[1]); }
-    PadTrialTime time(double endSeconds = 1e9) {
+    PadTrialClock time(double endSeconds = 1e9) {
         return {[this] { return seconds_; }, [this] { tick(); },
                 [this, endSeconds] { return seconds_ < endSeconds; }};
     }

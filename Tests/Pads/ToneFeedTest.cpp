@@ -30,7 +30,7 @@ TEST(SwitchTones, ThePublicDescriptionsExamplesAreWritten) {
 
 TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
     const auto fit = [](std::vector<ToneFeed::Partial> partials) {
-        return ToneFeed::fitted(std::move(partials));
+        return ToneFeed::fitTones(std::move(partials));
     };
     EXPECT_EQ(fit({}), TonePair{});
     EXPECT_NEAR(fit({{60.0, 0.25}}).low, 0.5, 1e-9);
@@ -47,15 +47,15 @@ TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
 }
 
 TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone2", layout);
     ToneFeed feed{kind, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
-    feed.made({.timeNs = 50 * ms,
-               .frequencyHz = 100.0,
-               .decayPerSecond = 0.1,
-               .amplitude = 0.8,
-               .x = 1.0,
-               .y = 0.5});
+    feed.onCollision({.timeNs = 50 * ms,
+                      .frequencyHz = 100.0,
+                      .decayPerSecond = 0.1,
+                      .amplitude = 0.8,
+                      .x = 1.0,
+                      .y = 0.5});
     std::int64_t now = 0;
     int reports = 0;
     const auto last = [&](int milliseconds, float level) {
@@ -74,10 +74,10 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     ASSERT_TRUE(silent);
     EXPECT_EQ(sideOf(*silent, 1), neutral);
     EXPECT_EQ(sideOf(*last(1000, 0.0f), 1), neutral);
-    EXPECT_EQ(reports, silentReports - 1) << "radio may lose one";
+    EXPECT_EQ(reports, silentReportCount - 1) << "radio may lose one";
     EXPECT_FALSE(last(100, 0.0f));
     EXPECT_NE(sideOf(*last(31, 1.0f), 1), neutral) << "what rings comes back";
-    feed.posted({.timeNs = now + 10 * ms}); // a stop
+    feed.onControl({.timeNs = now + 10 * ms}); // a stop
     EXPECT_EQ(sideOf(*last(200, 1.0f), 1), neutral);
     EXPECT_FALSE(last(100, 1.0f));
 }

@@ -59,7 +59,7 @@ public:
     std::atomic<bool> hangs{false}, isHanging{false}; ///< a command of the motors does not return
 
 private:
-    static void* of(const char* function) { return functionIn(openLibrary("libSDL2-2.0.so.0"), function); }
+    static void* of(const char* function) { return findFunction(openLibrary("libSDL2-2.0.so.0"), function); }
     int note(std::uint16_t low, std::uint16_t high) {
         while (hangs) isHanging = true, std::this_thread::sleep_for(std::chrono::milliseconds{1});
         const std::lock_guard lock{mutex_};
@@ -88,7 +88,7 @@ namespace pads_testing {
 constexpr std::int64_t ms = 1'000'000;
 
 inline PhantomPanner phone() {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
 }
@@ -107,7 +107,7 @@ class PacedDevice final : public OutputClock {
 public:
     PacedDevice() { setLevel(1.0f); }
     std::int64_t sessionNs() const { return now() - beganNs; }
-    void block() { tell({sessionNs(), now(), 40 * ms, 48000}); }
+    void block() { publish({sessionNs(), now(), 40 * ms, 48000}); }
     /// `atBlock(sessionNs)` at each.
     template <class AtBlock>
     void run(std::int64_t untilNs, AtBlock atBlock) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which contacts strike, when and how hard, in worlds whose hits are known by hand.
-#include "Contacts/CollisionCatcher.h"
 #include "AttachedWorld.h"
+#include "Contacts/CollisionRecorder.h"
 
 namespace physvib::collision_catcher_test {
 
@@ -78,15 +78,15 @@ TEST_F(CollisionCatcherWorld, PassesOfAStepAreOneHit) {
     give(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object);
     ASSERT_EQ(run(1).size(), 1U);
     b2Contact* contact = world.GetContactList();
-    b2ContactListener& catcher = *world.GetContactManager().m_contactListener;
+    b2ContactListener& recorder = *world.GetContactManager().m_contactListener;
     attachment.beginStep(0.01);
     const b2ContactImpulse impulse{{3.0F, 0.0F}, {4.0F, 0.0F}, 1};
     const b2Manifold none{};
     contact->GetFixtureB()->GetBody()->SetLinearVelocity({0.0F, -5.0F});
     for (int pass = 0; pass < 2; ++pass) {
-        catcher.BeginContact(contact);
-        catcher.PreSolve(contact, &none);
-        catcher.PostSolve(contact, &impulse);
+        recorder.BeginContact(contact);
+        recorder.PreSolve(contact, &none);
+        recorder.PostSolve(contact, &impulse);
     }
     attachment.endStep();
     const CollisionEvent event = only(0);
@@ -144,7 +144,7 @@ TEST_F(CollisionCatcherWorld, SensorsAreNotHit) {
 }
 
 TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCounted) {
-    constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectCollisions) + 10;
+    constexpr int balls = static_cast<int>(CollisionRecorder::maxDirectCollisions) + 10;
     give(floor(), camera);
     for (int i = 0; i < balls; ++i)
         give(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F,
@@ -155,14 +155,14 @@ TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCoun
     for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
         if (body->GetType() == b2_dynamicBody) body->GetFixtureList()->SetFilterData(apart);
     const auto events = run(1);
-    EXPECT_EQ(events.size(), CollisionCatcher::maxDirectCollisions);
+    EXPECT_EQ(events.size(), CollisionRecorder::maxDirectCollisions);
     EXPECT_EQ(attachment.drops(), 10U);
     for (const CollisionEvent& event : events)
         EXPECT_GT(event.source.impulseNewtonSeconds, 1.5 * massKg(*world.GetBodyList()->GetFixtureList()));
 }
 
 TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
-    constexpr int pairs = static_cast<int>(CollisionCatcher::maxDistantCollisions) + 10;
+    constexpr int pairs = static_cast<int>(CollisionRecorder::maxDistantCollisions) + 10;
     for (int i = 0; i < pairs; ++i) {
         const auto x = static_cast<float>(i % 100), y = 2.0F + static_cast<float>(i / 100);
         ball(x, y, 0.5F, 0.0F);

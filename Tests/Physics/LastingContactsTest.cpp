@@ -245,7 +245,7 @@ protected:
     LastingFelt() { top.y = static_cast<float>(fieldHeight); }
     /// Four channels of what has happened.
     static test::Channels felt(const std::vector<CollisionEvent>& events, PanningLaw law, double length) {
-        EnchanterLayout layout;
+        ActuatorLayout layout;
         layoutPreset("phone4", layout);
         RendererSettings settings{rate, 4, {layout, law, 1.0, fieldWidth, fieldHeight}};
         settings.limiterEnabled = false;

@@ -100,7 +100,7 @@ TEST_F(SilentBoxes, NameAMovableSourceBetweenOthers) {
 
 TEST_F(SilentBoxes, NameTheOutput) {
     source();
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layout.extentWidthMetres = 0.12;
     layout.extentHeightMetres = 0.06;
     layout.count = 2;
@@ -126,7 +126,7 @@ constexpr HapticFixture felt{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCa
 
 /// The peak of the samples, without a limiter, of 4 actuators at the corners of the field.
 double peakOf(const std::vector<CollisionEvent>& events, double width, double height, double seconds) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     RendererSettings settings;
     settings.limiterEnabled = false;

@@ -66,9 +66,10 @@ TEST(PicoGuard, IsTheGuardOfAComputer) {
             double sum = 0.0;
             for (int k = 0; k < pico::tileFrames; ++k)
                 sum += hz == 0.0 ? 32767.0 : wave(hz, tile * pico::tileFrames + k, false);
-            const double gainThere = double(there.to(0)) / pico::unity, gainHere = double(here.to(0));
-            there.take({static_cast<std::int32_t>(sum * gainThere)});
-            here.take({static_cast<float>(sum * gainHere / (32768.0 * pico::sampleRateHz))});
+            const double gainThere = double(there.gainAtEnd(0)) / pico::unity,
+                         gainHere = double(here.endGain(0));
+            there.update({static_cast<std::int32_t>(sum * gainThere)});
+            here.update({static_cast<float>(sum * gainHere / (32768.0 * pico::sampleRateHz))});
             powerThere += gainThere * gainThere;
             powerHere += gainHere * gainHere;
         }

@@ -74,7 +74,7 @@ TEST(PicoPlayer, AHitThatBeginsTheStreamAfterAPauseIsFelt) {
     pause();
     EXPECT_GT(share(), 0.9);
     pause();
-    stream.player->startSoftly(); // silence was commanded, or the computer suspended
+    stream.player->requestSoftStart(); // silence was commanded, or the computer suspended
     EXPECT_LT(share(), 0.2);
     stream.play(constant, 300);
     stream.isAttended = false; // the main loop hung
@@ -198,16 +198,16 @@ TEST(PicoPlayer, LowersItsCeilingAtOnceAndRaisesItSoftly) {
 
 TEST(PicoCeilingJumper, CountsWhenItHasLainStill) {
     pico::CeilingJumper jumper;
-    constexpr auto still = pico::CeilingJumper::stillTiles;
+    constexpr auto still = pico::CeilingJumper::debounceTiles;
     std::uint32_t t = 1;
     for (; t < 10 * still; ++t) // a contact that never lies still
-        ASSERT_FALSE(jumper.see(t, t % still != 0)) << t;
-    EXPECT_FALSE(jumper.see(t++, false));
+        ASSERT_FALSE(jumper.update(t, t % still != 0)) << t;
+    EXPECT_FALSE(jumper.update(t++, false));
     const auto tied = t;
-    for (; t < tied + still; ++t) ASSERT_FALSE(jumper.see(t, true)) << t;
-    EXPECT_TRUE(jumper.see(t++, true));
-    EXPECT_FALSE(jumper.see(t++, false)) << "at once";
-    EXPECT_FALSE(jumper.see(t++, true));
+    for (; t < tied + still; ++t) ASSERT_FALSE(jumper.update(t, true)) << t;
+    EXPECT_TRUE(jumper.update(t++, true));
+    EXPECT_FALSE(jumper.update(t++, false)) << "at once";
+    EXPECT_FALSE(jumper.update(t++, true));
 }
 
 TEST(PicoPlayer, FollowsVolumesWithoutAStep) {
@@ -251,7 +251,7 @@ int stepAfter(Lose&& lose) {
     return largestStep(stream, from);
 }
 
-constexpr int mostStep = 2 * 800 / pico::DroppedFrames<4>::fadeFrames + 2;
+constexpr int mostStep = 2 * 800 / pico::GapCrossfade<4>::fadeFrames + 2;
 
 TEST(PicoDroppedFrames, AStreamWithoutGapsStepsAsItsSourceDoes) {
     EXPECT_EQ(stepAfter([](auto& stream, auto&, auto& turnsAt) { turnsAt = stream.sent; }), 1600);
@@ -261,7 +261,7 @@ TEST(PicoDroppedFrames, AMissingPacketFades) {
     EXPECT_LE(stepAfter([](auto& stream, auto&, auto& turnsAt) {
                   stream.tiles(3);
                   turnsAt = stream.sent;
-                  stream.player->buffer.miss();
+                  stream.player->buffer.markGap();
               }),
               mostStep);
 }
@@ -289,15 +289,15 @@ TEST(PicoDroppedFrames, WhatComesWhileItStopsFades) {
 
 TEST(PicoMissingPackets, AreCountedByTheNumbersOfTheBus) {
     pico::MissingPackets missing;
-    EXPECT_FALSE(missing.see(700, false)) << "the first one";
-    EXPECT_FALSE(missing.see(701, true));
-    EXPECT_TRUE(missing.see(703, true));
-    EXPECT_FALSE(missing.see(703, true)) << "looked at late";
-    EXPECT_FALSE(missing.see(704, true));
+    EXPECT_FALSE(missing.update(700, false)) << "the first one";
+    EXPECT_FALSE(missing.update(701, true));
+    EXPECT_TRUE(missing.update(703, true));
+    EXPECT_FALSE(missing.update(703, true)) << "looked at late";
+    EXPECT_FALSE(missing.update(704, true));
     EXPECT_EQ(missing.count(), 1u);
-    EXPECT_FALSE(missing.see(2047, false)) << "a new stream";
-    EXPECT_FALSE(missing.see(0, true)) << "eleven bits";
-    EXPECT_TRUE(missing.see(3, true));
+    EXPECT_FALSE(missing.update(2047, false)) << "a new stream";
+    EXPECT_FALSE(missing.update(0, true)) << "eleven bits";
+    EXPECT_TRUE(missing.update(3, true));
     EXPECT_EQ(missing.count(), 3u);
 }
 

@@ -82,14 +82,14 @@ TEST(PicoVolume, IsKeptInAByteAndNeverLouder) {
                                      static_cast<std::uint8_t>(volume >> 8)};
         ASSERT_TRUE(controls.set(pico::unitVolume, 1, pico::audio_request::volume, 2, data, 2));
         ASSERT_TRUE(controls.set(pico::unitVolume, 1, pico::audio_request::mute, 3, data, 1));
-        again.restore(controls.kept());
+        again.setFromBytes(controls.toBytes());
         EXPECT_LE(again.gain(1), controls.gain(1)) << volume;
         EXPECT_GE(again.gain(1) + 1, controls.gain(1) * 0.94) << volume << ": half a decibel at most";
         EXPECT_EQ(again.gain(2), controls.gain(2)) << "mute";
-        EXPECT_EQ(again.kept(), controls.kept());
+        EXPECT_EQ(again.toBytes(), controls.toBytes());
     }
     pico::AudioControls<4> torn;
-    torn.restore({0x7f, 0, 0xff, 0, 0});
+    torn.setFromBytes({0x7f, 0, 0xff, 0, 0});
     EXPECT_EQ(torn.gain(0), 0) << "below the lowest";
 }
 
@@ -129,11 +129,11 @@ TEST(PicoFeedback, KeepsTheBufferWhereverTheHostsClockGoes) {
 
 TEST(PicoConsole, AnswersAndSilences) {
     pico::Console console;
-    const pico::Console::Facts facts{8, "E661", true, 32767, 1, 2, 8, 3, 4, 5, 6, 7};
+    const pico::Console::Status facts{8, "E661", true, 32767, 1, 2, 8, 3, 4, 5, 6, 7};
     const auto ask = [&](const std::string& line) {
         bool isDue = false;
-        for (const char c : line) EXPECT_FALSE(console.take(c));
-        isDue = console.take('\n');
+        for (const char c : line) EXPECT_FALSE(console.receive(c));
+        isDue = console.receive('\n');
         return isDue ? std::string(console.answer(facts)) : "";
     };
     EXPECT_EQ(ask("info").substr(0, 22), "physvib pico8 version ");
@@ -157,12 +157,12 @@ TEST(PicoIndicator, ShowsFourStates) {
     pico::Indicator indicator;
     using pico::Light;
     constexpr std::uint32_t second = pico::tilesPerSecond;
-    EXPECT_EQ(indicator.see(0, false, 0, 0), Light::waiting);
-    EXPECT_EQ(indicator.see(1, true, 0, 0), Light::playing);
-    EXPECT_EQ(indicator.see(2, true, 1, 0), Light::limiting);
-    EXPECT_EQ(indicator.see(2 + second, true, 1, 0), Light::playing);
-    EXPECT_EQ(indicator.see(2 + second, true, 1, 1), Light::fault);
-    EXPECT_EQ(indicator.see(2 + 6 * second, true, 1, 1), Light::playing);
+    EXPECT_EQ(indicator.update(0, false, 0, 0), Light::waiting);
+    EXPECT_EQ(indicator.update(1, true, 0, 0), Light::playing);
+    EXPECT_EQ(indicator.update(2, true, 1, 0), Light::limiting);
+    EXPECT_EQ(indicator.update(2 + second, true, 1, 0), Light::playing);
+    EXPECT_EQ(indicator.update(2 + second, true, 1, 1), Light::error);
+    EXPECT_EQ(indicator.update(2 + 6 * second, true, 1, 1), Light::playing);
     const auto flashes = [](Light light) { // in six seconds
         int count = 0;
         for (std::uint32_t t = 1; t < 6 * second; ++t)
@@ -172,7 +172,7 @@ TEST(PicoIndicator, ShowsFourStates) {
     EXPECT_EQ(flashes(Light::playing), 0);
     EXPECT_EQ(flashes(Light::waiting), 2);
     EXPECT_EQ(flashes(Light::limiting), 47);
-    EXPECT_EQ(flashes(Light::fault), 11);
+    EXPECT_EQ(flashes(Light::error), 11);
 }
 
 // The descriptors follow what Windows and macOS ask of a USB sound card beyond the standards, by their

@@ -37,7 +37,7 @@ public:
     }
     void tiles(int count) {
         for (int k = 0; k < count; ++k) {
-            if (isAttended) player->allow(isAllowed);
+            if (isAttended) player->setAllowed(isAllowed);
             pico::Tile<channels> tile;
             player->render(tile);
             out.insert(out.end(), tile.begin(), tile.end());

@@ -81,7 +81,7 @@ TEST(Painter, EdgesAreSmoothAndClipped) {
     EXPECT_EQ(image.at(4, 3).red, 255);
     EXPECT_EQ(image.at(4, 6).red, 0);
     {
-        const Painter::Saved whole{painter};
+        const Painter::ClipScope whole{painter};
         painter.reduceClip({0, 10, 20, 2});
         painter.fillEllipse({-1e9f, -1e9f, 2e9f, 2e9f}); // however large
         EXPECT_EQ(image.at(10, 11).red, 255);
@@ -120,8 +120,8 @@ TEST(HitColours, TellTheMaterialByItsSound) {
     const auto scene = twoMaterials();
     const std::vector<CollisionEvent> events{sounding(80.0, 34.0), sounding(430.0, 12.0)};
     const HitColours colours(inputOf(events, &scene));
-    EXPECT_EQ(colours.of(events[0]), palette::material(1));
-    EXPECT_EQ(colours.of(events[1]), palette::material(0));
+    EXPECT_EQ(colours.colourOf(events[0]), palette::material(1));
+    EXPECT_EQ(colours.colourOf(events[1]), palette::material(0));
     ASSERT_EQ(colours.classes().size(), 3u); // and the strongest
     EXPECT_EQ(colours.classes()[0].name, "steel 430 Hz");
     EXPECT_EQ(colours.classes()[1].name, "rubber 80 Hz");
@@ -132,7 +132,7 @@ TEST(HitColours, ASoundOfNoMaterialIsOther) {
     const auto scene = twoMaterials();
     const std::vector<CollisionEvent> events{sounding(430.0, 13.0)}; // another decay
     const HitColours colours(inputOf(events, &scene));
-    EXPECT_EQ(colours.of(events[0]), palette::other);
+    EXPECT_EQ(colours.colourOf(events[0]), palette::grey);
     EXPECT_EQ(colours.classes()[1].name, "other");
 }
 
@@ -148,8 +148,8 @@ TEST(HitColours, OfAGloveTellTheFinger) {
     input.layout.count = static_cast<int>(gloveTips.size());
     std::ranges::copy(gloveTips, input.layout.places.begin());
     const HitColours colours(input);
-    EXPECT_EQ(colours.of(events[0]), palette::enchanter(2));
-    EXPECT_EQ(colours.of(events[1]), palette::enchanter(0));
+    EXPECT_EQ(colours.colourOf(events[0]), palette::enchanter(2));
+    EXPECT_EQ(colours.colourOf(events[1]), palette::enchanter(0));
     EXPECT_EQ(colours.classes()[0].name, "thumb");
     EXPECT_EQ(colours.classes()[1].name, "middle");
     EXPECT_STREQ(colours.meaning(), "part of the body");
@@ -164,7 +164,7 @@ TEST(HitColours, WithoutASceneFewFrequenciesAreNamed) {
     ASSERT_EQ(colours.classes().size(), 3u);
     EXPECT_EQ(colours.classes()[0].name, "80 Hz");
     EXPECT_EQ(colours.classes()[1].name, "205 Hz");
-    EXPECT_EQ(colours.of(events[0]), colours.classes()[1].colour);
+    EXPECT_EQ(colours.colourOf(events[0]), colours.classes()[1].colour);
     EXPECT_STREQ(colours.meaning(), "frequency");
 }
 
@@ -172,9 +172,9 @@ TEST(HitColours, WithoutASceneManyFrequenciesAreOctaves) {
     std::vector<CollisionEvent> events;
     for (int i = 1; i < 100; ++i) events.push_back(sounding(10.0 * i));
     const HitColours colours(inputOf(events));
-    EXPECT_EQ(colours.of(sounding(30.0)), palette::ramp(0));
-    EXPECT_EQ(colours.of(sounding(205.0)), palette::ramp(3));
-    EXPECT_EQ(colours.of(sounding(900.0)), palette::ramp(5));
+    EXPECT_EQ(colours.colourOf(sounding(30.0)), palette::ramp(0));
+    EXPECT_EQ(colours.colourOf(sounding(205.0)), palette::ramp(3));
+    EXPECT_EQ(colours.colourOf(sounding(900.0)), palette::ramp(5));
     EXPECT_EQ(colours.classes().size(), 7u);
 }
 

@@ -230,7 +230,7 @@ TEST(RenderPicture, StemsStandAtTheirTimes) {
     const auto stemAt = [](std::int64_t timeNs) {
         Render render(1, 1);
         render.events[0].timeNs = timeNs;
-        return find(drawPicture(render.input), palette::now, {90, 842, 1380, 80}).x;
+        return find(drawPicture(render.input), palette::highlight, {90, 842, 1380, 80}).x;
     };
     const double laneWidth = stemAt(1'000'000'000) - stemAt(0);
     EXPECT_GT(laneWidth, 1200.0);

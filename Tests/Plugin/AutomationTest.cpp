@@ -27,7 +27,7 @@ public:
         ++next_[p];
         return true;
     }
-    int lastOfLine(std::size_t p) noexcept override {
+    int lastPointFrame(std::size_t p) noexcept override {
         int last = -1;
         for (std::size_t i = next_[p]; i < points_[p].size() && points_[p][i].first < end_; ++i)
             last = static_cast<int>(points_[p][i].first - first_);
@@ -53,7 +53,7 @@ Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& n
     for (std::int64_t at = 0, b = 0; at < frames; ++b) {
         const int size = blocks[static_cast<std::size_t>(b) % blocks.size()];
         song.begin(at, size);
-        host.plugin->expectPoints(song);
+        host.plugin->setPointSource(song);
         juce::MidiBuffer midi;
         for (; note < notes.size() && notes[note].frame < at + size; ++note)
             midi.addEvent(juce::MidiMessage::noteOn(1, notes[note].number, juce::uint8{100}),
@@ -226,7 +226,7 @@ public:
         point = {frame, 0.5 + static_cast<double>(std::min(phase, period - phase)) / (2.0 * period)};
         return true;
     }
-    int lastOfLine(std::size_t) noexcept override { return frames_; }
+    int lastPointFrame(std::size_t) noexcept override { return frames_; }
 
 private:
     std::int64_t at_;
@@ -238,7 +238,7 @@ Samples risingAndFalling(int block, std::int64_t frames) {
     Samples signal(1);
     for (std::int64_t at = 0; at < frames; at += block) {
         RisingAndFalling line{at, block};
-        host.plugin->expectPoints(line);
+        host.plugin->setPointSource(line);
         append(signal, host.block(block, at == 0 ? oneNote(60, 100) : juce::MidiBuffer{}));
     }
     return signal;

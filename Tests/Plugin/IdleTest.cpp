@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fifty idleInstances that nobody plays: asleep, and small.
+#include "PluginRuns.h"
 #include "PluginTesting.h"
 #include "Support/Growth.h"
 #include "Support/HeapBytes.h"
-#include "Takes.h"
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -99,13 +99,13 @@ TEST(PluginMemory, OfAnInstanceByKind) {
         return std::unique_ptr<juce::AudioProcessorEditor>{of.createEditorIfNeeded()};
     };
     opened(*prepared(0)).reset(); // what the process has once
-    const auto order = std::make_shared<TakeSpec>();
+    const auto order = std::make_shared<RunSpec>();
     order->setup = sessionSetupOf(newPluginState());
     const auto& setup = order->setup;
     const RendererSettings settings{.channels = setup.channels, .panner = setup.panner, .modes = setup.modes};
     const std::size_t bank = heapOf([&] {
         auto one = std::make_unique<ModeBank>();
-        const int gates = settings.shareOf(limits::maxGates, limits::maxModes, 256);
+        const int gates = settings.scaledToModes(limits::maxGates, limits::maxModes, 256);
         EXPECT_TRUE(one->prepare(48000, setup.channels, settings.instructions, setup.modes, gates));
         return one;
     });
@@ -120,7 +120,7 @@ TEST(PluginMemory, OfAnInstanceByKind) {
         return one;
     });
     const std::size_t take =
-        heapOf([&] { return std::make_unique<Take>(order, 48000, 512, TakeTiming::safe); });
+        heapOf([&] { return std::make_unique<PluginRun>(order, 48000, 512, StepTiming::safe); });
     const std::size_t made = heapOf([] { return std::make_unique<PluginProcessor>("PhysVib", BusPlan{}); });
     const std::size_t keys = heapOf([] { return prepared(-1); });
     const std::size_t world = heapOf([] { return prepared(0); });
@@ -144,7 +144,7 @@ TEST(PluginMemory, OfAnInstanceByKind) {
 
 // One thread for all: those of equal pace come in one waking, who renders nothing seldom, who has left never.
 
-struct Counted final : Stepped {
+struct Counted final : StepClient {
     explicit Counted(bool doesRender)
         : renders{doesRender} {}
     void tick() override {
@@ -207,7 +207,7 @@ struct Player {
     explicit Player(int rate) {
         auto state = shakenBox();
         state.notes = {{.note = 62, .kind = NoteKind::spawn, .material = 1}};
-        EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+        EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->errorText();
         host.prepare(rate, 480);
     }
     void step(std::int64_t i) {
@@ -216,8 +216,8 @@ struct Player {
         host.block(480, i % 20 == 0 ? oneNote(62, velocity, block) : juce::MidiBuffer{});
     }
     void look() {
-        host.plugin->takes().drainLog();
-        host.plugin->takes().poses(poses);
+        host.plugin->runs().drainLog();
+        host.plugin->runs().readPoses(poses);
     }
     TestHost host;
     std::vector<BodyPose> poses;

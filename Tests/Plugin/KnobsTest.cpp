@@ -18,7 +18,7 @@ PluginState knobPreset(std::string_view name) {
 struct KnobHost : TestHost {
     explicit KnobHost(const PluginState& state)
         : TestHost{state, 480} {}
-    void turn(Parameter which, std::string_view to) { set(which, valueOf(rowOf(which), to)); }
+    void turn(Parameter which, std::string_view to) { set(which, valueFromText(rowOf(which), to)); }
     /// What is struck by that, as the log has it.
     std::vector<CollisionEvent> struck(std::initializer_list<Message> messages) {
         juce::MidiBuffer midi;
@@ -26,7 +26,7 @@ struct KnobHost : TestHost {
         block(480, midi);
         for (int b = 1; b < 20; ++b) block(480);
         std::vector<CollisionEvent> events;
-        for (const auto& event : plugin->takes().drainLog()) events.push_back(event.played.event);
+        for (const auto& event : plugin->runs().drainLog()) events.push_back(event.played.event);
         return events;
     }
 };
@@ -90,7 +90,7 @@ TEST(Knobs, AControllerMovesThemFromItsFrameOn) {
     midi.addEvent(struckAt(62), 30);
     host.block(480, midi);
     for (int b = 0; b < 20; ++b) host.block(480);
-    const auto log = host.plugin->takes().drainLog();
+    const auto log = host.plugin->runs().drainLog();
     ASSERT_EQ(log.size(), 2u);
     EXPECT_NEAR(log[0].played.event.decayPerSecond, 12.0, 1e-5);
     EXPECT_NEAR(log[1].played.event.decayPerSecond, 1.5, 1e-5);
@@ -101,7 +101,7 @@ Samples knobChord(const std::string& text) {
     TestHost host;
     for (const auto which : parameterTable::instrumentGroup) host.setNormal(which, 0.9f);
     restore(*host.plugin, text);
-    EXPECT_EQ(host.plugin->trouble(), "");
+    EXPECT_EQ(host.plugin->errorText(), "");
     host.prepare(48000, 480);
     juce::MidiBuffer midi;
     for (const int note : {36, 43, 52, 60}) midi.addEvent(struckAt(note, 50 + note), note);
@@ -174,18 +174,18 @@ TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
         for (; knob != nullptr && knob != &editor && knob->isVisible();) knob = knob->getParentComponent();
         return knob == &editor;
     };
-    host.plugin->choose(presetPlace("Keys"));
+    host.plugin->choosePreset(presetPlace("Keys"));
     const auto editor = openEditor<PluginEditor>(*host.plugin);
     for (const char* const name :
          {"Decay", "Velocity curve", "Hold", "Placement", "Bend range", "Note material"})
         EXPECT_TRUE(shows(*editor, name)) << name;
     for (const char* const name : {"Release", "Gravity", "Tilt", "Material", "Timing"})
         EXPECT_FALSE(shows(*editor, name)) << name;
-    host.set(Parameter::hold, valueOf(rowOf(Parameter::hold), "on"));
+    host.set(Parameter::hold, valueFromText(rowOf(Parameter::hold), "on"));
     editor->refresh();
     EXPECT_TRUE(shows(*editor, "Release")) << "as soon as notes are held";
     EXPECT_FALSE(shows(*editor, "Decay"));
-    host.plugin->choose(presetPlace("marbles"));
+    host.plugin->choosePreset(presetPlace("marbles"));
     editor->refresh();
     for (const char* const name : {"Gravity", "Tilt", "Material", "Timing"})
         EXPECT_TRUE(shows(*editor, name)) << name;

@@ -14,7 +14,7 @@ struct LatencyHost : TestHost {
     explicit LatencyHost(const PluginState& state, bool isTight = false)
         : TestHost{state} {
         time(isTight);
-        plugin->takes().driveByHand();
+        plugin->runs().useManualStepping();
     }
     void time(bool isTight) { setNormal(Parameter::timing, isTight ? 1.0f : 0.0f); }
 
@@ -22,7 +22,7 @@ struct LatencyHost : TestHost {
     void playPaced(std::int64_t frames, Samples& signal) {
         for (std::int64_t done = 0; done < frames; done += largest) {
             append(signal, block(largest));
-            plugin->takes().tick();
+            plugin->runs().tick();
         }
     }
 };
@@ -73,14 +73,14 @@ TEST(Latency, OfAWorldIsAsToldAtAnyBlockSizeInBothTimings) {
 TEST(Latency, TheTimingChangesWhileItPlaysWithoutANewRun) {
     LatencyHost host{shakenBox()};
     host.prepare(48000, 512, false);
-    const auto safe = host.plugin->takes().latencyFrames();
+    const auto safe = host.plugin->runs().latencyFrames();
     TestHost offline{shakenBox(), 512};
     Samples signal;
     const Samples reference = later(offline.played(10 * 48000), offline.plugin->getLatencySamples());
     for (int change = 1; change <= 4; ++change) {
         host.time(change % 2 == 1);
         host.playPaced(2 * 48000, signal);
-        const auto told = host.plugin->takes().latencyFrames();
+        const auto told = host.plugin->runs().latencyFrames();
         EXPECT_EQ(told, change % 2 == 1 ? 960 + 47 : safe);
         const auto end = signal[0].size();
         for (std::size_t c = 0; c < 4; ++c)
@@ -88,9 +88,9 @@ TEST(Latency, TheTimingChangesWhileItPlaysWithoutANewRun) {
                 ASSERT_EQ(signal[c][n], reference[c][n - static_cast<std::size_t>(told)])
                     << change << ' ' << n;
     }
-    EXPECT_EQ(host.plugin->takes().status().take, 1) << "one run";
-    EXPECT_EQ(host.plugin->takes().status().late, 0u);
-    EXPECT_EQ(host.plugin->takes().status().slippedNs, 0);
+    EXPECT_EQ(host.plugin->runs().status().runNumber, 1) << "one run";
+    EXPECT_EQ(host.plugin->runs().status().late, 0u);
+    EXPECT_EQ(host.plugin->runs().status().stalledNs, 0);
     float step = 0.0f, usual = 0.0f;
     for (const auto& c : signal) step = std::max(step, largestStep(c));
     for (const auto& c : reference) usual = std::max(usual, largestStep(c));
@@ -111,14 +111,14 @@ PluginState directState(bool hasWorld) {
 struct DirectHost : TestHost {
     DirectHost(const PluginState& state, int block, bool offline)
         : TestHost{state} {
-        if (!offline) plugin->takes().driveByHand();
+        if (!offline) plugin->runs().useManualStepping();
         prepare(48000, block, offline);
         isLive = !offline;
     }
     void play(int blocks, Samples& signal, const std::function<juce::MidiBuffer(int)>& midiOf) {
         for (int b = 0; b < blocks; ++b) {
             append(signal, block(largest, midiOf(b)));
-            if (isLive) plugin->takes().tick();
+            if (isLive) plugin->runs().tick();
         }
     }
     bool isLive = false;
@@ -139,7 +139,7 @@ TEST(DirectStrikes, ANoteIsFeltTheLimiterLaterInItsOwnBlockOrTheNextAndTheHostIs
                 host.play(first + 4 + 4800 / size, signal,
                           [&](int b) { return b == first ? oneNote(60, 127, 17) : juce::MidiBuffer{}; });
                 EXPECT_EQ(directOnset(signal[0]), first * size + 17 + lookAheadFrames()) << size;
-                EXPECT_EQ(host.plugin->takes().status().late, 0u);
+                EXPECT_EQ(host.plugin->runs().status().late, 0u);
             }
 }
 
@@ -155,7 +155,7 @@ TEST(DirectStrikes, CollisionsKeepThePlayOutDelay) {
     direct.play(400, b, none);
     ASSERT_GT(directOnset(a[0]), playOut);
     EXPECT_NEAR(static_cast<double>(directOnset(a[0])), static_cast<double>(directOnset(b[0])), 1.0);
-    EXPECT_EQ(direct.plugin->takes().outputLatencyFrames(), playOut);
+    EXPECT_EQ(direct.plugin->runs().outputLatencyFrames(), playOut);
 }
 
 TEST(DirectStrikes, TheSwitchIsSavedAndTheLatencyFollowsIt) {

@@ -73,7 +73,7 @@ TEST(Width, NoSoundOfAPresetIsLostOnAnyNumberOfOutputs) {
         host.plugin.setCurrentProgram(program);
         host.prepare();
         const auto state = host.plugin.state();
-        EXPECT_LE(enchantersOf(state), width);
+        EXPECT_LE(actuatorCount(state), width);
         std::vector<float> used(static_cast<std::size_t>(width));
         float least = 0.0f;
         const auto hear = [&](const std::vector<float>& peaks) {
@@ -81,7 +81,7 @@ TEST(Width, NoSoundOfAPresetIsLostOnAnyNumberOfOutputs) {
             std::ranges::transform(used, peaks, used.begin(),
                                    [](float a, float b) { return std::max(a, b); });
         };
-        std::vector<int> keys(static_cast<std::size_t>(std::max(12, enchantersOf(state))));
+        std::vector<int> keys(static_cast<std::size_t>(std::max(12, actuatorCount(state))));
         std::iota(keys.begin(), keys.end(), 60);
         if (isWorld)
             hear(host.peaks(10.0));
@@ -92,7 +92,7 @@ TEST(Width, NoSoundOfAPresetIsLostOnAnyNumberOfOutputs) {
             }
         EXPECT_GT(least, leastDecibels) << width;
         if (!isWorld) {
-            EXPECT_EQ(enchantersOf(state), width) << "it uses what there is";
+            EXPECT_EQ(actuatorCount(state), width) << "it uses what there is";
             EXPECT_GT(juce::Decibels::gainToDecibels(std::ranges::min(used)), leastDecibels)
                 << "an output of " << width << " is idle";
         }
@@ -105,7 +105,7 @@ TEST(Width, ANewInstanceHasAsManyActuatorsAsTheTrackHasChannels) {
     host.prepare(2);
     EXPECT_EQ(host.plugin.state().layout.name, "phone2");
     host.prepare(8);
-    EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << "until somebody chooses";
+    EXPECT_EQ(actuatorCount(host.plugin.state()), 8) << "until somebody chooses";
     auto chosen = host.plugin.state();
     chosen.layout = presetLayout("ring3");
     ASSERT_TRUE(host.plugin.edit(chosen));
@@ -117,18 +117,18 @@ TEST(Width, APresetThatWasChosenFollowsATrackThatIsMadeWiderToo) {
     for (const char* const name : {"Drum kit", "marbles"}) {
         WidthHost host{8};
         host.prepare(2);
-        host.plugin.choose(presetPlace(name));
-        EXPECT_EQ(enchantersOf(host.plugin.state()), 2) << name;
+        host.plugin.choosePreset(presetPlace(name));
+        EXPECT_EQ(actuatorCount(host.plugin.state()), 2) << name;
         auto mixed = host.plugin.state();
         mixed.strips[1].gainDb = -3.0;
         ASSERT_TRUE(host.plugin.edit(mixed)) << "an edit of the mix is none of the layout";
         host.prepare(8);
-        EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << name;
+        EXPECT_EQ(actuatorCount(host.plugin.state()), 8) << name;
         EXPECT_EQ(host.plugin.state().strips[1].gainDb, -3.0) << name;
         WidthHost loaded{4};
         restore(loaded.plugin, chunkOf(host.plugin));
         loaded.prepare();
-        EXPECT_EQ(enchantersOf(loaded.plugin.state()), 8) << "what was saved is somebody's wiring";
+        EXPECT_EQ(actuatorCount(loaded.plugin.state()), 8) << "what was saved is somebody's wiring";
     }
 }
 

@@ -27,7 +27,7 @@ struct QuietHost : TestHost {
     }
     std::vector<CollisionEvent> log() {
         std::vector<CollisionEvent> events;
-        for (const auto& event : plugin->takes().drainLog()) events.push_back(event.played.event);
+        for (const auto& event : plugin->runs().drainLog()) events.push_back(event.played.event);
         return events;
     }
     juce::MidiBuffer midi;
@@ -47,7 +47,7 @@ TEST(Midi, StrikesAreAtTheirFrameAndInTheLog) {
     const auto log = host.log();
     ASSERT_EQ(log.size(), 1u);
     EXPECT_EQ(FrameClock{48000}.at(log[0].timeNs).frame, 77);
-    EXPECT_NEAR(log[0].amplitude, gainOfLevel(-6.0), 1e-6);
+    EXPECT_NEAR(log[0].amplitude, gainFromLevelDb(-6.0), 1e-6);
 }
 
 TEST(Midi, TheDefaultMapGoesFromLeftToRightAndThroughTheMaterials) {
@@ -212,7 +212,7 @@ TEST(Midi, ATakeBeginsAtItsLevel) {
         host.send(Message::noteOn(1, 60, juce::uint8{127}), 0);
         *signal = host.playOn(9600);
     }
-    const auto gain = static_cast<float>(gainOfLevel(-12.0));
+    const auto gain = static_cast<float>(gainFromLevelDb(-12.0));
     for (std::size_t n = 0; n < loud[0].size(); ++n) ASSERT_NEAR(quiet[0][n], gain * loud[0][n], 1e-6f) << n;
 }
 
@@ -249,14 +249,14 @@ struct SaidOfNotes final : NoteSource {
 void prepareVoice(QuietHost& host, bool isHeld) {
     auto state = host.plugin->state();
     state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = isHeld};
+    state.voice = {.pitch = NotePitch::note, .places = NotePlacement::middle, .isHeld = isHeld};
     ASSERT_TRUE(host.plugin->apply(state));
     host.prepare(48000, 480);
 }
 
 /// What was struck in the last of some blocks, of which the first has those events.
 std::vector<CollisionEvent> struckBy(QuietHost& host, SaidOfNotes said, int blocks = 4) {
-    host.plugin->expectNotes(said);
+    host.plugin->setNoteSource(said);
     std::vector<CollisionEvent> struck;
     for (int b = 0; b < blocks + 10; ++b) { // and what is known later
         host.block(480);
@@ -289,7 +289,7 @@ TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
     EXPECT_NEAR(now.frequencyHz, 220.0 * std::exp2(7.0 / 12.0), 1e-6);
     EXPECT_EQ(now.x, host.plugin->state().scene.fieldWidthMetres);
     EXPECT_NEAR(now.y, before.back().y + 0.25 * host.plugin->state().scene.fieldHeightMetres, 1e-9);
-    EXPECT_NEAR(now.amplitude, 0.5 * gainOfLevel(-6.0), 1e-6) << "half of what a pressed key has";
+    EXPECT_NEAR(now.amplitude, 0.5 * gainFromLevelDb(-6.0), 1e-6) << "half of what a pressed key has";
     SaidOfNotes wild;
     for (const auto kind : {tuning, volume, pan, brightness, pressure})
         wild.tell(-1, kind, std::numeric_limits<double>::quiet_NaN());
@@ -338,7 +338,7 @@ TEST(Midi, AProgramChangeChoosesThatPreset) {
         }
         EXPECT_EQ(host.plugin->getCurrentProgram(), expected) << program;
     }
-    EXPECT_TRUE(host.plugin->can(PluginProcessor::Step::undo));
+    EXPECT_TRUE(host.plugin->canGo(PluginProcessor::Direction::undo));
 }
 
 } // namespace physvib::midi_test

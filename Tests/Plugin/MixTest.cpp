@@ -26,16 +26,16 @@ PluginState mixedState() {
 
 /// The same by the offline renderer, as of `physvib render`, with the mix from time 0 on.
 Samples renderedMix(const PluginState& s, std::int64_t frames) {
-    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / 48000 + 1);
+    const auto made = simulateScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / 48000 + 1);
     std::vector<RenderControl> controls;
-    std::array<SentStrip, limits::maxEnchanters> told{};
+    std::array<SentStrip, limits::maxActuators> told{};
     sendStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
     const RendererSettings settings{.sampleRateHz = 48000,
-                                    .channels = enchantersOf(s),
+                                    .channels = actuatorCount(s),
                                     .panner = pannerOf(s, PanningLaw::linear, 1.0),
                                     .limiterEnabled = s.limiterEnabled,
                                     .equalised = s.equalised};
-    Samples signal(static_cast<std::size_t>(enchantersOf(s)));
+    Samples signal(static_cast<std::size_t>(actuatorCount(s)));
     renderOffline(made.events, {settings, frames, 256, controls},
                   [&signal](const float* const* block, int n) {
                       for (std::size_t j = 0; j < signal.size(); ++j)
@@ -74,11 +74,11 @@ TEST(PluginMix, AFaderIsFeltLLaterAndTheTakeGoesOn) {
     constexpr std::int64_t before = 94 * 512, after = 48000;
     Samples a = still.played(before + after), b = moved.played(before);
     auto state = moved.plugin->state();
-    state.strips[0].gainDb = leastStripDb;
+    state.strips[0].gainDb = minStripDb;
     state.strips[3].isInverted = true;
     moved.plugin->edit(state);
     moved.play(after, b);
-    EXPECT_EQ(moved.plugin->takes().status().take, 1) << "the world goes on";
+    EXPECT_EQ(moved.plugin->runs().status().runNumber, 1) << "the world goes on";
     EXPECT_TRUE(a[1] == b[1] && a[2] == b[2]);
     const auto felt = static_cast<std::size_t>(before + latency), ramped = felt + 2 * 480 + 64;
     for (std::size_t n = 0; n < a[0].size(); ++n) {
@@ -105,13 +105,13 @@ TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
     state.limiterEnabled = false;
     TestHost host{state};
     // the least is silence
-    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) {
+    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * minStripDb}}) {
         auto& parameter = host.plugin->parameter(Parameter::level);
         parameter.setValue(level);
-        EXPECT_NEAR(std::max(parameter.value(), leastStripDb), std::max(shift, leastStripDb), 0.01);
+        EXPECT_NEAR(std::max(parameter.value(), minStripDb), std::max(shift, minStripDb), 0.01);
         host.prepare(48000, 512);
         const auto played = host.felt(48000), expected = renderedMix(state, 48000);
-        const double gain = gainOfLevel(parameter.value());
+        const double gain = gainFromLevelDb(parameter.value());
         for (std::size_t j = 0; j < expected.size(); ++j)
             for (std::size_t n = 0; n < expected[j].size(); ++n)
                 ASSERT_NEAR(played[j][n], gain * expected[j][n], 1e-6) << j << ' ' << n;
@@ -138,7 +138,7 @@ TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
     ASSERT_TRUE(text) << text.error;
     TestHost host;
     restore(*host.plugin, text.value);
-    ASSERT_EQ(host.plugin->trouble(), "");
+    ASSERT_EQ(host.plugin->errorText(), "");
     host.setNormal(Parameter::level, 1.0f);
     auto old = host.plugin->state(), fresh = shakenBox();
     old.transport = TransportMode::free;
@@ -149,7 +149,7 @@ TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
         plain.strips.clear();
         plain.equalised = {};
         auto played = host.felt(96000);
-        played.resize(static_cast<std::size_t>(enchantersOf(state)));
+        played.resize(static_cast<std::size_t>(actuatorCount(state)));
         EXPECT_TRUE(played == renderedMix(plain, 96000)) << state.scene.name;
         EXPECT_GT(peakOf(played), 0.01f);
     }
@@ -199,14 +199,14 @@ TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
         host.prepare(rate, 512);
         EXPECT_EQ(peakOf(host.played(static_cast<std::int64_t>(rate))), 0.0f) << rate;
         EXPECT_EQ(host.plugin->getLatencySamples(), 0) << "none of another rate is told";
-        EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " +
-                                                      juce::String{static_cast<int>(rate)} +
-                                                      " Hz; expected 5000 to 192000: silent"))
-            << host.plugin->trouble();
+        EXPECT_TRUE(host.plugin->errorText().startsWith("the host runs at " +
+                                                        juce::String{static_cast<int>(rate)} +
+                                                        " Hz; expected 5000 to 192000: silent"))
+            << host.plugin->errorText();
     }
     for (const int rate : {5000, 8000, 48000, 192000}) {
         host.prepare(rate, 512);
-        EXPECT_EQ(host.plugin->trouble(), "");
+        EXPECT_EQ(host.plugin->errorText(), "");
         EXPECT_GT(peakOf(host.played(2 * rate)), 0.01f) << rate;
     }
 }
@@ -255,7 +255,7 @@ TEST(PluginProcessor, ASceneThatIsChangedWhileItPlaysFadesAndGoesOn) {
         host.play(48000, signal);
     }
     EXPECT_LE(peakOf(signal), 1.0f);
-    EXPECT_EQ(host.plugin->takes().status().take, 6);
+    EXPECT_EQ(host.plugin->runs().status().runNumber, 6);
 }
 
 } // namespace physvib::mix_test

@@ -48,7 +48,7 @@ public:
 
     /// What is played of all of it.
     Samples play(const BeatSong& song, SongBlocks blocks) {
-        if (blocks.isLive) plugin->takes().driveByHand();
+        if (blocks.isLive) plugin->runs().useManualStepping();
         prepare(songRateHz, blocks.frames, !blocks.isLive);
         Samples signal;
         Random random{3};
@@ -59,7 +59,7 @@ public:
             feed(song, at, frames, signal);
             at += frames;
             if (!blocks.isLive) continue;
-            plugin->takes().tick();
+            plugin->runs().tick();
         }
         return signal;
     }
@@ -121,7 +121,7 @@ float settled(const std::vector<float>& channel) { return peakOf(later({channel}
 
 TEST(Music, IsSilentUntilItIsTurnedUp) {
     MusicHost host{-60.0};
-    EXPECT_EQ(rowOf(Parameter::music).initial, rowOf(Parameter::music).least);
+    EXPECT_EQ(rowOf(Parameter::music).initial, rowOf(Parameter::music).minimum);
     EXPECT_EQ(peakOf(host.feel(tone(100.0, 0.5f))), 0.0f);
 }
 
@@ -262,7 +262,7 @@ Samples feltIn(const PluginState& state, SongBlocks blocks, bool hasNotes) {
     host.listen();
     host.hasNotes = hasNotes;
     const Samples signal = host.felt(song(), blocks);
-    EXPECT_EQ(host.plugin->takes().status().late, 0u) << blocks.frames;
+    EXPECT_EQ(host.plugin->runs().status().late, 0u) << blocks.frames;
     EXPECT_GT(peakOf(signal), 0.05f);
     return signal;
 }
@@ -288,7 +288,7 @@ TEST(SideChain, EachBeatIsFeltLAfterItOrDirectlyWhenItIsSureToBeKnown) {
         const Samples signal = host.felt(song(), {64}, song().samples.size());
         // beyond what the host takes out
         const std::int64_t delay = isDirect ? BeatDetector{songRateHz}.delayFrames() : 0;
-        const auto status = host.plugin->takes().status();
+        const auto status = host.plugin->runs().status();
         EXPECT_EQ(status.late, 0u);
         EXPECT_GT(status.session.render.played, song().hits.size() / 2);
         std::size_t hats = 0, found = 0;
@@ -351,7 +351,7 @@ TEST(SideChain, AutomationOfBeatsMovesNoHop) {
 TEST(SideChain, LHasRoomForTheDetectorOnlyWhereItListensAndStrikesAreNotDirect) {
     const auto latencyOf = [](SongHost& host) {
         host.prepare(songRateHz, 64);
-        return static_cast<int>(host.plugin->takes().outputLatencyFrames());
+        return static_cast<int>(host.plugin->runs().outputLatencyFrames());
     };
     auto still = quietState(), moving = shakenBox();
     moving.stepsPerSecond = still.stepsPerSecond;
@@ -385,7 +385,7 @@ TEST(SideChain, AStateWithoutItsParameterLeavesItAtRestAndTimingSafe) {
         const std::string now = "\"physvib_plugin_state\": ";
         text.replace(text.find(now), now.size() + 1, now + std::to_string(version));
         restore(*host.plugin, text);
-        EXPECT_EQ(host.plugin->trouble(), "");
+        EXPECT_EQ(host.plugin->errorText(), "");
         EXPECT_EQ(host.plugin->parameter(Parameter::beats).value(), 0.0);
         EXPECT_EQ(host.plugin->parameter(Parameter::timing).value(), 0.0) << "safe";
     }

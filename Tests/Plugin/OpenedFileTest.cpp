@@ -52,7 +52,7 @@ SavedSession sampleSession() {
     SceneRun take;
     take.scene = mix.scene;
     take.seed = mix.seed;
-    session.log.takes.push_back(take);
+    session.log.runs.push_back(take);
     session.mix = mix;
     return session;
 }
@@ -71,7 +71,7 @@ TEST_F(PluginFiles, ASceneIsPlayedAndNotesThatItHasNoMaterialForAreLeftOut) {
     ASSERT_EQ(opened.state.notes.size(), 1u);
     EXPECT_EQ(opened.state.notes[0].material, 0) << "the same, at its new place";
     EXPECT_TRUE(host_.plugin->edit(opened.state));
-    EXPECT_EQ(host_.plugin->trouble(), "");
+    EXPECT_EQ(host_.plugin->errorText(), "");
 }
 
 TEST_F(PluginFiles, ALayoutKeepsTheStripsOfThoseThatAreThere) {
@@ -88,7 +88,7 @@ TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
     const auto opened = open("session.json", sessionJson(session), host_.plugin->state());
     EXPECT_EQ(opened.note, "session.json: lowered to this instance: the limiter stays on");
     host_.plugin->open(opened.state);
-    ASSERT_EQ(host_.plugin->trouble(), "");
+    ASSERT_EQ(host_.plugin->errorText(), "");
     const auto now = host_.plugin->state();
     EXPECT_EQ(now.scene.name, "drop");
     EXPECT_EQ(now.seed, 11u);
@@ -123,7 +123,7 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
     EXPECT_TRUE(host_.plugin->state().strips[1].isMuted);
     state.strips[1].isMuted = false;
-    usePreset(state, "phone2");
+    applyLayoutPreset(state, "phone2");
     const auto wider = open("layout.json", layoutJson(presetLayout("phone4")), state);
     EXPECT_EQ(wider.note, "layout.json: lowered to this instance: C without output 3; D without output 4");
     ASSERT_EQ(wider.state.strips.size(), 4u);

@@ -14,7 +14,7 @@ class PacedHost : public TestHost {
 public:
     explicit PacedHost(const PluginState& state)
         : TestHost{state} {
-        plugin->takes().driveByHand();
+        plugin->runs().useManualStepping();
     }
     PacedHost(const PluginState& state, int block)
         : PacedHost{state} {
@@ -25,7 +25,7 @@ public:
         for (const std::int64_t end = nowNs + lengthNs; nowNs < end;) {
             const std::int64_t next = std::min(end, (nowNs / tickNs + 1) * tickNs);
             nowNs = next;
-            if (next % tickNs == 0) plugin->takes().tick();
+            if (next % tickNs == 0) plugin->runs().tick();
         }
     }
     void waitFrames(std::int64_t frames) { wait(frames * 1'000'000'000 / 48000); }
@@ -35,7 +35,7 @@ public:
         for (int done = 0; done < 48000; done += largest) play(largest, signal), waitFrames(largest);
     }
 
-    TakesStatus status() { return plugin->takes().status(); }
+    RunsStatus status() { return plugin->runs().status(); }
 
     std::int64_t nowNs = 0;
 
@@ -132,9 +132,9 @@ Samples feltOf(Host& host, const Lie& lie, bool isTight) {
     }
     signal = later(signal, latency);
     for (auto& c : signal) c.resize(length);
-    const auto status = host.plugin->takes().status();
-    EXPECT_EQ(host.plugin->takes().latencyFrames(), latency) << "as told at first";
-    EXPECT_EQ(status.slippedNs, 0);
+    const auto status = host.plugin->runs().status();
+    EXPECT_EQ(host.plugin->runs().latencyFrames(), latency) << "as told at first";
+    EXPECT_EQ(status.stalledNs, 0);
     EXPECT_EQ(status.late, 0u);
     return signal;
 }
@@ -185,11 +185,11 @@ TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
 TEST(PacedHost, AThreadThatDoesNotComeIsReplacedByTheCall) {
     PacedHost host{busy(), 512};
     Samples signal = host.played(48000);
-    EXPECT_EQ(host.status().slippedNs, 0);
-    EXPECT_GT(host.status().aheadBlocks, 20u);
+    EXPECT_EQ(host.status().stalledNs, 0);
+    EXPECT_GT(host.status().blocksSteppedInRender, 20u);
     PacedHost paced{busy(), 512};
     paced.playInTime(signal);
-    EXPECT_EQ(paced.status().aheadBlocks, 0u) << "where the thread is in time";
+    EXPECT_EQ(paced.status().blocksSteppedInRender, 0u) << "where the thread is in time";
 }
 
 // A machine that is busy elsewhere: the thread comes a hundred times too late, then in time again.
@@ -198,19 +198,19 @@ TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
     const int latency = host.plugin->getLatencySamples();
     Samples signal;
     host.playInTime(signal);
-    EXPECT_EQ(host.status().aheadBlocks, 0u);
+    EXPECT_EQ(host.status().blocksSteppedInRender, 0u);
     for (int b = 0; b < 500; ++b) {
         host.play(512, signal);
         if (b % 100 == 99) host.waitFrames(512);
     }
-    const auto stepped = host.status().aheadBlocks;
+    const auto stepped = host.status().blocksSteppedInRender;
     EXPECT_GT(stepped, 100u) << "one block in four needs a step";
     host.waitFrames(512);
     host.playInTime(signal);
-    EXPECT_EQ(host.status().aheadBlocks, stepped) << "the thread does it again";
-    EXPECT_EQ(host.status().slippedNs, 0);
+    EXPECT_EQ(host.status().blocksSteppedInRender, stepped) << "the thread does it again";
+    EXPECT_EQ(host.status().stalledNs, 0);
     TestHost offline{busy(), 512};
-    EXPECT_EQ(host.plugin->takes().latencyFrames(), latency);
+    EXPECT_EQ(host.plugin->runs().latencyFrames(), latency);
     EXPECT_TRUE(later(signal, latency) ==
                 later(offline.played(static_cast<std::int64_t>(signal[0].size())), latency));
 }
@@ -233,13 +233,13 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
         host.prepare(48000, 2048, false);
         const auto editor = openEditor<PluginEditor>(*host.plugin);
         editor->refresh();
-        const std::int64_t latency = host.plugin->takes().outputLatencyFrames(),
+        const std::int64_t latency = host.plugin->runs().outputLatencyFrames(),
                            stepNs = 1'000'000'000 / host.plugin->state().stepsPerSecond;
         Samples signal, bounce;
         std::int64_t before = 0, all = 0, most = 0;
         for (int i = 0; i < calls; ++i) {
             host.play(frames(i), signal); // and the thread never comes
-            const std::int64_t now = host.plugin->takes().session()->world().sceneNs(),
+            const std::int64_t now = host.plugin->runs().session()->world().sceneNs(),
                                steps = (now - before) / stepNs;
             EXPECT_LE((steps - 1) * stepNs, (frames(i) + latency) * 1'000'000'000 / 48000) << i;
             before = now;
@@ -251,9 +251,10 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
         EXPECT_NEAR(static_cast<double>(all), static_cast<double>(length) / 480.0,
                     2.0 + static_cast<double>(latency) / 480.0);
         EXPECT_GT(most, 1);
-        EXPECT_EQ(host.plugin->takes().outputLatencyFrames(), latency);
+        EXPECT_EQ(host.plugin->runs().outputLatencyFrames(), latency);
         if (!isTight) {
-            EXPECT_GE(host.status().aheadBlocks, static_cast<std::uint64_t>(calls / 7)); // the long ones
+            EXPECT_GE(host.status().blocksSteppedInRender, static_cast<std::uint64_t>(calls / 7)); // the long
+                                                                                                   // ones
             EXPECT_TRUE(editor->statusText().contains("the host waits for the world"))
                 << editor->statusText();
         }

@@ -43,7 +43,8 @@ TEST(Parameters, PlacesOfChoicesArePromises) {
               8.0}})
         for (int i = 0; const auto word : words)
             if (const int place = i++; !word.empty())
-                EXPECT_DOUBLE_EQ(normalised(rowOf(which), valueOf(rowOf(which), word)), place / of) << word;
+                EXPECT_DOUBLE_EQ(normalised(rowOf(which), valueFromText(rowOf(which), word)), place / of)
+                    << word;
 }
 
 // Else a session of an older version would not sound as it did.
@@ -54,15 +55,16 @@ TEST(Parameters, TheInstrumentsKnobsBeginAsThePresetToTheBit) {
         EXPECT_EQ(parameter.value(), row.choices.empty() ? 1.0 : 0.0) << row.id;
         EXPECT_EQ(denormalised(row, static_cast<float>(normalised(row, row.initial))), parameter.value());
     }
-    EXPECT_EQ(knobsBy([](Parameter which) { return rowOf(which).initial; }), NoteKnobs{});
+    EXPECT_EQ(noteKnobsFrom([](Parameter which) { return rowOf(which).initial; }), NoteKnobs{});
 }
 
 TEST(Parameters, EveryLawHasItsPlace) {
     const auto& row = rowOf(Parameter::law);
     for (const auto& one : panningLaws) {
-        const double value = valueOf(row, one.name);
+        const double value = valueFromText(row, one.name);
         EXPECT_EQ(valueText(row, value), one.name);
-        EXPECT_EQ(lawOf(denormalised(row, static_cast<float>(normalised(row, value)))), one.law) << one.name;
+        EXPECT_EQ(lawFromValue(denormalised(row, static_cast<float>(normalised(row, value)))), one.law)
+            << one.name;
     }
 }
 
@@ -71,11 +73,11 @@ TEST(Parameters, RowsAreInRangeAndNamed) {
     for (const auto& row : allParameters()) {
         EXPECT_TRUE(ids.insert(row.id).second) << row.id;
         EXPECT_FALSE(row.name.empty() || row.help.empty()) << row.id;
-        EXPECT_LT(row.least, row.most) << row.id;
-        EXPECT_TRUE(row.initial >= row.least && row.initial <= row.most) << row.id;
+        EXPECT_LT(row.minimum, row.maximum) << row.id;
+        EXPECT_TRUE(row.initial >= row.minimum && row.initial <= row.maximum) << row.id;
         EXPECT_GE(row.version, 1) << row.id;
         if (!row.choices.empty())
-            EXPECT_EQ(std::fmod(static_cast<double>(row.choices.size()) - 1, row.most - row.least), 0.0)
+            EXPECT_EQ(std::fmod(static_cast<double>(row.choices.size()) - 1, row.maximum - row.minimum), 0.0)
                 << row.id;
     }
 }
@@ -100,22 +102,22 @@ TEST(Parameters, ValuesSurviveTheHostsScaleAndTheirText) {
             EXPECT_NEAR(denormalised(row, normalised(row, value)), value, 1e-9) << row.id;
             const auto text = valueText(row, value);
             if (row.choices.empty())
-                EXPECT_NEAR(valueOf(row, text), value, 0.051) << row.id << ' ' << text;
+                EXPECT_NEAR(valueFromText(row, text), value, 0.051) << row.id << ' ' << text;
             else
-                EXPECT_EQ(valueText(row, valueOf(row, text)), text) << row.id;
+                EXPECT_EQ(valueText(row, valueFromText(row, text)), text) << row.id;
         }
 }
 
 TEST(Parameters, OutOfRangeIsClampedAndNonsenseIsTheDefault) {
     const auto& level = rowOf(Parameter::level);
     EXPECT_EQ(normalised(level, 99), 1.0);
-    EXPECT_EQ(denormalised(level, -3), level.least);
-    EXPECT_EQ(valueOf(level, "loud"), level.initial);
-    EXPECT_EQ(valueOf(level, "nan"), level.initial);
-    EXPECT_EQ(valueOf(rowOf(Parameter::law), "square"), 0.0);
+    EXPECT_EQ(denormalised(level, -3), level.minimum);
+    EXPECT_EQ(valueFromText(level, "loud"), level.initial);
+    EXPECT_EQ(valueFromText(level, "nan"), level.initial);
+    EXPECT_EQ(valueFromText(rowOf(Parameter::law), "square"), 0.0);
     EXPECT_EQ(valueText(level, -60), "-inf dB");
-    EXPECT_EQ(gainOfLevel(valueOf(level, "-inf dB")), 0.0);
-    EXPECT_EQ(gainOfLevel(0), 1.0);
+    EXPECT_EQ(gainFromLevelDb(valueFromText(level, "-inf dB")), 0.0);
+    EXPECT_EQ(gainFromLevelDb(0), 1.0);
 }
 
 TEST(Parameters, TheTableInTheDocsIsThisOne) {
@@ -125,7 +127,7 @@ TEST(Parameters, TheTableInTheDocsIsThisOne) {
         std::string range;
         for (const auto word : row.choices) range += (range.empty() ? "" : ", ") + std::string{word};
         if (&row == &rowOf(Parameter::law)) range = "a [law](panning.md#laws)"; // they stand there
-        if (row.choices.empty()) range = valueText(row, row.least) + " to " + valueText(row, row.most);
+        if (row.choices.empty()) range = valueText(row, row.minimum) + " to " + valueText(row, row.maximum);
         const auto line = "| `" + std::string{row.id} + "` | " + std::string{row.name} + " | " + range +
                           " (" + valueText(row, row.initial) + ") | " + std::string{row.help} + " |\n";
         EXPECT_NE(docs.find(line), std::string::npos) << line;

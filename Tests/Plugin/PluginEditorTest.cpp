@@ -63,7 +63,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
 TEST(PluginEditor, ShowsTheWorldMoving) {
     TestHost host{shakenBox(), 480};
     auto state = host.plugin->state();
-    state.layout.enchanters[2].actuator = "lra-205";
+    state.layout.actuators[2].actuator = "lra-205";
     state.equalised[2] = {{205.0, 12.0}, {160.0, 260.0}};
     state.strips[1].gainDb = -4.5;
     state.strips[1].delayMs = 2.0;
@@ -130,10 +130,10 @@ TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
 
 TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
     TestHost host, other;
-    const auto count = host.plugin->stateCount();
+    const auto count = host.plugin->stateVersion();
     openEditor<PluginEditor>(*host.plugin)->setSize(1000, 600);
     EXPECT_EQ(openEditor<PluginEditor>(*host.plugin)->getWidth(), 1000);
-    EXPECT_EQ(host.plugin->stateCount(), count) << "no edit";
+    EXPECT_EQ(host.plugin->stateVersion(), count) << "no edit";
     restore(*other.plugin, chunkOf(*host.plugin));
     EXPECT_EQ(openEditor<PluginEditor>(*other.plugin)->getHeight(), 600);
 }
@@ -204,30 +204,30 @@ TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
 
 // Undo, redo, A and B: whole states with their parameters, and SILENCE stays.
 
-using Step = PluginProcessor::Step;
+using Step = PluginProcessor::Direction;
 
 void seed(PluginProcessor& plugin, std::uint32_t number) {
     auto state = plugin.state();
     state.seed = number;
     ASSERT_TRUE(plugin.edit(state));
-    std::this_thread::sleep_for(EditHistory::oneStep + std::chrono::milliseconds{20});
+    std::this_thread::sleep_for(EditHistory::mergeWindow + std::chrono::milliseconds{20});
 }
 
 TEST(EditHistory, GoesBackAndForthAndANewEditForgetsWhatWasUndone) {
     TestHost host;
     auto& plugin = *host.plugin;
-    EXPECT_FALSE(plugin.can(Step::undo));
+    EXPECT_FALSE(plugin.canGo(Step::undo));
     seed(plugin, 5);
     seed(plugin, 6);
     plugin.go(Step::undo);
     EXPECT_EQ(plugin.state().seed, 5u);
     plugin.go(Step::undo);
     EXPECT_EQ(plugin.state().seed, 1u);
-    EXPECT_FALSE(plugin.can(Step::undo));
+    EXPECT_FALSE(plugin.canGo(Step::undo));
     plugin.go(Step::redo);
     EXPECT_EQ(plugin.state().seed, 5u);
     seed(plugin, 7);
-    EXPECT_FALSE(plugin.can(Step::redo));
+    EXPECT_FALSE(plugin.canGo(Step::redo));
 }
 
 TEST(EditHistory, AKnobIsAStepAndSilenceIsNone) {
@@ -243,7 +243,7 @@ TEST(EditHistory, AKnobIsAStepAndSilenceIsNone) {
     host.plugin->go(Step::undo);
     EXPECT_NEAR(level.getValue(), before, 1e-6f);
     EXPECT_EQ(bypass.getValue(), 1.0f) << "nothing but its button lifts it";
-    EXPECT_FALSE(host.plugin->can(Step::undo));
+    EXPECT_FALSE(host.plugin->canGo(Step::undo));
 }
 
 TEST(EditHistory, WhatAutomationMovedStaysWhereItIs) {
@@ -274,7 +274,7 @@ TEST(EditHistory, AProgramIsOneStepWithItsParametersWhoeverChoosesIt) {
         if (byHost)
             plugin.setCurrentProgram(bass);
         else
-            plugin.choose(bass);
+            plugin.choosePreset(bass);
         EXPECT_NE(plugin.parameter(Parameter::strikeLevel).value(), level);
         plugin.go(Step::undo);
         EXPECT_EQ(plugin.state().scene.name, shakenBox().scene.name);
@@ -285,7 +285,7 @@ TEST(EditHistory, AProgramIsOneStepWithItsParametersWhoeverChoosesIt) {
         plugin.go(Step::undo);
         plugin.go(Step::undo);
         EXPECT_EQ(plugin.state().seed, 1u);
-        EXPECT_FALSE(plugin.can(Step::undo));
+        EXPECT_FALSE(plugin.canGo(Step::undo));
     }
 }
 
@@ -296,7 +296,7 @@ TEST(EditHistory, AAndBHaveStepsOfTheirOwn) {
     plugin.go(Step::exchange);
     EXPECT_TRUE(plugin.isAtB());
     EXPECT_EQ(plugin.state().seed, 5u) << "at first the same";
-    EXPECT_FALSE(plugin.can(Step::undo)) << "nothing was done at B";
+    EXPECT_FALSE(plugin.canGo(Step::undo)) << "nothing was done at B";
     seed(plugin, 6);
     plugin.go(Step::exchange);
     EXPECT_EQ(plugin.state().seed, 5u);

@@ -25,7 +25,7 @@ TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
         for (auto* p : first.plugin->getParameters()) p->setValue(static_cast<float>(random.uniform(0, 1)));
         const auto chunk = chunkOf(*first.plugin);
         restore(*second.plugin, chunk);
-        ASSERT_EQ(second.plugin->trouble(), "");
+        ASSERT_EQ(second.plugin->errorText(), "");
         EXPECT_TRUE(chunkOf(*second.plugin) == chunk);
         if (i % 5 > 0) continue;
         first.prepare(48000, 512);
@@ -49,22 +49,22 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
         else
             broken[at] = static_cast<char>(random.below(256));
         restore(*host.plugin, broken);
-        if (host.plugin->trouble().isNotEmpty())
-            EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->trouble();
+        if (host.plugin->errorText().isNotEmpty())
+            EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->errorText();
         restore(*host.plugin, good);
-        ASSERT_EQ(host.plugin->trouble(), "");
+        ASSERT_EQ(host.plugin->errorText(), "");
     }
     // no UTF-8, which messages quote
     for (const std::string bytes :
          {"{ \"\xff\": 1 }", "\xf0\x9f", "{ \"physvib_plugin_state\": \"\xe2\x82"}) {
         restore(*host.plugin, bytes);
-        EXPECT_TRUE(host.plugin->trouble().startsWith("state: "));
+        EXPECT_TRUE(host.plugin->errorText().startsWith("state: "));
         EXPECT_TRUE(juce::CharPointer_UTF8::isValidString(
-            host.plugin->trouble().toRawUTF8(),
-            static_cast<int>(host.plugin->trouble().getNumBytesAsUTF8())));
+            host.plugin->errorText().toRawUTF8(),
+            static_cast<int>(host.plugin->errorText().getNumBytesAsUTF8())));
     }
     host.plugin->setStateInformation("{}", 2);
-    EXPECT_TRUE(host.plugin->trouble().startsWith("state: ")) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->errorText().startsWith("state: ")) << host.plugin->errorText();
     host.plugin->setStateInformation(nullptr, 0);
     EXPECT_TRUE(chunkOf(*host.plugin) == good);
 }
@@ -86,14 +86,14 @@ TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
         host.plugin->parameter(which).endChangeGesture();
     };
     refuse();
-    EXPECT_TRUE(host.plugin->trouble().contains("made for a newer PhysVib")) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->errorText().contains("made for a newer PhysVib")) << host.plugin->errorText();
     EXPECT_EQ(saved(), newer);
     level.setValue(0.5f);       // as automation does
     gesture(Parameter::bypass); // silence first, think then
     EXPECT_EQ(saved(), newer);
     gesture(Parameter::level);
     EXPECT_NE(saved(), newer) << "a knob that a hand has moved";
-    EXPECT_EQ(host.plugin->trouble(), "");
+    EXPECT_EQ(host.plugin->errorText(), "");
     refuse();
     host.plugin->edit(host.plugin->state());
     EXPECT_NE(saved(), newer) << "an edit";
@@ -110,7 +110,7 @@ TEST(PluginChunk, ParametersOfAnotherPhysVibAreRefused) {
     auto state = host.plugin->state();
     state.parameters.emplace_back("wobble", 1.0);
     restore(*host.plugin, pluginStateJson(state));
-    EXPECT_EQ(host.plugin->trouble(), "state: no parameter \"wobble\"");
+    EXPECT_EQ(host.plugin->errorText(), "state: no parameter \"wobble\"");
 }
 
 TEST(PluginChunk, AChoiceIsKeptByItsWord) {
@@ -125,14 +125,14 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     give("3");
     EXPECT_EQ(law.value(), 3.0) << "as version 1 wrote it";
     give("\"logarithmic\"");
-    EXPECT_EQ(host.plugin->trouble().toStdString(), "state: parameters.law: expected one of " +
-                                                        listed(rowOf(Parameter::law).choices) +
-                                                        ", found \"logarithmic\"");
+    EXPECT_EQ(host.plugin->errorText().toStdString(), "state: parameters.law: expected one of " +
+                                                          listed(rowOf(Parameter::law).choices) +
+                                                          ", found \"logarithmic\"");
     EXPECT_EQ(law.value(), 3.0);
     auto state = host.plugin->state();
     state.parameters = {{"level", "loud"}};
     restore(*host.plugin, pluginStateJson(state));
-    EXPECT_EQ(host.plugin->trouble(), "state: parameters.level: expected a number, found \"loud\"");
+    EXPECT_EQ(host.plugin->errorText(), "state: parameters.level: expected a number, found \"loud\"");
 }
 
 // In the processor too, since sanitizers see no module.
@@ -159,7 +159,7 @@ TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItAndOthersPlay) {
         });
     }
     for (auto& thread : threads) thread.join();
-    for (const auto& host : hosts) EXPECT_EQ(host->plugin->trouble(), "");
+    for (const auto& host : hosts) EXPECT_EQ(host->plugin->errorText(), "");
 }
 
 TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
@@ -170,7 +170,7 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
     ASSERT_EQ(host.plugin->getProgramName(4), "Box study");
     for (int i = 0; i < count; ++i) {
         host.plugin->setCurrentProgram(i);
-        EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), shownName(host.plugin->state().scene.name));
+        EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), displayName(host.plugin->state().scene.name));
         EXPECT_EQ(host.plugin->getTailLengthSeconds() == std::numeric_limits<double>::infinity(), i < worlds)
             << "a world goes on by itself";
     }
@@ -201,17 +201,17 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     EXPECT_EQ(host.plugin->getCurrentProgram(), 3) << "it bears the name";
     host.plugin->setCurrentProgram(3);
     auto builtIn = host.plugin->state(); // on as many actuators
-    useBuiltIn(builtIn, 3);
+    applyBuiltInPreset(builtIn, 3);
     EXPECT_TRUE(host.plugin->state().scene == builtIn.scene) << "chosen again, it is the built-in one";
-    const auto count = host.plugin->stateCount();
+    const auto count = host.plugin->stateVersion();
     host.plugin->setCurrentProgram(3);
-    EXPECT_EQ(host.plugin->stateCount(), count) << "hosts repeat themselves: the world does not start anew";
+    EXPECT_EQ(host.plugin->stateVersion(), count) << "hosts repeat themselves: the world does not start anew";
 }
 
 TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
     const int count = static_cast<int>(presetNames().size());
     const auto chosen = [](PluginState state, int preset) {
-        useBuiltIn(state, preset, 4);
+        applyBuiltInPreset(state, preset, 4);
         std::ranges::sort(state.parameters, {}, [](const auto& p) { return p.first; });
         return state;
     };
@@ -229,7 +229,7 @@ TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {
     TestHost host{shakenBox(), 512};
     const auto before = chunkOf(*host.plugin);
     for (const bool isStopped : {false, true, false}) {
-        host.plugin->stop(isStopped);
+        host.plugin->setStopped(isStopped);
         host.played(24000);
         EXPECT_EQ(peakOf(host.played(96000)) > 0.0f, !isStopped);
         EXPECT_EQ(chunkOf(*host.plugin), before);
@@ -259,10 +259,10 @@ struct Curious final : juce::AudioProcessorListener {
         ++looks;
         const auto done = std::async(std::launch::async, [this] {
             plugin.state();
-            plugin.trouble();
-            plugin.takes().drainLog();
+            plugin.errorText();
+            plugin.runs().drainLog();
             std::vector<BodyPose> poses;
-            plugin.takes().poses(poses);
+            plugin.runs().readPoses(poses);
             plugin.apply(plugin.state());
         });
         const bool isFree = done.wait_for(std::chrono::seconds{20}) == std::future_status::ready;

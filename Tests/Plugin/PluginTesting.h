@@ -21,7 +21,7 @@ inline int presetPlace(std::string_view name) {
 }
 inline PluginState presetNamed(std::string_view name, int outputs = 4) {
     PluginState state;
-    useBuiltIn(state, presetPlace(name), outputs);
+    applyBuiltInPreset(state, presetPlace(name), outputs);
     return state;
 }
 
@@ -153,7 +153,7 @@ public:
     }
     explicit TestHost(const PluginState& state)
         : TestHost{} {
-        EXPECT_TRUE(plugin->apply(state)) << plugin->trouble();
+        EXPECT_TRUE(plugin->apply(state)) << plugin->errorText();
     }
     /// Prepared at 48 kHz for blocks of that size.
     TestHost(const PluginState& state, int block, bool offline = true)
@@ -240,7 +240,7 @@ inline PluginState heap(int discs) {
 /// Nothing but n enchanters in a line; note 60 strikes at enchanter j.
 inline PluginState strikeAt(int j, int n) {
     PluginState s = emptyBox();
-    EnchanterLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
+    ActuatorLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
     for (int i = 0; i < n; ++i) line.places[static_cast<std::size_t>(i)] = {static_cast<double>(i), 0.0};
     s.layout = describeLayout("line", line);
     // the first material that vibrates

@@ -143,7 +143,7 @@ TEST(DelayedMusic, IsSilentWhereNoneCame) {
 
 /// A silence of music lasts until its end, or as long as a pause that is felt, and no longer.
 TEST(DelayedMusic, IsSilentForAPauseThatIsFelt) {
-    constexpr auto shortest = static_cast<std::int64_t>(MusicDelay::shortestPauseSeconds * rate);
+    constexpr auto shortest = static_cast<std::int64_t>(MusicDelay::minPauseSeconds * rate);
     constexpr auto ramp = static_cast<std::int64_t>(limits::channelRampSeconds * rate) + 2;
     const std::vector<float> music(12'000, 0.5f);
     for (const std::int64_t length :

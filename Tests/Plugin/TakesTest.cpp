@@ -51,8 +51,8 @@ TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
                 if (n > before) owed = std::max(owed, std::abs(straight[c][at]));
             }
         EXPECT_GT(owed, 0.01f);
-        EXPECT_EQ(host.plugin->takes().status().take, 5);
-        EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
+        EXPECT_EQ(host.plugin->runs().status().runNumber, 5);
+        EXPECT_EQ(host.plugin->runs().status().delayedBlocks, 0u);
     }
 }
 
@@ -73,7 +73,7 @@ TEST(Takes, WhatFollowsQuicklyDoesNotAddUpToDirectCurrent) {
             host.play(4800 - block, left);
             host.playHead.frame = 1'000'000 * jump;
         }
-        EXPECT_EQ(host.plugin->takes().status().take, 40);
+        EXPECT_EQ(host.plugin->runs().status().runNumber, 40);
         EXPECT_GT(peakOf(left), 0.02f);
         for (const auto& channel : left) {
             const auto figures = slowFigures(channel, 48000);
@@ -139,35 +139,35 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     std::vector<int> channels{0}; // of each take
     while (!isDone) {
         host.block(64, oneNote(60));
-        if (host.plugin->takes().status().take == static_cast<int>(channels.size()))
-            channels.push_back(host.plugin->takes().session()->channels());
+        if (host.plugin->runs().status().runNumber == static_cast<int>(channels.size()))
+            channels.push_back(host.plugin->runs().session()->channels());
         seen = channels.size();
     }
     message.join();
     EXPECT_GT(channels.size(), 10u);
     host.plugin->releaseResources();
     int others = 0;
-    for (const auto& e : host.plugin->takes().drainLog())
+    for (const auto& e : host.plugin->runs().drainLog())
         others += e.played.event.frequencyHz !=
-                  frequencyOf(channels[static_cast<std::size_t>(e.take)] == 2 ? two : four);
+                  frequencyOf(channels[static_cast<std::size_t>(e.runNumber)] == 2 ? two : four);
     EXPECT_EQ(others, 0) << "struck by another take's notes";
 }
 
 TEST(Takes, ALoopUsesThoseThatHaveEndedAndIsTheSameEachTime) {
     TestHost host{onPlay()};
     Samples signal;
-    host.plugin->takes().driveByHand();
+    host.plugin->runs().useManualStepping();
     host.prepare(48000, 480, false);
     host.playHead.isThere = host.playHead.isPlaying = true;
     for (int b = 0; b < 600; ++b) {
         if (b % 30 == 0) host.playHead.frame = 0;
         append(signal, host.block(480));
-        for (int t = 0; t < 2; ++t) host.plugin->takes().tick();
+        for (int t = 0; t < 2; ++t) host.plugin->runs().tick();
     }
-    EXPECT_EQ(host.plugin->takes().status().take, 20);
-    EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
-    EXPECT_EQ(host.plugin->takes().status().slippedNs, 0);
-    EXPECT_EQ(host.plugin->takes().made(), 2u) << "one to be next, one to be spare";
+    EXPECT_EQ(host.plugin->runs().status().runNumber, 20);
+    EXPECT_EQ(host.plugin->runs().status().delayedBlocks, 0u);
+    EXPECT_EQ(host.plugin->runs().status().stalledNs, 0);
+    EXPECT_EQ(host.plugin->runs().builtRuns(), 2u) << "one to be next, one to be spare";
     for (const auto& c : signal)
         EXPECT_TRUE(std::equal(c.begin() + 3 * 14400, c.end() - 14400, c.begin() + 4 * 14400));
     EXPECT_GT(peakOf(signal), 0.01f);
@@ -198,11 +198,11 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     std::vector<BodyPose> poses;
-    const auto before = host.plugin->takes().poses(poses);
+    const auto before = host.plugin->runs().readPoses(poses);
     for (int b = 0; b < 4; ++b) host.block(480);
-    for (int i = 0; i < 100 && host.plugin->takes().poses(poses) == before; ++i)
+    for (int i = 0; i < 100 && host.plugin->runs().readPoses(poses) == before; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
-    EXPECT_GT(host.plugin->takes().poses(poses), before);
+    EXPECT_GT(host.plugin->runs().readPoses(poses), before);
     let.set_value();
     host.plugin->releaseResources();
     EXPECT_FALSE(hasWaitedInVain) << "the world stood still for as long as the other was made";
@@ -211,7 +211,7 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
 /// The processor time of a tick that owes half a second of the heap's world, released after so much of it.
 double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     TestHost host{heap(200)};
-    host.plugin->takes().driveByHand();
+    host.plugin->runs().useManualStepping();
     host.prepare(48000, 480, false);
     for (int b = 0; b < 50; ++b) host.block(480);
     clockid_t mine{};
@@ -224,7 +224,7 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
             std::this_thread::sleep_for(std::chrono::microseconds{50});
         host.plugin->releaseResources();
     }};
-    host.plugin->takes().tick();
+    host.plugin->runs().tick();
     const double took = microsecondsOf(mine) - before;
     isOver = true;
     return took;
@@ -243,7 +243,7 @@ double applyMicroseconds(int discs) {
     TestHost host;
     const PluginState state = heap(discs);
     const double before = microsecondsOf(CLOCK_THREAD_CPUTIME_ID);
-    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->errorText();
     return microsecondsOf(CLOCK_THREAD_CPUTIME_ID) - before;
 }
 
@@ -262,16 +262,17 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
     host.prepare(48000, 480, false);
     beforeMemory = [](std::size_t bytes) { return bytes <= largeBytes; };
     host.playHead.isThere = host.playHead.isPlaying = true;
-    for (int b = 0; b < 1000 && host.plugin->trouble().isEmpty(); ++b) {
+    for (int b = 0; b < 1000 && host.plugin->errorText().isEmpty(); ++b) {
         host.block(480);
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     }
     beforeMemory = nullptr;
-    EXPECT_TRUE(host.plugin->trouble().startsWith("no scene run could be made: ")) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->errorText().startsWith("no scene run could be made: "))
+        << host.plugin->errorText();
     EXPECT_TRUE(host.plugin->apply(onPlay()));
-    EXPECT_EQ(host.plugin->trouble(), "");
+    EXPECT_EQ(host.plugin->errorText(), "");
     for (int b = 0; b < 10; ++b) host.block(480);
-    EXPECT_EQ(host.plugin->takes().status().take, 2);
+    EXPECT_EQ(host.plugin->runs().status().runNumber, 2);
 }
 
 TEST(Takes, ASessionWithoutMemoryForItsRendererIsNoSilentOne) {

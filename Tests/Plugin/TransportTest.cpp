@@ -96,17 +96,17 @@ TEST(Transport, TwentyTakesOfALoopHaveEqualEventsAndSamples) {
     EXPECT_EQ(peakOf(host.played(22050)), 0.0f) << "silent while the transport stands";
     Samples signal;
     host.playHead.isPlaying = true;
-    host.plugin->takes().drainLog();
-    std::vector<TakeEvent> log;
+    host.plugin->runs().drainLog();
+    std::vector<RunEvent> log;
     for (int k = 0; k < takes; ++k) {
         host.playHead.frame = 1000;
         host.play(loopFrames, signal);
-        for (auto& e : host.plugin->takes().drainLog()) log.push_back(e);
+        for (auto& e : host.plugin->runs().drainLog()) log.push_back(e);
     }
     host.plugin->releaseResources();
-    for (auto& e : host.plugin->takes().drainLog()) log.push_back(e);
-    const auto status = host.plugin->takes().status();
-    EXPECT_EQ(status.take, takes);
+    for (auto& e : host.plugin->runs().drainLog()) log.push_back(e);
+    const auto status = host.plugin->runs().status();
+    EXPECT_EQ(status.runNumber, takes);
     EXPECT_EQ(status.delayedBlocks, 0u);
 
     std::vector<std::vector<CollisionEvent>> events(static_cast<std::size_t>(takes));
@@ -114,7 +114,7 @@ TEST(Transport, TwentyTakesOfALoopHaveEqualEventsAndSamples) {
     const std::int64_t owedNs = loopFrames * 1'000'000'000 / 44100;
     for (const auto& e : log)
         if (e.played.event.timeNs < owedNs)
-            events[static_cast<std::size_t>(e.take - 1)].push_back(e.played.event);
+            events[static_cast<std::size_t>(e.runNumber - 1)].push_back(e.played.event);
     const std::int64_t latency = host.plugin->getLatencySamples();
     const auto take = [&](int k) {
         Samples part;
@@ -179,8 +179,8 @@ Played playedBy(
         host.play(frames, played.samples);
     }
     host.plugin->releaseResources();
-    played.delayed = host.plugin->takes().status().delayedBlocks;
-    for (const auto& e : host.plugin->takes().drainLog())
+    played.delayed = host.plugin->runs().status().delayedBlocks;
+    for (const auto& e : host.plugin->runs().drainLog())
         if (const double at = static_cast<double>(e.played.event.timeNs) * 1e-9;
             played.seconds.empty() || at > played.seconds.back() + 0.05)
             played.seconds.push_back(at);
@@ -204,7 +204,7 @@ TEST(Tempo, RainFallsOnTheBeats) {
 TEST(Tempo, WithoutOneOrAtTheScenesAllIsAsWithRestartOnPlay) {
     for (const auto& scene : builtInScenes()) {
         PluginState restarting = shakenBox();
-        useScene(restarting, scene);
+        setScene(restarting, scene);
         restarting.transport = TransportMode::restartOnPlay;
         PluginState inTempo = restarting;
         inTempo.transport = TransportMode::inTempo;
@@ -239,7 +239,7 @@ TEST(TempoInRealTime, LiveIsTheBounceWithChangesAStopAndALoop) {
         if (!host.plugin->isNonRealtime()) std::this_thread::sleep_for(std::chrono::milliseconds{300});
     };
     PluginState driven = shakenBox();
-    useScene(driven, builtInScenes()[2]); // motors drive
+    setScene(driven, builtInScenes()[2]); // motors drive
     driven.transport = TransportMode::inTempo;
     for (const auto& state : {rain(), driven}) {
         const auto bounce = playedBy(state, 120.0, 0.0, true, 480, song);

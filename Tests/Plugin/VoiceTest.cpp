@@ -38,10 +38,10 @@ Message on(int note, int velocity = 127, int channel = 1) {
 }
 Message off(int note, int channel = 1) { return Message::noteOff(channel, note); }
 
-PluginState heldVoice(NotePlaces places = NotePlaces::middle) {
+PluginState heldVoice(NotePlacement places = NotePlacement::middle) {
     auto state = emptyBox();
     state.limiterEnabled = false;
-    state.voice = {.pitch = NotePitch::note, .places = places, .isHeld = true, .isLoudest = true};
+    state.voice = {.pitch = NotePitch::note, .places = places, .isHeld = true, .levelsPeak = true};
     return state;
 }
 
@@ -218,7 +218,7 @@ TEST(Voice, StatesWithoutOneSoundAsTheyDid) {
 }
 
 TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
-    auto state = heldVoice(NotePlaces::actuators);
+    auto state = heldVoice(NotePlacement::actuators);
     state.voice.releaseSeconds = 1.25;
     const auto text = pluginStateJson(state);
     const auto read = readPluginState(text, "state");
@@ -233,7 +233,7 @@ TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
 
 TEST(Voice, TheBeltOfEightPlaysANoteOnOneActuatorAndAPlaceBetweenTwoOnThese) {
     const auto state = presetNamed("Belt of eight", 0);
-    const EnchanterLayout& belt = state.layout.geometry;
+    const ActuatorLayout& belt = state.layout.geometry;
     ASSERT_EQ(belt.count, 8);
     const PhantomPanner panner = pannerOf(state, PanningLaw::linear, 1.0);
     const auto gainsAt = [&](double xMetres, double yMetres) {

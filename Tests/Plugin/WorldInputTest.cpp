@@ -17,7 +17,7 @@ std::vector<CollisionEvent> after(Change change, int block = 480, const PluginSt
     host.played(96000 + host.plugin->getLatencySamples());
     host.plugin->releaseResources();
     std::vector<CollisionEvent> events;
-    for (const auto& e : host.plugin->takes().drainLog()) events.push_back(e.played.event);
+    for (const auto& e : host.plugin->runs().drainLog()) events.push_back(e.played.event);
     std::erase_if(events, [](const auto& e) { return e.timeNs >= 3'000'000'000; });
     return events;
 }
@@ -94,11 +94,11 @@ TEST(WorldInput, SpawnedDiscsAreFeltAndTheOldestMakeRoom) {
     TestHost host{state, 480};
     std::vector<BodyPose> poses;
     host.block(480);
-    host.plugin->takes().poses(poses);
+    host.plugin->runs().readPoses(poses);
     const auto before = std::ranges::count_if(poses, &BodyPose::isPresent);
     for (int i = 0; i < 100; ++i) play(61)(host);
     for (int i = 0; i < 10; ++i) host.block(480);
-    host.plugin->takes().poses(poses);
+    host.plugin->runs().readPoses(poses);
     EXPECT_EQ(std::ranges::count_if(poses, &BodyPose::isPresent), before + 64);
     EXPECT_FALSE(after(play(61), 480, state) == after(nothing, 480, state));
 }
@@ -108,7 +108,7 @@ TEST(WorldInput, RulesThatTheSceneDoesNotBearAreRefused) {
     auto state = host.plugin->state();
     state.notes = {{.note = 60, .kind = NoteKind::push, .object = "nobody"}};
     EXPECT_FALSE(host.plugin->apply(state));
-    EXPECT_NE(host.plugin->trouble(), "");
+    EXPECT_NE(host.plugin->errorText(), "");
     EXPECT_TRUE(host.plugin->state().notes.empty());
 }
 

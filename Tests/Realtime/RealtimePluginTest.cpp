@@ -33,7 +33,7 @@ void expectNothingForbidden(BusPlan plan) {
         settings.transport = mode;
         settings.controllers = {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}, {20, "bypass"}};
         plugin.apply(settings);
-        plugin.takes().driveByHand(); // so the worlds are in time, as a live host finds them
+        plugin.runs().useManualStepping(); // so the worlds are in time, as a live host finds them
         host.prepare(48000, 64, false);
         host.playHead.isThere = true;
         std::atomic<bool> stop{false};
@@ -71,7 +71,7 @@ void expectNothingForbidden(BusPlan plan) {
                     plugin.processBlock(host.buffer, midi);
             }
             host.playHead.frame += host.playHead.isPlaying ? frames : 0;
-            plugin.takes().tick();
+            plugin.runs().tick();
             if (b % 256 == 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
         }
         stop = true;
@@ -79,7 +79,7 @@ void expectNothingForbidden(BusPlan plan) {
         for (std::size_t i = 0; i < RealtimeGuard::offenceCount; ++i)
             EXPECT_EQ(RealtimeGuard::count(static_cast<RealtimeGuard::Offence>(i)), 0u)
                 << RealtimeGuard::names[i];
-        EXPECT_GT(plugin.takes().status().take, 1) << "settings arrived";
+        EXPECT_GT(plugin.runs().status().runNumber, 1) << "settings arrived";
     }
 }
 
@@ -183,7 +183,7 @@ void callOddly(TestHost& host, Random& random, std::vector<juce::MemoryBlock>& c
             play();
         }
         if (host.playHead.isPlaying) host.playHead.move(frames, std::max(1.0, plugin.getSampleRate()));
-        plugin.takes().tick();
+        plugin.runs().tick();
     }
 }
 
@@ -212,13 +212,13 @@ TEST(RealtimePlugin, AfterCallsInAnyOrderAnInstanceIsAsAFreshOneAndNoBlockTookMe
         Random random{seed};
         std::vector<juce::MemoryBlock> chunks(1);
         host.plugin->getStateInformation(chunks.front());
-        host.plugin->takes().driveByHand();
+        host.plugin->runs().useManualStepping();
         RealtimeGuard::forget();
         for (int call = 0; call < 60; ++call) callOddly(host, random, chunks);
         for (const auto which : {RealtimeGuard::allocates, RealtimeGuard::frees})
             EXPECT_EQ(RealtimeGuard::count(which), 0u) << RealtimeGuard::names[which] << ", seed " << seed;
         const double rateHz = seed % 2 == 0 ? 48'000 : 22'050;
-        if (host.plugin->keepsRefused()) // which a save gives back
+        if (host.plugin->hasRefusedChunk()) // which a save gives back
             host.plugin->setStateInformation(chunks[0].getData(), static_cast<int>(chunks[0].getSize()));
         host.prepare(rateHz, 480);
         juce::MemoryBlock state;

@@ -15,7 +15,7 @@ namespace physvib::realtime_render_test {
 constexpr int outputs = 8;
 
 PhantomPanner randomPanner(test::Random& random) {
-    EnchanterLayout layout{1, 1, 1 + random.below(outputs), {}};
+    ActuatorLayout layout{1, 1, 1 + random.below(outputs), {}};
     for (int j = 0; j < layout.count; ++j)
         layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
     return {layout, static_cast<PanningLaw>(random.below(4)), 1.0, 6.4, 3.6};
@@ -27,7 +27,7 @@ OwnedControl randomEdit(test::Random& random) {
     edit.channel = random.below(outputs);
     edit.value = static_cast<float>(random.below(3)) - 1.0f;
     if (edit.kind == RenderControl::Kind::panner)
-        edit.panner = (edit.kept = std::make_shared<const PhantomPanner>(randomPanner(random))).get();
+        edit.panner = (edit.ownedPanner = std::make_shared<const PhantomPanner>(randomPanner(random))).get();
     return edit;
 }
 
@@ -44,14 +44,14 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
 
 // One of many, at a rate of its own: it is kept, then struck.
 bool strikeClip(Session& session, test::Random& random) {
-    const int which = random.below(mostClips);
+    const int which = random.below(maxClips);
     CollisionEvent strike;
     const ContactRecording clip{0.0,
                                 8000 + 1000 * which,
                                 std::vector<float>(2000, 0.1f),
                                 {.path = std::to_string(which), .hash = "0123456789abcdef"}};
     strike.frequencyHz = clipFrequencyHz;
-    strike.sound = soundOfClip(session.keepClip({&clip, 1}).value());
+    strike.sound = soundOfClip(session.addClip({&clip, 1}).value());
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
     strike.timeNs = session.timeline().presentNs();

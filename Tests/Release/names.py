@@ -38,7 +38,7 @@ def options() -> Iterator[str]:
 def fields() -> Iterator[str]:
     for file in (file for house in ("Source", "Plugin", "Standalone") for file in sorted((root / house).rglob("*")) if file.suffix in (".h", ".cpp")):
         owner = file.stem
-        for structure, part, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|void visit(\w+)\(auto& v\)|\b(?:v\.\w+\(|mayHave\(v, )"(\w+)"', file.read_text()):
+        for structure, part, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|void visit(\w+)\(auto& v\)|\b(?:v\.\w+\(|optionalField\(v, )"(\w+)"', file.read_text()):
             owner = structure or (part if f'FieldsOf<{part}>' in file.read_text() else '') or owner
             if name:
                 yield f"field {owner} {name}"
@@ -67,7 +67,7 @@ def rows(kind: str, file: str, pattern: str) -> Iterator[str]:
 
 
 names = {*options(), *fields(), *properties(json.loads(output(programs / "physvib", "study", "schema")), "protocol"),
-         *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)", \w+Column'), *rows("message", "Source/Live/Messages/MessageRouter.h", r'^    \{"(\w+)",'),
+         *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)",\s+\w+Column'), *rows("message", "Source/Live/Messages/MessageRouter.h", r'^    \{"(\w+)",'),
          *rows("argument", "Source/Live/Messages/MessageRouter.h", r'MessageArgument(?: \w+)?\{\s*"(\w+)"'),
          *rows("parameter", "Plugin/Parameters.h", r'\{Parameter::\w+,\s*"(\w+)"')}
 promised = {f"{kind} {name}" for line in listed.read_text().splitlines() for kind, last in [line.split(": ")] for name in last.split()}

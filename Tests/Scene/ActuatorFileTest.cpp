@@ -50,7 +50,7 @@ TEST(ActuatorFile, TheBuiltInProfilesHaveTheFiguresOfTheThesisAndNoOthers) {
     ASSERT_EQ(all.size(), 7u);
     EXPECT_EQ(findActuator("lra-205").value.resonanceHz, 205.0);
     EXPECT_EQ(findActuator("piezo-230").value.resonanceHz, 230.0);
-    EXPECT_EQ(findActuator("haptuator-mark-2").value.bandOrNone(), (FrequencyBand{90.0, 1000.0}));
+    EXPECT_EQ(findActuator("haptuator-mark-2").value.bandOrUnknown(), (FrequencyBand{90.0, 1000.0}));
     EXPECT_EQ(findActuator("haptuator-2").value.driveLimitVolts, 3.0);
     EXPECT_EQ(findActuator("erm-coin").value.kind, ActuatorKind::rotating);
     for (const auto& p : all) {
@@ -67,11 +67,11 @@ TEST(ActuatorFile, TheExampleForAnAmplifierIsOneToFillIn) {
 }
 
 TEST(ActuatorFile, SaysWhatKeepsAnActuatorFromBeingEqualised) {
-    EXPECT_EQ(equaliserFault(findActuator("lra-205").value),
+    EXPECT_EQ(equaliserError(findActuator("lra-205").value),
               "q is not known (measure it with physvib calibrate)");
-    EXPECT_EQ(equaliserFault(findActuator("voice-coil").value).rfind("resonance_hz is not known", 0), 0u);
-    EXPECT_EQ(equaliserFault(findActuator("erm-coin").value).rfind("a rotating mass", 0), 0u);
-    EXPECT_EQ(equaliserFault(measured()), "");
+    EXPECT_EQ(equaliserError(findActuator("voice-coil").value).rfind("resonance_hz is not known", 0), 0u);
+    EXPECT_EQ(equaliserError(findActuator("erm-coin").value).rfind("a rotating mass", 0), 0u);
+    EXPECT_EQ(equaliserError(measured()), "");
     EXPECT_TRUE(measured().resonator().isKnown());
     EXPECT_FALSE(findActuator("lra-205").value.resonator().isKnown());
 }
@@ -169,7 +169,7 @@ TEST(PadFile, ABadProfileIsNamedByItsField) {
 }
 
 TEST(PadCommands, ATableBeginsAndEndsAtRestAndHoldsWhatDiffers) {
-    EnchanterLayout phone;
+    ActuatorLayout phone;
     layoutPreset("phone4", phone);
     const PhantomPanner panner{phone, PanningLaw::linear, 1.0, 1.0, 1.0};
     CollisionEvent hit;

@@ -19,7 +19,7 @@ namespace physvib::box_study_test {
 /// What phone4 plays, by the linear law.
 inline auto onPhoneFour(const Scene& scene, const std::vector<CollisionEvent>& events, int seconds,
                         bool isLimited) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
                                scene.fieldHeightMetres};
@@ -152,7 +152,8 @@ TEST(BoxStudy, DragsAreImpulsesOf32KilonewtonSecondsPerMetre) {
     for (const char* pair : pairs)
         for (const ScriptInput& input : boxOf(pair).script)
             if (const auto* drag = std::get_if<ImpulseAction>(&input.action)) {
-                const double metres = std::hypot(drag->newtonSeconds.x, drag->newtonSeconds.y) / 32'000;
+                const double metres =
+                    std::hypot(drag->impulseNewtonSeconds.x, drag->impulseNewtonSeconds.y) / 32'000;
                 EXPECT_NEAR(metres * 1000, std::round(metres * 1000), 1e-9) << "whole millimetres";
                 EXPECT_LE(metres, 0.05) << "within a phone's screen";
             } else

@@ -101,8 +101,8 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     const auto read = readEventsCsv(text, "hits.csv");
     ASSERT_EQ(read.error, "");
     EXPECT_TRUE(read.value.events == events);
-    EXPECT_EQ(read.value.names.of(soundOfMaterial("wood")), "wood");
-    EXPECT_EQ(read.value.names.of(soundOfClip(6)), "clip-7");
+    EXPECT_EQ(read.value.names.nameOf(soundOfMaterial("wood")), "wood");
+    EXPECT_EQ(read.value.names.nameOf(soundOfClip(6)), "clip-7");
     EXPECT_EQ(eventsCsv(read.value.events, field, provenance, read.value.names).size(), text.size());
     events.resize(1);
     EXPECT_TRUE(has(eventsCsv(events, field, provenance), ",sound-923368111\n"))

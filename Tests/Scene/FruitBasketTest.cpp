@@ -30,7 +30,7 @@ const Material& materialNamed(const std::string& name) { return *findNamed(baske
 /// The first fruit of each kind, by its material.
 std::map<std::string, BodyDescription> kinds() {
     std::map<std::string, BodyDescription> found;
-    for (const BodyDescription& body : sceneCast(basket()))
+    for (const BodyDescription& body : allBodies(basket()))
         if (body.type == BodyType::dynamicBody) {
             const auto material = static_cast<std::size_t>(body.fixtures[0].material);
             found.emplace(basket().materials[material].name, body);
@@ -105,7 +105,7 @@ TEST(FruitBasket, SoundsAreAllDifferent) {
 
 /// One orange that falls from a tree at `x`, and a basket that a player moves.
 struct Orchard {
-    Scene scene = sceneForHands(basket());
+    Scene scene = sceneForUserInput(basket());
     ScenePlayer player{scene};
 
     explicit Orchard(double x) {
@@ -128,8 +128,8 @@ TEST(FruitBasket, IsPlayedByHandsAndItsScriptLeavesThatToThem) {
         return std::ranges::count_if(scene.script, isAnyOf<VelocityAction>, &ScriptInput::action);
     };
     EXPECT_GT(moves(basket()), 10) << "the script catches for whoever only looks";
-    EXPECT_EQ(moves(sceneForHands(basket())), 0);
-    EXPECT_GT(sceneForHands(basket()).script.size(), 20U) << "fruits fall all the same";
+    EXPECT_EQ(moves(sceneForUserInput(basket())), 0);
+    EXPECT_GT(sceneForUserInput(basket()).script.size(), 20U) << "fruits fall all the same";
 }
 
 TEST(FruitBasket, WhatIsCaughtByKeysIsFeltAndWhatIsMissedIsNot) {
@@ -148,7 +148,7 @@ TEST(FruitBasket, TheMouseAndATiltCatchAsKeysDo) {
     double at = basketAt, speed = 0.0;
     for (int look = 0; look < 60; ++look, at += speed / 30.0) {
         const auto actions = byMouse.player.moveTowards(6.0, at);
-        if (!actions.empty()) speed = std::get<VelocityAction>(actions.front()).metresPerSecond.x;
+        if (!actions.empty()) speed = std::get<VelocityAction>(actions.front()).velocityMetresPerSecond.x;
         byMouse.act(look / 30.0, actions);
     }
     EXPECT_NEAR(at, 6.0, 0.1);
@@ -164,7 +164,7 @@ TEST(FruitBasket, IsNotMovedOffItsField) {
     EXPECT_TRUE(player.keepInside(6.0).empty());
     const auto stop = player.keepInside(6.8);
     ASSERT_EQ(stop.size(), 1U);
-    EXPECT_EQ(std::get<VelocityAction>(stop.front()).metresPerSecond.x, 0.0);
+    EXPECT_EQ(std::get<VelocityAction>(stop.front()).velocityMetresPerSecond.x, 0.0);
 }
 
 TEST(FruitBasket, AFruitAtTwiceTheSpeedIsTwiceAsStrong) {
@@ -231,7 +231,7 @@ std::vector<std::string> wallsHit(const Scene& scene, double seconds) {
 }
 
 TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
-    Scene scene = sceneForHands(driving());
+    Scene scene = sceneForUserInput(driving());
     ScenePlayer player{scene};
     EXPECT_TRUE(player.drives());
     EXPECT_TRUE(std::ranges::none_of(scene.script, isAnyOf<MotorAction>, &ScriptInput::action));
@@ -243,11 +243,11 @@ TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
     EXPECT_TRUE(wallsHit(scene, 12.0).empty()) << "nobody drives";
     act(0.5, player.steer(1));
     act(0.7, player.steer(1));
-    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond,
+    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).speedRadiansPerSecond,
               -2.0 * ScenePlayer::stepRadiansPerSecond);
     EXPECT_EQ(wallsHit(scene, 12.0), std::vector<std::string>{"right wall"});
     act(7.0, player.steer(-1)); // against its way: it brakes
-    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond, 0.0);
+    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).speedRadiansPerSecond, 0.0);
     for (const double seconds : {8.0, 8.2, 8.4}) act(seconds, player.steer(-1));
     EXPECT_EQ(wallsHit(scene, 20.0), (std::vector<std::string>{"right wall", "left wall"}));
 }
@@ -264,7 +264,7 @@ TEST(Driving, TheWallStopsTheCarAndSomeOfItsWheels) {
 
 TEST(Driving, TheHeavierTheObstacleTheHarderTheHit) {
     std::map<std::string, double> impulses;
-    for (const BodyDescription& body : sceneCast(driving()))
+    for (const BodyDescription& body : allBodies(driving()))
         for (const char* name : {"wooden crate 1", "steel drum 1", "concrete block"})
             if (body.name == name) {
                 Scene scene = levelRoad(4.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What hands did becomes a script: the scene that is saved gives the events of the take, to the bit.
-#include "Scene/Drawing/HandScript.h"
 #include "DropScene.h"
+#include "Scene/Drawing/RecordedInputs.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
@@ -31,7 +31,7 @@ struct Take {
         for (int i = 0; i < count; ++i) world.step(events);
     }
     void act(const Action& action) {
-        ASSERT_EQ(check.take(action), "");
+        ASSERT_EQ(check.accept(action), "");
         world.addInput(1e-9 * static_cast<double>(world.timeNs()), action);
     }
     SceneRun log() const { return {0, world.timeNs(), 1, scene, world.scene().inputs, {}}; }
@@ -74,9 +74,9 @@ void recordsWhatIsFelt(const char* name, const std::string& body, int steps) {
     SCOPED_TRACE(name);
     Take take{sceneToRecord(*findBuiltInScene(name))};
     play(take, body, 7, steps);
-    const HandScript hands = recordedHands(take.log());
+    const RecordedInputs hands = recordedInputs(take.log());
     EXPECT_GT(hands.inputs.size(), 10U);
-    const Scene scene = withHands(*take.scene, hands, {0.0, hands.lengthSeconds, false});
+    const Scene scene = sceneWithInputs(*take.scene, hands, {0.0, hands.lengthSeconds, false});
     EXPECT_EQ(validate(scene), "");
     const auto read = readScene(sceneJson(scene), "own.json");
     ASSERT_TRUE(read) << read.error;
@@ -103,13 +103,13 @@ TEST(HandScript, WhatAPlayerDoesIsRecordedBesideTheRestOfTheScript) {
         take.act(VelocityAction{player, {k % 2 == 0 ? 2.0 : -2.0, 0.0}, 0.0});
         take.steps(80);
     }
-    const HandScript hands = recordedHands(take.log());
+    const RecordedInputs hands = recordedInputs(take.log());
     EXPECT_EQ(hands.lengthSeconds, 9.65);
-    const Scene scene = withHands(basket, hands, {0.0, hands.lengthSeconds, true});
+    const Scene scene = sceneWithInputs(basket, hands, {0.0, hands.lengthSeconds, true});
     EXPECT_EQ(scene.scriptPeriodSeconds, basket.scriptPeriodSeconds) << "the rest goes on as it did";
     EXPECT_TRUE(eventsOf(scene, take.world.timeNs()) == take.events);
     take.steps(2000);
-    EXPECT_EQ(recordedHands(take.log()).lengthSeconds, basket.scriptPeriodSeconds)
+    EXPECT_EQ(recordedInputs(take.log()).lengthSeconds, basket.scriptPeriodSeconds)
         << "then the script begins again";
 }
 
@@ -122,27 +122,27 @@ TEST(HandScript, AnEditEndsTheRecording) {
     take.steps(20);
     take.act(TiltAction{-0.5});
     take.steps(20);
-    const HandScript hands = recordedHands(take.log());
+    const RecordedInputs hands = recordedInputs(take.log());
     ASSERT_EQ(hands.inputs.size(), 1U);
     EXPECT_EQ(hands.lengthSeconds, 0.3);
 }
 
 TEST(HandScript, ATrimKeepsHowTheDeviceWasHeldAndLetsGoOfWhatIsHeld) {
     const Scene scene = sceneToRecord(*findBuiltInScene("shake-the-box"));
-    const HandScript hands{{{0.5, TiltAction{0.3}},
-                            {1.0, TiltAction{0.6}},
-                            {1.5, ImpulseAction{"large rubber ball", {1.0, 0.0}, {}}},
-                            {2.0, GripAction{"large rubber ball", Vector{1.0, 1.0}, {}, 0.02}},
-                            {3.0, GripAction{"large rubber ball", {}, {}}}},
-                           4.0};
-    const HandScript part = trimmed(scene, hands, {1.6, 2.5, false});
+    const RecordedInputs hands{{{0.5, TiltAction{0.3}},
+                                {1.0, TiltAction{0.6}},
+                                {1.5, ImpulseAction{"large rubber ball", {1.0, 0.0}, {}}},
+                                {2.0, GripAction{"large rubber ball", Vector{1.0, 1.0}, {}, 0.02}},
+                                {3.0, GripAction{"large rubber ball", {}, {}}}},
+                               4.0};
+    const RecordedInputs part = trimmedInputs(scene, hands, {1.6, 2.5, false});
     ASSERT_EQ(part.inputs.size(), 3U);
     EXPECT_EQ(part.inputs[0], (LiveInput{0.0, TiltAction{0.6}}));
     EXPECT_NEAR(part.inputs[1].timeSeconds, 0.4, 1e-12);
     EXPECT_EQ(part.inputs[2].action, (Action{GripAction{"large rubber ball", {}, {}}})) << "lets go";
     EXPECT_NEAR(part.inputs[2].timeSeconds, 0.9, 1e-12);
-    EXPECT_EQ(trimmed(scene, hands, {0.0, 4.0, false}), hands) << "nothing is cut";
-    const Scene again = withHands(scene, hands, {1.6, 2.5, true});
+    EXPECT_EQ(trimmedInputs(scene, hands, {0.0, 4.0, false}), hands) << "nothing is cut";
+    const Scene again = sceneWithInputs(scene, hands, {1.6, 2.5, true});
     EXPECT_NEAR(again.scriptPeriodSeconds, 0.9, 1e-12);
     EXPECT_EQ(validate(again), "");
     EXPECT_EQ(sceneToRecord(again), scene) << "another recording takes its place";
@@ -156,10 +156,10 @@ TEST(HandScript, AScriptIsFullBeforeASceneIs) {
         log.inputs.push_back(
             {0.01 * static_cast<double>(k + 1), TiltAction{0.001 * static_cast<double>(k % 100)}});
     log.worldEndNs = 1'000'000'000'000;
-    const HandScript hands = recordedHands(log);
+    const RecordedInputs hands = recordedInputs(log);
     EXPECT_LT(hands.inputs.size(), sceneLimits::maxInputs);
     EXPECT_EQ(hands.lengthSeconds, log.inputs[hands.inputs.size()].timeSeconds) << "up to what found no room";
-    EXPECT_EQ(validate(withHands(*log.scene, hands, {0.0, hands.lengthSeconds, false})), "");
+    EXPECT_EQ(validate(sceneWithInputs(*log.scene, hands, {0.0, hands.lengthSeconds, false})), "");
 }
 
 // A hand that holds a body: where it pulls it, how evenly, how hard at most, and what ends it.
@@ -267,11 +267,11 @@ TEST(SceneGrips, WhatDoesNotMoveByForcesDoesNotNotice) {
     held.run(0.5);
     EXPECT_EQ(held.world.pose(plateIndex).xMetres, 2.0);
     InputCheck check{dropScene(1.0)};
-    EXPECT_EQ(check.take(GripAction{"nobody", Vector{}, {}}),
+    EXPECT_EQ(check.accept(GripAction{"nobody", Vector{}, {}}),
               "body: expected the name of a body, found \"nobody\"");
-    EXPECT_EQ(check.take(GripAction{"ball", Vector{1e4, 0.0}, {}}),
+    EXPECT_EQ(check.accept(GripAction{"ball", Vector{1e4, 0.0}, {}}),
               "to_m[0]: expected -1000 to 1000, found 10000");
-    EXPECT_EQ(check.take(GripAction{"ball", Vector{}, {}, -1.0}), "over_s: expected 0 to 86400, found -1");
+    EXPECT_EQ(check.accept(GripAction{"ball", Vector{}, {}, -1.0}), "over_s: expected 0 to 86400, found -1");
 }
 
 TEST(SceneGrips, ScrapingIsFeltAndATextureMakesASurfaceRough) {

@@ -24,7 +24,7 @@ bool isOneLine(const std::string& text) {
 }
 
 bool isEmpty(const LayoutDescription& layout) {
-    return layout.name.empty() && layout.enchanters.empty() && layout.geometry.count == 0 &&
+    return layout.name.empty() && layout.actuators.empty() && layout.geometry.count == 0 &&
            layout.geometry.extentWidthMetres == 0.0;
 }
 
@@ -43,7 +43,7 @@ std::string errorOfEnchanter(const std::string& fields) {
 
 std::vector<std::string> labelsOf(const LayoutDescription& layout) {
     std::vector<std::string> labels;
-    for (const EnchanterDescription& enchanter : layout.enchanters) labels.push_back(enchanter.label);
+    for (const ActuatorDescription& enchanter : layout.actuators) labels.push_back(enchanter.label);
     return labels;
 }
 
@@ -52,14 +52,14 @@ double share(std::mt19937& random) { return static_cast<double>(random()) / 4294
 LayoutDescription randomLayout(std::mt19937& random) {
     LayoutDescription layout;
     layout.name = "n\"\\\xc3\xa4" + std::to_string(random());
-    layout.geometry.extentWidthMetres = limits::leastExtentMetres + share(random);
-    layout.geometry.extentHeightMetres = limits::mostExtentMetres * (1.0 - 0.9 * share(random));
-    layout.geometry.count = 1 + static_cast<int>(anyIndex(random, limits::maxEnchanters));
+    layout.geometry.extentWidthMetres = limits::minExtentMetres + share(random);
+    layout.geometry.extentHeightMetres = limits::maxExtentMetres * (1.0 - 0.9 * share(random));
+    layout.geometry.count = 1 + static_cast<int>(anyIndex(random, limits::maxActuators));
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.geometry.count); ++j) {
         layout.geometry.places[j] = {layout.geometry.extentWidthMetres * share(random),
                                      layout.geometry.extentHeightMetres * share(random)};
-        layout.enchanters.push_back(
-            {"L" + std::to_string(j), "lra-205", limits::leastFullScaleG + share(random)});
+        layout.actuators.push_back(
+            {"L" + std::to_string(j), "lra-205", limits::minFullScaleG + share(random)});
     }
     return layout;
 }
@@ -68,7 +68,7 @@ void expectSame(const LayoutDescription& a, const LayoutDescription& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.geometry.extentWidthMetres, b.geometry.extentWidthMetres);
     EXPECT_EQ(a.geometry.extentHeightMetres, b.geometry.extentHeightMetres);
-    EXPECT_TRUE(a.enchanters == b.enchanters);
+    EXPECT_TRUE(a.actuators == b.actuators);
     ASSERT_EQ(a.geometry.count, b.geometry.count);
     for (std::size_t j = 0; j < a.geometry.places.size(); ++j) {
         EXPECT_EQ(a.geometry.places[j].xMetres, b.geometry.places[j].xMetres) << j;
@@ -88,8 +88,8 @@ TEST(LayoutFile, ReadsTheFormOfTheInterface) {
     EXPECT_EQ(layout.geometry.extentHeightMetres, 0.06);
     EXPECT_EQ(layout.geometry.places[1].xMetres, 0.12);
     EXPECT_EQ(layout.geometry.places[0].yMetres, 0.03);
-    EXPECT_TRUE((layout.enchanters ==
-                 std::vector<EnchanterDescription>{{"L", "lra-205", 1.5}, {"R", "haptuator-2", 3.0}}));
+    EXPECT_TRUE((layout.actuators ==
+                 std::vector<ActuatorDescription>{{"L", "lra-205", 1.5}, {"R", "haptuator-2", 3.0}}));
     EXPECT_TRUE(isValid(layout.geometry));
 }
 
@@ -130,7 +130,7 @@ TEST(LayoutFile, DepthAndPartAreWrittenWhereThereAreAny) {
         R"({"x_m": 0, "y_m": 0, "z_m": -0.25, "part": "left elbow"}, {"x_m": 0.1, "y_m": 0, "part": "palm"})"));
     EXPECT_EQ(layout.geometry.places[0].zMetres, -0.25);
     EXPECT_EQ(layout.geometry.places[0].part, partNamed("left elbow"));
-    EXPECT_EQ(layout.enchanters[1].part, "palm");
+    EXPECT_EQ(layout.actuators[1].part, "palm");
     EXPECT_FALSE(isFlat(layout.geometry));
     const std::string text = layoutJson(layout);
     EXPECT_NE(text.find(R"("z_m": -0.25, "part": "left elbow", "actuator")"), std::string::npos) << text;
@@ -138,8 +138,8 @@ TEST(LayoutFile, DepthAndPartAreWrittenWhereThereAreAny) {
     EXPECT_EQ(layoutJson(readGood(text)), text);
     // who knows the places alone knows the built-in names, and else the number
     const LayoutDescription again = describeLayout("again", layout.geometry);
-    EXPECT_EQ(again.enchanters[0].part, "part-" + std::to_string(partNamed("left elbow")));
-    EXPECT_EQ(again.enchanters[1].part, "palm");
+    EXPECT_EQ(again.actuators[0].part, "part-" + std::to_string(partNamed("left elbow")));
+    EXPECT_EQ(again.actuators[1].part, "palm");
     EXPECT_EQ(readGood(layoutJson(again)).geometry.places[0].part, partNamed("left elbow"));
     EXPECT_EQ(errorOfEnchanter(R"("x_m": 0, "y_m": 0, "part": "")"),
               "my.json: enchanters[1].part: expected a name, found an empty string");
@@ -151,7 +151,7 @@ TEST(LayoutFile, MissingFieldsHaveDefaults) {
     const LayoutDescription layout =
         readGood(R"({"extent_m": [1, 1], "enchanters": [{"x_m": 1, "y_m": 0}]})");
     EXPECT_EQ(layout.name, "");
-    EXPECT_TRUE((layout.enchanters == std::vector<EnchanterDescription>{{"A", "none", 1.0}}));
+    EXPECT_TRUE((layout.actuators == std::vector<ActuatorDescription>{{"A", "none", 1.0}}));
 }
 
 TEST(LayoutFile, MissingLabelsTakeTheFirstFreeLetters) {
@@ -165,7 +165,7 @@ TEST(LayoutFile, MissingLabelsTakeTheFirstFreeLetters) {
 
 TEST(LayoutFile, SixtyFourEnchantersAreLabelledLikeColumns) {
     std::string list = R"({"x_m": 0, "y_m": 0})";
-    for (int j = 1; j < limits::maxEnchanters; ++j) list += R"(,{"x_m": 0, "y_m": 0})";
+    for (int j = 1; j < limits::maxActuators; ++j) list += R"(,{"x_m": 0, "y_m": 0})";
     const std::vector<std::string> labels = labelsOf(readGood(layoutWith(list)));
     EXPECT_EQ(labels[25], "Z");
     EXPECT_EQ(labels[26], "AA");
@@ -278,7 +278,7 @@ TEST(LayoutFile, NoMutationCrashesOrHalfLoads) {
         }
         ++accepted;
         ASSERT_TRUE(isValid(read.value.geometry));
-        ASSERT_EQ(read.value.enchanters.size(), static_cast<std::size_t>(read.value.geometry.count));
+        ASSERT_EQ(read.value.actuators.size(), static_cast<std::size_t>(read.value.geometry.count));
         expectSame(readGood(layoutJson(read.value)), read.value);
     }
     EXPECT_GT(accepted, 100);
@@ -291,7 +291,7 @@ TEST(LayoutFile, NoTruncationLoads) {
 }
 
 TEST(LayoutFile, TextThatIsNotUtf8IsWrittenReadably) {
-    LayoutDescription layout = describeLayout("a\xff", EnchanterLayout{1.0, 1.0, 1, {}});
+    LayoutDescription layout = describeLayout("a\xff", ActuatorLayout{1.0, 1.0, 1, {}});
     EXPECT_EQ(readGood(layoutJson(layout)).name, "a\xEF\xBF\xBD");
 }
 

@@ -3,8 +3,8 @@
 // scene does the same again to the bit.
 #include "DropScene.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/InputCheck.h"
-#include "Scene/World/SceneCast.h"
 #include "Scene/World/Simulation.h"
 #include <gtest/gtest.h>
 #include <random>
@@ -52,7 +52,7 @@ TEST(LiveInputs, AWorldWithThemInItsSceneDoesTheSameAgain) {
     for (int step = 0, stones = 0; step < steps; ++step) {
         for (int i = static_cast<int>(random() % 4); i < 2; ++i) { // none, one or two
             const Action action = anyInput(random, stones);
-            ASSERT_EQ(check.take(action), "");
+            ASSERT_EQ(check.accept(action), "");
             const double delay = 0.001 * static_cast<double>(random() % 30);
             live.addInput(static_cast<double>(live.timeNs()) * 1e-9 + delay, action);
         }
@@ -72,7 +72,7 @@ TEST(LiveInputs, AWorldWithThemInItsSceneDoesTheSameAgain) {
         EXPECT_EQ(again.pose(i).isPresent, live.pose(i).isPresent);
     }
     EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).bodies.size(),
-              sceneCast(live.scene()).size());
+              allBodies(live.scene()).size());
 }
 
 TEST(LiveInputs, ActInTheFirstStepAtOrAfterTheirTime) {
@@ -116,23 +116,25 @@ TEST(LiveInputs, ASpawnedCameraIsFeltAndASoundChanges) {
 
 TEST(InputCheck, SaysWhatIsWrongAndForgetsIt) {
     InputCheck check(dropScene(1.0));
-    const auto isRefused = [&](const Action& action, const char* why) { EXPECT_EQ(check.take(action), why); };
+    const auto isRefused = [&](const Action& action, const char* why) {
+        EXPECT_EQ(check.accept(action), why);
+    };
     isRefused(ImpulseAction{"bull", {}, {}}, "body: expected the name of a body, found \"bull\"");
     isRefused(ImpulseAction{"ball", {1e12, 0.0}, {}}, "impulse_ns[0]: expected -1e+09 to 1e+09, found 1e+12");
     isRefused(MaterialAction{"ball", 0, 7}, "material: expected one of the 2 materials of the scene");
     isRefused(SpawnAction{stone("ball", {1, 1}), {}},
               "bodies: expected names of their own, found \"ball\" twice");
     isRefused(ImpulseAction{"stone", {}, {}}, "body: expected the name of a body, found \"stone\"");
-    EXPECT_EQ(check.take(SpawnAction{stone("stone", {1, 1}), {}}), "");
-    EXPECT_EQ(check.take(ImpulseAction{"stone", {}, {}}), "");
+    EXPECT_EQ(check.accept(SpawnAction{stone("stone", {1, 1}), {}}), "");
+    EXPECT_EQ(check.accept(ImpulseAction{"stone", {}, {}}), "");
 }
 
 TEST(InputCheck, SpawningAndRemovingGoesOnForMonths) {
     const Scene scene = dropScene(1.0);
-    InputCheck check(scene, InputCheck::endless);
+    InputCheck check(scene, InputCheck::unlimited);
     Scene whole = scene;
     const auto take = [&](Action action) {
-        ASSERT_EQ(check.take(action), "");
+        ASSERT_EQ(check.accept(action), "");
         whole.inputs.push_back({0.0, std::move(action)});
     };
     for (int i = 0; i < 4200; ++i) { // more than a world may hold at once
@@ -145,9 +147,9 @@ TEST(InputCheck, SpawningAndRemovingGoesOnForMonths) {
     }
     EXPECT_EQ(validate(whole), "");
     take(SpawnAction{stone("stone", {1.0, 1.0}), {}});
-    EXPECT_EQ(check.take(SpawnAction{stone("stone", {2.0, 1.0}), {}}),
+    EXPECT_EQ(check.accept(SpawnAction{stone("stone", {2.0, 1.0}), {}}),
               "bodies: expected names of their own, found \"stone\" twice");
-    EXPECT_EQ(check.take(ImpulseAction{"stone 5", {}, {}}),
+    EXPECT_EQ(check.accept(ImpulseAction{"stone 5", {}, {}}),
               "body: expected the name of a body, found \"stone 5\"")
         << "gone long ago";
 }
@@ -163,7 +165,7 @@ TEST(InputCheck, EndsWithTheLimit) {
     InputCheck check(dropScene(1.0));
     std::string fault;
     int taken = 0;
-    for (; fault.empty() && taken < 200'000; ++taken) fault = check.take(TiltAction{0.0});
+    for (; fault.empty() && taken < 200'000; ++taken) fault = check.accept(TiltAction{0.0});
     EXPECT_EQ(taken, 100'001);
     EXPECT_EQ(fault, "expected at most 100000 inputs");
 }
@@ -173,8 +175,8 @@ TEST(InputCheck, EndsWithTheLimit) {
 
 /// Takes them one after the other, until an error, which is that of all at once.
 std::string takeAll(InputCheck& check, const std::vector<Action>& actions) {
-    std::string error, atOnce = InputCheck{check}.take(actions);
-    for (std::size_t i = 0; i < actions.size() && error.empty(); ++i) error = check.take(actions[i]);
+    std::string error, atOnce = InputCheck{check}.accept(actions);
+    for (std::size_t i = 0; i < actions.size() && error.empty(); ++i) error = check.accept(actions[i]);
     EXPECT_EQ(error, atOnce);
     return error;
 }
@@ -183,27 +185,27 @@ TEST(InputCheck, InputsOfTheSceneCountTowardsTheLimit) {
     Scene scene = dropScene(1.0);
     scene.inputs = {{0.0, TiltAction{0.1}}, {0.5, TiltAction{0.2}}};
     InputCheck check(scene, 3);
-    EXPECT_EQ(check.take(TiltAction{0.3}), "");
-    EXPECT_EQ(check.take(TiltAction{0.4}), "expected at most 3 inputs");
+    EXPECT_EQ(check.accept(TiltAction{0.3}), "");
+    EXPECT_EQ(check.accept(TiltAction{0.4}), "expected at most 3 inputs");
 }
 
 TEST(InputCheck, RefusedInputsDoNotCount) {
     InputCheck check(dropScene(1.0), 2);
-    for (int i = 0; i < 5; ++i) EXPECT_NE(check.take(RemoveAction{"nobody"}), "");
-    EXPECT_NE(check.take(std::vector<Action>{TiltAction{0.1}, RemoveAction{"nobody"}}), "");
+    for (int i = 0; i < 5; ++i) EXPECT_NE(check.accept(RemoveAction{"nobody"}), "");
+    EXPECT_NE(check.accept(std::vector<Action>{TiltAction{0.1}, RemoveAction{"nobody"}}), "");
     EXPECT_EQ(takeAll(check, {TiltAction{0.1}, TiltAction{0.2}}), "");
-    EXPECT_EQ(check.take(TiltAction{0.3}), "expected at most 2 inputs");
+    EXPECT_EQ(check.accept(TiltAction{0.3}), "expected at most 2 inputs");
 }
 
 TEST(InputCheck, AJointGoesWithABodyThatIsForgotten) {
-    InputCheck check(dropScene(1.0), InputCheck::endless);
-    for (std::size_t i = 0; i < InputCheck::remembered + 20; ++i) {
+    InputCheck check(dropScene(1.0), InputCheck::unlimited);
+    for (std::size_t i = 0; i < InputCheck::maxRemembered + 20; ++i) {
         const std::string name = "stone " + std::to_string(i);
         const JointDescription pin{"pin " + std::to_string(i), "plate", name, RevoluteJoint{}, false};
         ASSERT_EQ(takeAll(check, {SpawnAction{stone(name), {}}, JoinAction{pin}, RemoveAction{name}}), "")
             << i;
     }
-    EXPECT_EQ(check.take(TiltAction{0.1}), "");
+    EXPECT_EQ(check.accept(TiltAction{0.1}), "");
 }
 
 TEST(InputCheck, ABodyThatWasSpawnedCanBeSwitchedAndChanged) {

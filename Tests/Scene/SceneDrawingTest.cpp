@@ -4,8 +4,8 @@
 #include "Scene/SceneFile.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/InputCheck.h"
-#include "Scene/World/SceneCast.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <cmath>
@@ -32,22 +32,22 @@ struct Drawn {
     Simulation world;
     std::vector<CollisionEvent> events;
     std::vector<SceneEdit> done, undone;
-    PoseNow now;
+    CurrentPose now;
 
     explicit Drawn(const Scene& scene)
         : drawing{scene}
         , check{scene}
         , world{scene, 1, 100} {}
     std::string act(const Action& action) {
-        auto fault = check.take(action);
+        auto fault = check.accept(action);
         if (!fault.empty()) return fault;
         world.addInput(0.0, action);
-        drawing.take(action);
+        drawing.apply(action);
         return fault;
     }
     std::string run(SceneEdit& edit, bool isForth) {
         std::string fault;
-        edit.run(isForth, drawing, now, [&](std::span<const Action> some) {
+        edit.perform(isForth, drawing, now, [&](std::span<const Action> some) {
             for (const Action& action : some) fault += act(action);
         });
         return fault;
@@ -82,7 +82,7 @@ struct Drawn {
     }
     /// Names of the bodies that are there in the world.
     std::multiset<std::string> present() const {
-        const auto cast = sceneCast(world.scene());
+        const auto cast = allBodies(world.scene());
         std::multiset<std::string> names;
         for (std::size_t i = 0; i < cast.size(); ++i)
             if (world.pose(i).isPresent) names.insert(cast[i].name);
@@ -104,25 +104,26 @@ public:
     std::vector<Action> anything() {
         const auto& drawing = drawn_.drawing;
         switch (drawing.drawn().bodies.size() < 3 ? draw(3) : draw(10)) {
-        case 0: return add(drawnBall(place(), place()));
-        case 1: return add(drawnBox(place(), place()));
+        case 0: return add(makeBall(place(), place()));
+        case 1: return add(makeBox(place(), place()));
         case 2:
-            return draw(2) == 0 ? add(drawnWall(place(), place(), 0.1))
-                                : add(drawnPolygon({place(), place(), place(), place(), place()}));
-        case 3: return add(drawnLine({place(), place(), place(), place()}, 0.01));
-        case 4: return movedTo(drawing, {{any(), {place(), 0.1 * draw(60)}}, {any(), {place(), 0.0}}});
+            return draw(2) == 0 ? add(makeWall(place(), place(), 0.1))
+                                : add(makePolygon({place(), place(), place(), place(), place()}));
+        case 3: return add(makeLine({place(), place(), place(), place()}, 0.01));
+        case 4: return moveActions(drawing, {{any(), {place(), 0.1 * draw(60)}}, {any(), {place(), 0.0}}});
         case 5:
-            return {changed(scaledBody(*drawing.find(any()), 0.5 + 0.1 * draw(10), 0.5 + 0.1 * draw(10)))};
-        case 6: return erased(drawing, {any(), any()});
+            return {
+                changeAction(scaledBody(*drawing.find(any()), 0.5 + 0.1 * draw(10), 0.5 + 0.1 * draw(10)))};
+        case 6: return removeActions(drawing, {any(), any()});
         case 7: {
             const std::string a = any(), b = any();
-            return joined(drawing, static_cast<JointKind>(draw(4)), drawn_.where(a), drawn_.where(b), place(),
-                          place())
+            return joinActions(drawing, static_cast<JointKind>(draw(4)), drawn_.where(a), drawn_.where(b),
+                               place(), place())
                 .value;
         }
         case 8: {
             std::vector<std::string> names;
-            return pasted(drawing, copied(drawing, {any(), any()}), {0.2, 0.2}, names);
+            return pasteActions(drawing, copyBodies(drawing, {any(), any()}), {0.2, 0.2}, names);
         }
         default: {
             BodyDescription body = *drawing.find(any());
@@ -137,7 +138,7 @@ public:
                 body.fixtures[0].restitution = 0.01 * draw(100);
             else
                 body.fixtures[0].material = draw(static_cast<int>(drawing.drawn().materials.size()));
-            return {changed(std::move(body))};
+            return {changeAction(std::move(body))};
         }
         }
     }
@@ -154,7 +155,7 @@ private:
     }
     std::vector<Action> add(Result<BodyDescription> body) {
         if (!body) return {};
-        body.value.name = drawn_.drawing.freeName("body");
+        body.value.name = drawn_.drawing.unusedName("body");
         if (startsAsSource(body.value)) setSource(drawn_.drawing.drawn(), body.value, true);
         return {SpawnAction{body.value, {}}};
     }
@@ -201,11 +202,11 @@ void drawAtRandom(std::uint32_t seed) {
 }
 
 TEST(SceneDrawing, WhoHasTurnedForLongComesBackAndWhoFellFarIsAsDrawn) {
-    const auto pose = drawable({1.0, 2.0, 2202.77});
+    const auto pose = poseWithinLimits({1.0, 2.0, 2202.77});
     EXPECT_NEAR(std::remainder(pose->angleRadians - 2202.77, 2.0 * std::numbers::pi), 0.0, 1e-9);
     EXPECT_LE(std::abs(pose->angleRadians), sceneLimits::maxAngleRadians);
-    EXPECT_EQ(drawable({1.0, 2.0, -999.0})->angleRadians, -999.0) << "a joint may count its turns";
-    EXPECT_FALSE(drawable({0.0, -1000.1, 0.0}));
+    EXPECT_EQ(poseWithinLimits({1.0, 2.0, -999.0})->angleRadians, -999.0) << "a joint may count its turns";
+    EXPECT_FALSE(poseWithinLimits({0.0, -1000.1, 0.0}));
 }
 
 TEST(SceneDrawing, TwoHundredEditsAreUndoneDoneAgainAndFeltAgain) {
@@ -214,20 +215,20 @@ TEST(SceneDrawing, TwoHundredEditsAreUndoneDoneAgainAndFeltAgain) {
 
 TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
     Drawn drawn{blank()};
-    auto ball = drawnBall({1.0, 2.0}, {1.1, 2.0}).value;
+    auto ball = makeBall({1.0, 2.0}, {1.1, 2.0}).value;
     ball.velocityMetresPerSecond = {0.3, 0.0};
     ASSERT_EQ(drawn.add(ball, "ball"), "");
     drawn.steps(20);
-    const auto find = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1); };
+    const auto find = [&] { return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1); };
     const BodyPose before = find();
-    ASSERT_EQ(drawn.edit({changed(scaledBody(*drawn.drawing.find("ball"), 1.5, 1.5))}), "");
+    ASSERT_EQ(drawn.edit({changeAction(scaledBody(*drawn.drawing.find("ball"), 1.5, 1.5))}), "");
     drawn.steps(1);
     EXPECT_NEAR(find().xMetres, before.xMetres + 0.003, 1e-4) << "on with its speed";
     EXPECT_EQ(drawn.drawing.find("ball")->positionMetres, ball.positionMetres)
         << "the scene starts it where it was drawn";
     EXPECT_NEAR(std::get<CircleShape>(drawn.drawing.find("ball")->fixtures[0].shape).radiusMetres, 0.15,
                 1e-9);
-    ASSERT_EQ(drawn.edit(movedTo(drawn.drawing, {{"ball", {{0.5, 2.0}, 0.0}}})), "");
+    ASSERT_EQ(drawn.edit(moveActions(drawn.drawing, {{"ball", {{0.5, 2.0}, 0.0}}})), "");
     drawn.steps(1);
     EXPECT_NEAR(find().xMetres, 0.503, 1e-4);
     drawn.undo();
@@ -237,18 +238,18 @@ TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
 
 TEST(SceneDrawing, ASeesawHoldsOnItsPinWhileItIsChanged) {
     Drawn drawn{blank()};
-    ASSERT_EQ(drawn.add(drawnBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
-    const auto pin = joined(drawn.drawing, JointKind::pin, drawn.where("floor"), drawn.where("plank"),
-                            {1.2, 0.95}, {1.2, 0.95});
+    ASSERT_EQ(drawn.add(makeBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
+    const auto pin = joinActions(drawn.drawing, JointKind::pin, drawn.where("floor"), drawn.where("plank"),
+                                 {1.2, 0.95}, {1.2, 0.95});
     ASSERT_TRUE(pin) << pin.error;
     ASSERT_EQ(drawn.edit(pin.value), "");
-    const auto height = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1).yMetres; };
+    const auto height = [&] { return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1).yMetres; };
     drawn.steps(100);
     EXPECT_NEAR(height(), 0.95, 0.01) << "it does not fall";
-    ASSERT_EQ(drawn.edit({changed(scaledBody(*drawn.drawing.find("plank"), 0.8, 1.0))}), "");
+    ASSERT_EQ(drawn.edit({changeAction(scaledBody(*drawn.drawing.find("plank"), 0.8, 1.0))}), "");
     drawn.steps(100);
     EXPECT_NEAR(height(), 0.95, 0.01) << "nor when it is another size";
-    ASSERT_EQ(drawn.edit(movedTo(drawn.drawing, {{"plank", {{1.2, 1.5}, 0.0}}})), "");
+    ASSERT_EQ(drawn.edit(moveActions(drawn.drawing, {{"plank", {{1.2, 1.5}, 0.0}}})), "");
     drawn.steps(100);
     EXPECT_NEAR(height(), 1.5, 0.01) << "its pin goes with it";
     drawn.undo();
@@ -263,9 +264,9 @@ TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
         Drawn drawn{blank()};
         const Vector a{0.5, 1.0}, b{2.0, 1.0};
         ASSERT_EQ(
-            drawn.add(drawnLine(isLeftToRight ? std::vector{a, b} : std::vector{b, a}, 0.01).value, "line"),
+            drawn.add(makeLine(isLeftToRight ? std::vector{a, b} : std::vector{b, a}, 0.01).value, "line"),
             "");
-        ASSERT_EQ(drawn.add(drawnBall({1.2, 1.5}, {1.3, 1.5}).value, "ball"), "");
+        ASSERT_EQ(drawn.add(makeBall({1.2, 1.5}, {1.3, 1.5}).value, "ball"), "");
         drawn.steps(300);
         EXPECT_NEAR(drawn.world.pose(2).yMetres, 1.1, 0.02) << isLeftToRight;
     }
@@ -273,9 +274,9 @@ TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
 
 TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     Drawn drawn{blank()};
-    ASSERT_EQ(drawn.add(drawnBall({1.0, 2.0}, {1.1, 2.0}).value, "ball"), "");
-    const auto rope = joined(drawn.drawing, JointKind::rope, drawn.where("floor"), drawn.where("ball"),
-                             {1.8, 2.0}, {1.0, 2.0});
+    ASSERT_EQ(drawn.add(makeBall({1.0, 2.0}, {1.1, 2.0}).value, "ball"), "");
+    const auto rope = joinActions(drawn.drawing, JointKind::rope, drawn.where("floor"), drawn.where("ball"),
+                                  {1.8, 2.0}, {1.0, 2.0});
     ASSERT_TRUE(rope) << rope.error;
     ASSERT_EQ(drawn.edit(rope.value), "");
     double lowest = 9.0, longest = 0.0;
@@ -287,12 +288,12 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     }
     EXPECT_LT(lowest, 1.5) << "it swings";
     EXPECT_LT(longest, 0.83);
-    const auto ball = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1); };
+    const auto ball = [&] { return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1); };
     drawn.now = [&](const std::string& body) {
         return std::optional{body == "ball" ? ball() : drawn.world.pose(0)};
     };
     for (const char* name : {"ball", "joint 1"}) { // the rope goes with it, or alone
-        ASSERT_EQ(drawn.edit(erased(drawn.drawing, {name})), "");
+        ASSERT_EQ(drawn.edit(removeActions(drawn.drawing, {name})), "");
         drawn.steps(30);
         drawn.undo();
         drawn.steps(30);
@@ -302,10 +303,10 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
 
 TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
     Drawn drawn{blank()};
-    ASSERT_EQ(drawn.add(drawnBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
+    ASSERT_EQ(drawn.add(makeBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
     const auto floor = drawn.where("floor");
-    ASSERT_EQ(drawn.edit(joined(drawn.drawing, JointKind::slider, floor, drawn.where("plank"), {1.2, 0.95},
-                                {1.2, 1.95})
+    ASSERT_EQ(drawn.edit(joinActions(drawn.drawing, JointKind::slider, floor, drawn.where("plank"),
+                                     {1.2, 0.95}, {1.2, 1.95})
                              .value),
               "");
     const auto same = readScene(sceneJson(drawn.drawing.drawn()), "own.json");
@@ -327,11 +328,11 @@ TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
 }
 
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
-    EXPECT_EQ(drawnBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
-    EXPECT_EQ(drawnPolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error,
+    EXPECT_EQ(makeBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
+    EXPECT_EQ(makePolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error,
               "polygon: expected at least 3 corners that are not in a line");
     EXPECT_EQ(
-        std::get<PolygonShape>(drawnPolygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}).value.fixtures[0].shape)
+        std::get<PolygonShape>(makePolygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}).value.fixtures[0].shape)
             .verticesMetres.size(),
         4U)
         << "the place inside is none of its corners";
@@ -340,29 +341,29 @@ TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
     EXPECT_EQ(validate(scene),
               "script[0].input: expected another: change, join and unjoin are live inputs only");
     InputCheck check{blank()};
-    EXPECT_EQ(check.take(UnjoinAction{"joint"}), "joint: expected the name of a joint, found \"joint\"");
-    BodyDescription ball = drawnBall({1.0, 1.0}, {1.1, 1.0}).value;
+    EXPECT_EQ(check.accept(UnjoinAction{"joint"}), "joint: expected the name of a joint, found \"joint\"");
+    BodyDescription ball = makeBall({1.0, 1.0}, {1.1, 1.0}).value;
     ball.name = "ball";
-    EXPECT_EQ(check.take(ChangeAction{ball, false}),
+    EXPECT_EQ(check.accept(ChangeAction{ball, false}),
               "body.name: expected the name of a body, found \"ball\"");
 }
 
 TEST(InputCheck, DrawingGoesOnForMonths) {
-    InputCheck check{blank(), InputCheck::endless};
-    BodyDescription ball = drawnBall({1.0, 1.0}, {1.1, 1.0}).value;
+    InputCheck check{blank(), InputCheck::unlimited};
+    BodyDescription ball = makeBall({1.0, 1.0}, {1.1, 1.0}).value;
     for (int i = 0; i < 400; ++i) {
         ball.name = "ball " + std::to_string(i);
-        ASSERT_EQ(check.take(SpawnAction{ball, {}}), "") << i;
+        ASSERT_EQ(check.accept(SpawnAction{ball, {}}), "") << i;
         JointDescription pin{"pin", "floor", ball.name, RevoluteJoint{}, false};
-        ASSERT_EQ(check.take(JoinAction{pin}), "") << i;
-        ASSERT_EQ(check.take(ChangeAction{ball, true}), "") << i;
-        ASSERT_EQ(check.take(UnjoinAction{"pin"}), "") << i;
-        ASSERT_EQ(check.take(RemoveAction{ball.name}), "") << i;
-        ASSERT_EQ(check.take(ChangeAction{ball, false}), "") << "it is back";
+        ASSERT_EQ(check.accept(JoinAction{pin}), "") << i;
+        ASSERT_EQ(check.accept(ChangeAction{ball, true}), "") << i;
+        ASSERT_EQ(check.accept(UnjoinAction{"pin"}), "") << i;
+        ASSERT_EQ(check.accept(RemoveAction{ball.name}), "") << i;
+        ASSERT_EQ(check.accept(ChangeAction{ball, false}), "") << "it is back";
         if (i % 3 == 0) continue;
-        ASSERT_EQ(check.take(RemoveAction{ball.name}), "") << i;
+        ASSERT_EQ(check.accept(RemoveAction{ball.name}), "") << i;
     }
-    EXPECT_NE(check.take(ChangeAction{ball, false}), "expected at most 100000 inputs");
+    EXPECT_NE(check.accept(ChangeAction{ball, false}), "expected at most 100000 inputs");
 }
 
 } // namespace physvib::scene_drawing_test

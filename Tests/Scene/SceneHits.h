@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which body, of which material, a fixture number in an event means; for tests of whole scenes.
 #pragma once
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ public:
     /// `scene` outlives it.
     explicit SceneHits(const Scene& scene)
         : scene_(scene)
-        , cast_(sceneCast(scene)) {
+        , cast_(allBodies(scene)) {
         for (const BodyDescription& body : cast_)
             for (const FixtureDescription& fixture : body.fixtures) materials_.push_back(fixture.material);
     }

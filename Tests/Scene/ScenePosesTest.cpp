@@ -56,24 +56,24 @@ TEST(ScenePoses, OfASessionWaitInItsPausesAndAreThoseOfTheTakeThatRuns) {
         return posesAt(scene, one, timeNs).bodies;
     };
     std::int64_t seenNs = 50'000'000;
-    followTakes(takes, run, seenNs, everyNs, 900'000'000,
-                [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& now) {
-                    const auto& poses = now.bodies;
-                    EXPECT_EQ(timeNs, seenNs);
-                    seenNs += everyNs;
-                    const bool isFirst = timeNs < 500'000'000;
-                    EXPECT_EQ(scene.name, isFirst ? "drop" : "shake-the-box");
-                    const std::int64_t worldNs = !isFirst ? (timeNs - 500'000'000) / 2 // slow motion
-                                                 : timeNs <= 100'000'000 ? timeNs
-                                                 : timeNs <= 300'000'000 ? 100'000'000 // a pause
-                                                                         : timeNs - 200'000'000;
-                    const auto there =
-                        alone(isFirst ? *drop : *box, isFirst ? 4 : 5, worldNs - worldNs % 10'000'000);
-                    EXPECT_EQ(poses.size(), there.size());
-                    for (std::size_t i = 0; i < there.size(); ++i)
-                        EXPECT_EQ(poses[i].yMetres, there[i].yMetres) << timeNs << " ns, body " << i;
-                    return true;
-                });
+    followRuns(takes, run, seenNs, everyNs, 900'000'000,
+               [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& now) {
+                   const auto& poses = now.bodies;
+                   EXPECT_EQ(timeNs, seenNs);
+                   seenNs += everyNs;
+                   const bool isFirst = timeNs < 500'000'000;
+                   EXPECT_EQ(scene.name, isFirst ? "drop" : "shake-the-box");
+                   const std::int64_t worldNs = !isFirst ? (timeNs - 500'000'000) / 2 // slow motion
+                                                : timeNs <= 100'000'000 ? timeNs
+                                                : timeNs <= 300'000'000 ? 100'000'000 // a pause
+                                                                        : timeNs - 200'000'000;
+                   const auto there =
+                       alone(isFirst ? *drop : *box, isFirst ? 4 : 5, worldNs - worldNs % 10'000'000);
+                   EXPECT_EQ(poses.size(), there.size());
+                   for (std::size_t i = 0; i < there.size(); ++i)
+                       EXPECT_EQ(poses[i].yMetres, there[i].yMetres) << timeNs << " ns, body " << i;
+                   return true;
+               });
     EXPECT_EQ(seenNs, 900'000'000);
 }
 
@@ -107,7 +107,7 @@ TEST(ScenePoses, JointsAreWhereTheirBodiesAreAsLongAsTheyHold) {
     expectNear(swung.joints[1].aMetres, {1.0, 2.0});
     expectNear(swung.joints[1].bMetres, {4.0, 2.0});
     for (std::size_t i = 0; i < 2; ++i) {
-        const auto described = describedPose(scene.joints[i]), first = there(0.0).joints[i];
+        const auto described = jointPose(scene.joints[i]), first = there(0.0).joints[i];
         expectNear(described.aMetres, first.aMetres);
         expectNear(described.bMetres, first.bMetres);
     }

@@ -131,8 +131,8 @@ private:
     requires std::is_arithmetic_v<F>
     static void expect(const Json& json, std::type_identity<F>, const Bounds& bounds) {
         EXPECT_EQ(json["type"], std::is_integral_v<F> ? "integer" : "number") << json;
-        EXPECT_EQ(json["minimum"].get<double>(), bounds.least) << json;
-        EXPECT_EQ(json["maximum"].get<double>(), bounds.most) << json;
+        EXPECT_EQ(json["minimum"].get<double>(), bounds.min) << json;
+        EXPECT_EQ(json["maximum"].get<double>(), bounds.max) << json;
     }
     static void expect(const Json& json, std::type_identity<Vector>, const Bounds& bounds) {
         expect(json["items"], std::type_identity<double>{}, bounds);
@@ -149,8 +149,8 @@ private:
     template <class F>
     static void expect(const Json& json, std::type_identity<std::vector<F>>, const Bounds& bounds) {
         expect(values(json["items"]), std::type_identity<F>{}, bounds);
-        EXPECT_EQ(json.value("minItems", 0U), bounds.fewestItems) << json;
-        EXPECT_EQ(json["maxItems"], bounds.mostItems) << json;
+        EXPECT_EQ(json.value("minItems", 0U), bounds.minItems) << json;
+        EXPECT_EQ(json["maxItems"], bounds.maxItems) << json;
     }
     template <class F>
     static void expect(const Json& json, std::type_identity<F>, const Bounds&) {

@@ -108,7 +108,7 @@ TEST(SceneEdits, AScriptLeavesToHandsWhatTheyDo) {
     Scene scene;
     for (const Action& action : actions) scene.script.push_back({0.0, 1, 0.0, action});
     Names left;
-    for (const ScriptInput& input : sceneForHands(scene).script)
+    for (const ScriptInput& input : sceneForUserInput(scene).script)
         left.push_back(actionNames[input.action.index()]);
     EXPECT_EQ(left, (Names{"spawn", "remove", "motor", "camera", "material", "sound", "texture", "change",
                            "join", "unjoin"}));

@@ -97,7 +97,7 @@ TEST(SceneValidation, RangesAreNamed) {
             "script[1].body.fixtures[0].radius_m: expected");
     refuses([](Scene& s) { action<SpawnAction>(s, 1).body.fixtures.clear(); },
             "script[1].body.fixtures: expected 1 to");
-    refuses([](Scene& s) { action<ImpulseAction>(s, 2).newtonSeconds.x = nan; },
+    refuses([](Scene& s) { action<ImpulseAction>(s, 2).impulseNewtonSeconds.x = nan; },
             "script[2].impulse_ns[0]: expected");
 }
 

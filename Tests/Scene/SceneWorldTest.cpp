@@ -3,8 +3,8 @@
 #include "Scene/World/SceneWorld.h"
 #include "DropScene.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/World/SceneCast.h"
 #include <gtest/gtest.h>
 
 namespace physvib::scene_world_test {
@@ -36,14 +36,14 @@ public:
     }
     void run(double seconds) {
         for (const int end = step + static_cast<int>(seconds * 100.0 + 0.5); step < end; ++step) {
-            inner.act(step);
+            inner.executeActions(step);
             inner.world().Step(0.01F, 8, 3);
         }
     }
     BodyPose pose(std::size_t body) const { return inner.pose(body); }
-    SceneWorld::FixtureNow now(std::size_t number) const {
-        std::vector<SceneWorld::FixtureNow> found;
-        inner.forAllFixtures([&](const SceneWorld::FixtureNow& one) {
+    SceneWorld::CurrentFixture now(std::size_t number) const {
+        std::vector<SceneWorld::CurrentFixture> found;
+        inner.forEachFixture([&](const SceneWorld::CurrentFixture& one) {
             if (one.number == number) found.push_back(one);
         });
         return found.at(0);
@@ -51,7 +51,7 @@ public:
     const b2Fixture& fixture(std::size_t number) const { return now(number).fixture; }
     std::size_t fixtureCount() const {
         std::size_t count = 0;
-        inner.forAllFixtures([&](const SceneWorld::FixtureNow&) { ++count; });
+        inner.forEachFixture([&](const SceneWorld::CurrentFixture&) { ++count; });
         return count;
     }
 
@@ -273,7 +273,7 @@ TEST(SceneWorld, SpawnedBodiesComeOneAfterTheOther) {
 TEST(SceneWorld, FixtureNumbersFollowTheCast) {
     Scene scene = spawningScene();
     scene.bodies[0].fixtures.push_back(scene.bodies[0].fixtures[0]);
-    const auto cast = sceneCast(scene);
+    const auto cast = allBodies(scene);
     std::vector<std::string> names;
     for (const BodyDescription& one : cast) names.push_back(one.name);
     EXPECT_EQ(names, (std::vector<std::string>{"first", "stone 1", "stone 2", "stone 3", "last"}));
@@ -313,7 +313,7 @@ TEST(SceneWorld, ABodyThatIsSpawnedAgainTouchesAnew) {
     World world(scene);
     world.run(1.0);
     EXPECT_NE(world.fixture(1).GetBody()->GetContactList(), nullptr);
-    world.inner.act(100);
+    world.inner.executeActions(100);
     EXPECT_EQ(world.fixture(1).GetBody()->GetContactList(), nullptr);
 }
 
@@ -340,7 +340,7 @@ TEST(SceneWorld, OnlyWhatIsThereHasABodyInBox2D) {
                              SpawnAction{body(name, CircleShape{0.2}, {1.0 + 0.1 * (i % 10), 5.0}), {}});
         world.inner.addInput(world.step + 10, RemoveAction{name});
         world.run(0.1);
-        world.inner.forgetDone();
+        world.inner.dropExecutedInputs();
     }
     world.run(1.0);
     EXPECT_EQ(world.inner.world().GetBodyCount(), 1) << "the script's, which it may want again";
@@ -394,7 +394,7 @@ TEST(SceneWorld, TellsWhenFixturesMayHaveChanged) {
     World world(scene);
     std::vector<int> changes;
     for (int step = 0; step < 100; ++step)
-        if (world.inner.act(step)) changes.push_back(step);
+        if (world.inner.executeActions(step)) changes.push_back(step);
     EXPECT_EQ(changes, (std::vector{20, 30, 50, 70, 90}));
 }
 
@@ -418,7 +418,7 @@ TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
     World world(scene);
     world.run(0.01);
     EXPECT_EQ(world.inner.world().GetContactCount(), sceneLimits::maxContacts);
-    EXPECT_GE(world.inner.contactsRefused(), 4285u);
+    EXPECT_GE(world.inner.refusedContacts(), 4285u);
 }
 
 } // namespace physvib::scene_world_test

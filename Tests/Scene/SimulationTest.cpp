@@ -20,7 +20,7 @@ TEST(Simulation, AHitIsFeltOnThePartOfItsFixture) {
     SoundNames names;
     scene.bodies[0].fixtures[0].part = "left knee";
     names.addScene(scene);
-    EXPECT_EQ(names.parts.of(partNamed("left knee")), "left knee");
+    EXPECT_EQ(names.parts.nameOf(partNamed("left knee")), "left knee");
 }
 
 TEST(Simulation, BouncingBallHitsOncePerBounceThenRestsInSilence) {
@@ -177,7 +177,7 @@ TEST(Simulation, RefusesAnInvalidSceneAndStepRate) {
 // What becomes of a scene's contacts is counted while it runs.
 
 TEST(SceneCounts, AreThoseOfItsEventsAndItsContacts) {
-    const SceneEvents made = runScene(builtInScenes().front(), {}, 5'000'000'000);
+    const SceneEvents made = simulateScene(builtInScenes().front(), {}, 5'000'000'000);
     EXPECT_GE(made.counts.events, made.events.size()); // those of the last step are still to come
     EXPECT_LE(made.counts.events, made.events.size() + 20);
     EXPECT_GT(made.events.size(), 20U);

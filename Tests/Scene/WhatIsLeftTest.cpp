@@ -155,17 +155,17 @@ TEST(DroppedHits, AreCountedByARunOfEveryTake) {
     std::vector<CollisionEvent> events;
     while (alone.settledNs() < 150'000'000) alone.step(events);
     ASSERT_GT(alone.drops(), 0U);
-    const SceneEvents once = runScene(scene, {}, 150'000'000);
+    const SceneEvents once = simulateScene(scene, {}, 150'000'000);
     EXPECT_EQ(once.drops, alone.drops());
     const auto shared = std::make_shared<const Scene>(scene);
     const std::vector<SceneRun> takes{{0, alone.timeNs(), 1, shared, {}, {}},
                                       {alone.timeNs(), 0, 1, shared, {}, {}}};
-    EXPECT_EQ(runTakes(takes, {}, alone.timeNs() + 150'000'000).drops, 2 * alone.drops());
+    EXPECT_EQ(simulateRuns(takes, {}, alone.timeNs() + 150'000'000).drops, 2 * alone.drops());
 }
 
 /// A layout acts from the first event at its time, a stop at its own, on a controller that is rendered too.
 TEST(PadCommands, ControlsActFromTheirOwnNanosecond) {
-    EnchanterLayout phone;
+    ActuatorLayout phone;
     layoutPreset("phone4", phone);
     const PhantomPanner near{phone, PanningLaw::linear, 1.0, 1.0, 1.0},
         far{phone, PanningLaw::linear, 1.0, 10.0, 1.0};
@@ -193,7 +193,7 @@ TEST(PadCommands, ControlsActFromTheirOwnNanosecond) {
 }
 
 TEST(NewLayouts, KeepTheActuatorsAndTheirFullScales) {
-    std::vector<EnchanterDescription> before(4);
+    std::vector<ActuatorDescription> before(4);
     for (std::size_t j = 0; j < before.size(); ++j) {
         before[j].label = "old " + std::to_string(j);
         before[j].actuator = "kind-" + std::to_string(j);
@@ -201,19 +201,19 @@ TEST(NewLayouts, KeepTheActuatorsAndTheirFullScales) {
         before[j].part = "thumb";
     }
     for (const char* name : {"phone1", "phone2", "phone4", "phone6", "glove5", "vest16"}) {
-        EnchanterLayout preset;
+        ActuatorLayout preset;
         if (!layoutPreset(name, preset)) continue;
         const LayoutDescription plain = presetLayout(name);
         LayoutDescription kept = describeLayout(name, preset);
-        keepActuators(kept, before);
+        copyActuatorProperties(kept, before);
         for (const LayoutDescription& layout : {presetLayout(name, before), kept})
-            for (std::size_t j = 0; j < layout.enchanters.size(); ++j) {
-                const EnchanterDescription& now = layout.enchanters[j];
-                const EnchanterDescription& expected = j < before.size() ? before[j] : plain.enchanters[j];
+            for (std::size_t j = 0; j < layout.actuators.size(); ++j) {
+                const ActuatorDescription& now = layout.actuators[j];
+                const ActuatorDescription& expected = j < before.size() ? before[j] : plain.actuators[j];
                 EXPECT_EQ(now.actuator, expected.actuator) << name << ' ' << j;
                 EXPECT_EQ(now.fullScaleG, expected.fullScaleG) << name << ' ' << j;
-                EXPECT_EQ(now.label, plain.enchanters[j].label);
-                EXPECT_EQ(now.part, plain.enchanters[j].part);
+                EXPECT_EQ(now.label, plain.actuators[j].label);
+                EXPECT_EQ(now.part, plain.actuators[j].part);
             }
     }
 }

@@ -34,7 +34,7 @@ struct Host {
         }
     }
     Result<PlainMessage> take(std::string_view line) {
-        return router.take(std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value));
+        return router.handle(std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value));
     }
     /// First frame from `from` on that is louder; a sine begins with 0, but for a nanosecond.
     std::int64_t onsetFrom(std::int64_t from, float threshold = 1e-5f) const {
@@ -54,7 +54,7 @@ int limiterFrames() { return HapticRenderer::latencyFramesAt(hostRate); }
 
 TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
     for (const int block : {16, 64, 480, 2048}) {
-        Host host{stillSetup(Direct::told), block};
+        Host host{stillSetup(Direct::inputs), block};
         host.play(hostRate / block + 1);
         const std::int64_t at = host.session.timeline().framesRendered();
         ASSERT_TRUE(host.take(knock));
@@ -81,7 +81,7 @@ TEST(Direct, OneThatIsNotDirectIsFeltThePlayOutDelayLaterAndSaysSo) {
 }
 
 TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
-    Host host{stillSetup(Direct::told), 64};
+    Host host{stillSetup(Direct::inputs), 64};
     host.play(750);
     ASSERT_TRUE(host.take(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "in": 0.25})"));
     ASSERT_TRUE(host.take(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "at": 2})"));
@@ -93,11 +93,11 @@ TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
     const auto events = drain(host.session);
     ASSERT_EQ(events.size(), 2u);
     EXPECT_NEAR(static_cast<double>(events[1].timeNs) * 1e-9,
-                2.0 - static_cast<double>(host.session.timeline().toldAheadNs()) * 1e-9, 1e-9);
+                2.0 - static_cast<double>(host.session.timeline().inputLeadNs()) * 1e-9, 1e-9);
 }
 
 TEST(Direct, AStopActsOnWhatWasStruckBeforeAndNotOnWhatFollows) {
-    Host host{stillSetup(Direct::told), 64};
+    Host host{stillSetup(Direct::inputs), 64};
     host.play(750);
     ASSERT_EQ(host.take(R"({"message": "phantom", "seconds": 3})").error, "");
     host.play(300);
@@ -147,8 +147,8 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
         EXPECT_EQ(equal, felt.size());
         return felt;
     };
-    EXPECT_EQ(played(Direct::told, false), played(Direct::no, false));
-    EXPECT_NE(played(Direct::told, true), played(Direct::no, true));
+    EXPECT_EQ(played(Direct::inputs, false), played(Direct::no, false));
+    EXPECT_NE(played(Direct::inputs, true), played(Direct::no, true));
 }
 
 TEST(Direct, WhatIsBornInTheRenderCallIsFeltTheLimiterLaterFromTheFirstFrameOn) {

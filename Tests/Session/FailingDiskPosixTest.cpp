@@ -30,7 +30,7 @@ protected:
                 session->advance();
                 session->render(block.at.data(), 480, RenderMode::realtime);
             }
-            for (const CollisionEvent& event : played) journal->played({event, 0, false}, hostRate);
+            for (const CollisionEvent& event : played) journal->onPlayed({event, 0, false}, hostRate);
             if (journal->error().empty()) journal->end(session->status().sessionNs);
         }
     };
@@ -52,7 +52,7 @@ TEST_F(FailingDisks, AreToldWhenAJournalBegins) {
                 session.prepare(hostRate, 480);
                 const SessionJournal journal{folder / "a.json", session, setup, {}};
                 disk.call = {}; // what follows is another matter
-                return journal.error().empty() ? journal.news() : journal.error();
+                return journal.error().empty() ? journal.currentError() : journal.error();
             },
             true);
 }

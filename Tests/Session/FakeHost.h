@@ -19,7 +19,7 @@ inline SessionSetup shakeTheBoxSetup(double longestGapSeconds, int stepsPerSecon
     s.scene = *findBuiltInScene("shake-the-box");
     s.stepsPerSecond = stepsPerSecond;
     s.longestGapSeconds = longestGapSeconds;
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     s.panner =
         PhantomPanner{layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};

@@ -39,8 +39,8 @@ SessionSetup quietSetup() {
 std::vector<CollisionEvent> strikesOfLine(std::string_view line, const SessionSetup& setup = quietSetup()) {
     const PlainMessage message = messageOf(line);
     const auto found = std::ranges::find(messageTable, message.name, &MessageDescription::name);
-    return std::get<MessageDescription::Strikes*>(found->act)({message, *found, setup.panner},
-                                                              setup.scene.materials, setup.shaping);
+    return std::get<MessageDescription::Strikes*>(found->action)({message, *found, setup.panner},
+                                                                 setup.scene.materials, setup.shaping);
 }
 
 /// A prepared session, and what takes its messages.
@@ -50,7 +50,7 @@ struct Routed {
         session.prepare(hostRate, 512);
     }
     Result<PlainMessage> take(std::string_view line, const ClipSource& clips = {}) {
-        return router.take(messageOf(line), nullptr, clips);
+        return router.handle(messageOf(line), nullptr, clips);
     }
     Session session;
     MessageRouter router{session};
@@ -73,7 +73,7 @@ TEST(Messages, APathOverARowIsSharedByNeighboursUnlessALawIsNamed) {
                                equal = R"({"message": "path", "places": "AD", "law": "equal"})";
     EXPECT_EQ(strikesOfLine(path)[0].spread, Spread::equal) << "on four corners";
     auto setup = quietSetup();
-    EnchanterLayout row{1.0, 1.0, 4, {{{0.0, 0.5}, {0.2, 0.5}, {0.6, 0.5}, {1.0, 0.5}}}};
+    ActuatorLayout row{1.0, 1.0, 4, {{{0.0, 0.5}, {0.2, 0.5}, {0.6, 0.5}, {1.0, 0.5}}}};
     setup.panner = {row, PanningLaw::linear, 1.0, 1.0, 1.0};
     EXPECT_EQ(strikesOfLine(path, setup)[0].spread, spreadBy(PanningLaw::neighbours));
     EXPECT_EQ(strikesOfLine(equal, setup)[0].spread, Spread::equal);
@@ -161,7 +161,7 @@ TEST(Messages, APathIsOneToneFromSegmentToSegment) {
     ASSERT_EQ(segments.size(), 2u) << "where it does not go there is no leg";
     EXPECT_EQ(segments[0].durationNs, 1'500'000'000);
     EXPECT_EQ(segments[1].timeNs, segments[0].durationNs);
-    EXPECT_EQ(segments[1].course.sinceNs, segments[0].durationNs);
+    EXPECT_EQ(segments[1].course.toneAgeNs, segments[0].durationNs);
     EXPECT_EQ(segments[1].durationNs, 500'000'000);
     EXPECT_EQ(segments[1].course.travelNs, segments[1].durationNs);
     EXPECT_EQ(segments[1].course.toY, 1.0);
@@ -173,7 +173,7 @@ TEST(Messages, APathIsOneToneFromSegmentToSegment) {
     ASSERT_EQ(byTimes.size(), 2u);
     EXPECT_EQ(byTimes[0].timeNs, 500'000'000);
     EXPECT_EQ(byTimes[1].timeNs, 750'000'000);
-    EXPECT_EQ(byTimes[1].course.sinceNs, 250'000'000);
+    EXPECT_EQ(byTimes[1].course.toneAgeNs, 250'000'000);
 }
 
 /// The largest step between two samples of a channel, in steps of the tone itself at that level.
@@ -217,8 +217,8 @@ TEST(Messages, APathThatIsCutGoesOnAtItsSpeed) {
         R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61.7})");
     ASSERT_EQ(segments.size(), 2u);
     EXPECT_EQ(segments[0].durationNs, 500'000'000) << "legs join where they did";
-    EXPECT_NEAR(static_cast<double>(segments[1].course.sinceNs + segments[1].durationNs) * 2e-9 * 61.7, 62.0,
-                1e-6);
+    EXPECT_NEAR(static_cast<double>(segments[1].course.toneAgeNs + segments[1].durationNs) * 2e-9 * 61.7,
+                62.0, 1e-6);
     EXPECT_EQ(strikesOfLine(
                   R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61})")
                   .size(),
@@ -238,7 +238,7 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
             EXPECT_NEAR(static_cast<double>(strokes[k].timeNs) * 1e-9, onset, quarter);
             EXPECT_NEAR(static_cast<double>(strokes[k].timeNs + strokes[k].durationNs) * 1e-9, onset + length,
                         quarter);
-            EXPECT_EQ(strokes[k].course.sinceNs, strokes[k].timeNs);
+            EXPECT_EQ(strokes[k].course.toneAgeNs, strokes[k].timeNs);
         }
         EXPECT_NEAR(static_cast<double>(strokes.back().timeNs + strokes.back().durationNs) * 1e-9, 1.0,
                     quarter);
@@ -331,7 +331,7 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
     for (std::int64_t done = 0; done < frames;) {
         for (; !lines.empty() && static_cast<double>(done) / hostRate >= lines.begin()->first;
              lines.erase(lines.begin()))
-            EXPECT_EQ(router.take(messageOf(lines.begin()->second), nullptr, clipOf).error, "")
+            EXPECT_EQ(router.handle(messageOf(lines.begin()->second), nullptr, clipOf).error, "")
                 << lines.begin()->second;
         session.advance();
         const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(512)));
@@ -485,7 +485,7 @@ TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
         0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
     EXPECT_TRUE(othersAskDuring(
         [&] {
-            EXPECT_EQ(routed.session.keepClip({&minute, 1}), 0);
+            EXPECT_EQ(routed.session.addClip({&minute, 1}), 0);
         },
         [&] { routed.session.timeline().presentNs(); }));
     std::future<std::string> other;
@@ -504,11 +504,11 @@ TEST(Messages, ATimeThatIsOverIsRefusedBeforeAFileIsRead) {
     Session session{quietSetup()};
     play(session, {}, 0.5);
     MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "at": 0.25})")).error,
+    EXPECT_EQ(router.handle(messageOf(R"({"message": "phantom", "at": 0.25})")).error,
               "phantom: at: expected a session time that is not over: it is 0.500 s, found 0.25 s");
     int reads = 0;
     const ClipSource counting = [&](const std::string& name) { return ++reads, clipOf(name); };
-    EXPECT_NE(router.take(messageOf(R"({"message": "clip", "file": "a.1", "at": 0.1})"), nullptr, counting)
+    EXPECT_NE(router.handle(messageOf(R"({"message": "clip", "file": "a.1", "at": 0.1})"), nullptr, counting)
                   .error.find("clip: at: "),
               std::string::npos);
     EXPECT_EQ(reads, 0);
@@ -573,8 +573,8 @@ TEST(Messages, TheJournalHoldsThem) {
     JournalLines lines{saved(setup, {}, 0), {}};
     std::string text = lines.head();
     auto felt = play(session, everything, 3.0,
-                     [&](SessionLog& log) { text += lines.take(log, session.readLog(log)); });
-    text += lines.take(felt.log, 3'000'000'000);
+                     [&](SessionLog& log) { text += lines.nextLines(log, session.readLog(log)); });
+    text += lines.nextLines(felt.log, 3'000'000'000);
     const auto read = readSession(text, "journal");
     ASSERT_EQ(read.error, "");
     const auto again = renderedAgain(read.value, session.timeline().outputLatencyFrames(), 3.0);
@@ -615,14 +615,14 @@ TEST(Messages, QueriesAnswer) {
     Session session{setup};
     play(session, {}, 0.5);
     MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "in": 2})")).error, "");
+    EXPECT_EQ(router.handle(messageOf(R"({"message": "phantom", "in": 2})")).error, "");
     EXPECT_EQ(
-        answerLine(router.take({"status", {}}).value),
+        answerLine(router.handle({"status", {}}).value),
         R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0, "dropped": 0 })");
-    const auto latency = router.take({"latency", {}}).value;
+    const auto latency = router.handle({"latency", {}}).value;
     EXPECT_EQ(std::get<double>(latency.values.at(0).value),
               static_cast<double>(session.timeline().outputLatencyFrames()) / hostRate);
-    const auto layout = router.take({"layout", {}}).value;
+    const auto layout = router.handle({"layout", {}}).value;
     EXPECT_EQ(std::get<std::string>(layout.values.at(0).value), "linear");
     EXPECT_EQ(std::get<std::vector<double>>(layout.values.at(3).value),
               (std::vector<double>{0, setup.scene.fieldHeightMetres, setup.scene.fieldWidthMetres,

@@ -18,54 +18,54 @@ TEST(MuteRequests, EachLiftsItsOwnAndTheMachineAll) {
             MuteRequests silence;
             silence.request(holder);
             EXPECT_TRUE(silence.isSilent());
-            silence.lift(other, silence.asked(other));
+            silence.withdraw(other, silence.requestCount(other));
             EXPECT_EQ(silence.isSilent(), holder != other);
-            silence.liftAll();
+            silence.withdrawAll();
             EXPECT_FALSE(silence.isSilent());
         }
     MuteRequests all;
     for (const auto holder : {machine, standardInput, osc}) all.request(holder);
-    for (const auto holder : {standardInput, osc}) all.lift(holder, all.asked(holder));
+    for (const auto holder : {standardInput, osc}) all.withdraw(holder, all.requestCount(holder));
     EXPECT_TRUE(all.isSilent()) << "a person at the machine has not lifted it";
-    all.liftAll();
+    all.withdrawAll();
     EXPECT_FALSE(all.isSilent());
 }
 
 TEST(MuteRequests, AnOffThatHasWaitedLiftsNothingThatCameAfterIt) {
     MuteRequests silence;
     silence.request(osc);
-    const std::uint64_t before = silence.asked(osc);
+    const std::uint64_t before = silence.requestCount(osc);
     silence.request(osc);
-    silence.lift(osc, before);
+    silence.withdraw(osc, before);
     EXPECT_TRUE(silence.isSilent());
     silence.request(osc, 2); // again
-    silence.lift(osc, 2);
+    silence.withdraw(osc, 2);
     EXPECT_FALSE(silence.isSilent());
     silence.request(osc, 1);
     EXPECT_FALSE(silence.isSilent()) << "long since lifted";
-    silence.lift(osc, 10);
+    silence.withdraw(osc, 10);
     silence.request(osc);
     EXPECT_TRUE(silence.isSilent()) << "nothing is lifted ahead";
 }
 
 TEST(MuteRequests, AnOffThatDoesNotSoundSaysWhoStillAsks) {
     MuteRequests silence;
-    EXPECT_EQ(takeSilence(silence, {true}, osc), "");
-    EXPECT_TRUE(silence.isHeldBy(osc));
-    EXPECT_EQ(takeSilence(silence, {false}, standardInput), "silence: still asked for by OSC");
+    EXPECT_EQ(applySilence(silence, {true}, osc), "");
+    EXPECT_TRUE(silence.isRequestedBy(osc));
+    EXPECT_EQ(applySilence(silence, {false}, standardInput), "silence: still asked for by OSC");
     silence.request(machine);
-    EXPECT_EQ(takeSilence(silence, {true}, standardInput), "");
-    EXPECT_EQ(takeSilence(silence, {false}, osc),
+    EXPECT_EQ(applySilence(silence, {true}, standardInput), "");
+    EXPECT_EQ(applySilence(silence, {false}, osc),
               "silence: still asked for at the machine and by standard input");
-    EXPECT_FALSE(silence.isHeldBy(osc)) << "its own is lifted";
-    silence.liftAll();
-    EXPECT_EQ(takeSilence(silence, {false}, osc), "");
+    EXPECT_FALSE(silence.isRequestedBy(osc)) << "its own is lifted";
+    silence.withdrawAll();
+    EXPECT_EQ(applySilence(silence, {false}, osc), "");
 }
 
 TEST(MuteRequests, ARequestIsNeverLostToAnOffOfAnotherThread) {
     MuteRequests silence;
     for (int k = 0; k < 2000; ++k) {
-        std::thread lifts{[&silence, before = silence.asked(osc)] { silence.lift(osc, before); }};
+        std::thread lifts{[&silence, before = silence.requestCount(osc)] { silence.withdraw(osc, before); }};
         silence.request(osc);
         lifts.join();
         ASSERT_TRUE(silence.isSilent()) << k;
@@ -95,13 +95,13 @@ TEST(ComplaintLimits, EachCauseIsSaidOnceInAWhileAndTheOthersAreCounted) {
     constexpr int lines = 161'806;
     int said = 0;
     for (int k = 0; k < lines; ++k)
-        said +=
-            limit.take("strike: level: expected 0 to 1, found " + std::to_string(k), k * (4 * second / lines))
-                ? 1
-                : 0;
+        said += limit.shouldReport("strike: level: expected 0 to 1, found " + std::to_string(k),
+                                   k * (4 * second / lines))
+                    ? 1
+                    : 0;
     EXPECT_EQ(said, 4);
-    EXPECT_EQ(limit.takeLeftOut(), static_cast<std::uint64_t>(lines - 4));
-    EXPECT_EQ(limit.takeLeftOut(), 0U);
+    EXPECT_EQ(limit.resetSuppressedCount(), static_cast<std::uint64_t>(lines - 4));
+    EXPECT_EQ(limit.resetSuppressedCount(), 0U);
 }
 
 TEST(ComplaintLimits, CausesThatAreMadeUpDoNotHelp) {
@@ -110,9 +110,9 @@ TEST(ComplaintLimits, CausesThatAreMadeUpDoNotHelp) {
     for (int k = 0; k < 100'000; ++k) {
         std::string letters;
         for (int rest = k; rest > 0; rest /= 26) letters += static_cast<char>('a' + rest % 26);
-        said += limit.take(letters + ": expected something else", 0) ? 1 : 0;
+        said += limit.shouldReport(letters + ": expected something else", 0) ? 1 : 0;
     }
-    EXPECT_EQ(said, ErrorRateLimit::mostCauses);
+    EXPECT_EQ(said, ErrorRateLimit::maxCauses);
 }
 
 TEST(ComplaintLimits, ACauseIsWhatIsExpected) {

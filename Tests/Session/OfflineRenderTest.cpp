@@ -14,7 +14,7 @@ namespace physvib::offline_render_test {
 
 OfflineSettings settings(std::int64_t frames, int block, bool limiter, double fieldWidth = 1,
                          double fieldHeight = 1) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {{48000, 4, PhantomPanner{layout, PanningLaw::linear, 1, fieldWidth, fieldHeight}, limiter},
             frames,
@@ -60,7 +60,7 @@ TEST(OfflineRender, StopsWhenTheConsumerHasEnough) {
 
 TEST(OfflineRender, AMinuteOfShakeTheBoxPeaksNearMinus6dBFSAndUsesAllEnchanters) {
     const Scene& scene = *findBuiltInScene("shake-the-box");
-    const auto made = runScene(scene, {}, 60'000'000'000);
+    const auto made = simulateScene(scene, {}, 60'000'000'000);
     std::array<float, 4> peaks{};
     const auto with = settings(60 * 48000, 1024, false, scene.fieldWidthMetres, scene.fieldHeightMetres);
     const auto status = renderOffline(made.events, with, [&](const float* const* channels, int frames) {
@@ -89,10 +89,10 @@ CollisionEvent hitAt(std::int64_t timeNs, double x) {
 
 TEST(ContactAudio, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     constexpr int frames = 24'000;
-    const PhantomPanner field{EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 2.0, 1.0};
+    const PhantomPanner field{ActuatorLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 2.0, 1.0};
     const std::vector events{hitAt(0, 0.2), hitAt(100'000'000, 1.8), hitAt(300'000'000, 1.0)};
     RenderControl wider{200'000'000, RenderControl::Kind::panner, 0, 0.0f, {}}, gain = wider, stop = wider;
-    const PhantomPanner wide{EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 8.0, 1.0};
+    const PhantomPanner wide{ActuatorLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 8.0, 1.0};
     wider.panner = &wide;
     gain.kind = RenderControl::Kind::gain; // of an actuator
     stop.kind = RenderControl::Kind::stopAll;

@@ -38,11 +38,11 @@ std::vector<float> marked(OnsetMarks& marks, int frames, int block) {
 TEST(OnsetMarks, APulseLastsTwoMillisecondsOrRestsBeforeTheNext) {
     OnsetMarks marks{MarkedOnsets::all};
     marks.prepare(48000, 0);
-    for (const std::int64_t frame : {100, 1000, 1030, 2000, 2024, 2100}) marks.strike(hitAt(0), frame);
+    for (const std::int64_t frame : {100, 1000, 1030, 2000, 2024, 2100}) marks.addOnset(hitAt(0), frame);
     const auto out = marked(marks, 4800, 64);
     EXPECT_EQ(edgesOf(out), (std::vector<std::int64_t>{100, 1000, 1030, 2000, 2100}));
-    EXPECT_EQ(marks.made(), 5u);
-    EXPECT_EQ(marks.shared(), 1u) << "24 frames are half a millisecond";
+    EXPECT_EQ(marks.pulses(), 5u);
+    EXPECT_EQ(marks.sharedOnsets(), 1u) << "24 frames are half a millisecond";
     for (int n = 100; n < 196; ++n) EXPECT_EQ(out[static_cast<std::size_t>(n)], 1.0f) << n;
     EXPECT_EQ(out[196], 0.0f);
     EXPECT_EQ(out[1017], 1.0f);
@@ -55,12 +55,12 @@ TEST(OnsetMarks, OnlyTheWantedOnesAndNoSegmentOfALongerTone) {
     grain.source.kind = ContactKind::roll;
     message.source = {};
     segment.source = {};
-    segment.course.sinceNs = 1;
+    segment.course.toneAgeNs = 1;
     const auto made = [&](MarkedOnsets which) {
         OnsetMarks marks{which};
         marks.prepare(48000, 0);
         for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, segment})
-            marks.strike(e, frame += 1000);
+            marks.addOnset(e, frame += 1000);
         return edgesOf(marked(marks, 4800, 4800));
     };
     EXPECT_EQ(made(MarkedOnsets::all), (std::vector<std::int64_t>{1000, 2000, 3000}));
@@ -71,14 +71,14 @@ TEST(OnsetMarks, OnlyTheWantedOnesAndNoSegmentOfALongerTone) {
 TEST(OnsetMarks, ABlockOfTheMostOnsetsKeepsThemAll) {
     OnsetMarks marks{MarkedOnsets::all};
     marks.prepare(limits::minSampleRateHz, -4);
-    for (std::int64_t frame = 0; frame < limits::maxBlockFrames; ++frame) marks.strike(hitAt(0), frame);
-    EXPECT_EQ(marks.made(), 2048u);
+    for (std::int64_t frame = 0; frame < limits::maxBlockFrames; ++frame) marks.addOnset(hitAt(0), frame);
+    EXPECT_EQ(marks.pulses(), 2048u);
     EXPECT_EQ(edgesOf(marked(marks, limits::maxBlockFrames, limits::maxBlockFrames)).size(), 2047u);
 }
 
 SessionSetup quietSetup() {
     auto setup = emptyBoxSetup(0.02);
-    EnchanterLayout one;
+    ActuatorLayout one;
     layoutPreset("phone1", one);
     setup.panner = {one, PanningLaw::linear, 1, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
     setup.channels = 1;
@@ -189,7 +189,8 @@ double worstLateness(double longestGapSeconds, std::size_t& onsets) {
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, seconds * hostRate, 2048, 0.05, 7, played);
     const auto made =
-        runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, (seconds - 1) * 1'000'000'000LL).events;
+        simulateScene(setup.scene, {setup.seed, setup.stepsPerSecond}, (seconds - 1) * 1'000'000'000LL)
+            .events;
     const auto recorded = summed(signal, session.timeline().outputLatencyFrames());
     const auto expected =
         closedForm(made, hostRate, 1, static_cast<int>(recorded.size()), [&](double x, double y, double* g) {

@@ -23,7 +23,7 @@ TEST(OrderOfInputs, ControlsAndStopsAreInTimeOrderHoweverTheyCame) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         Random random{seed};
         SessionSetup setup = shakeTheBoxSetup(0.02);
-        if (seed % 2 == 0) setup.direct = Direct::told; // what is told acts before what the world does
+        if (seed % 2 == 0) setup.direct = Direct::inputs; // what is told acts before what the world does
         Session session{setup};
         session.prepare(hostRate, 480);
         Block block;
@@ -37,7 +37,7 @@ TEST(OrderOfInputs, ControlsAndStopsAreInTimeOrderHoweverTheyCame) {
                     stop.timeNs = session.status().sessionNs + (random.below(220) - 20) * 1'000'000LL;
                     const auto at = session.submit(std::move(stop));
                     const Timeline& time = session.timeline();
-                    EXPECT_GE(at.value, std::max<std::int64_t>(0, time.presentNs() - time.toldAheadNs()))
+                    EXPECT_GE(at.value, std::max<std::int64_t>(0, time.presentNs() - time.inputLeadNs()))
                         << "not in what was felt";
                 } else {
                     RenderControl gain{.kind = Kind::gain, .channel = random.below(hostChannels)};
@@ -64,7 +64,7 @@ TEST(OrderOfInputs, AClipIsKnownByWhatIsInItAndWhereItStands) {
     session.prepare(hostRate, 480);
     const auto keep = [&](const char* path, const char* hash) {
         const std::array clip{ContactRecording{0.0, hostRate, {0.1f, 0.2f}, {.path = path, .hash = hash}}};
-        return session.keepClip(clip);
+        return session.addClip(clip);
     };
     const std::vector<std::pair<const char*, const char*>> files{
         {"a.wav", "00"}, {"a.wav", "01"}, {"b.wav", "00"}, {"a.wav", "10"}, {"b.wav", "01"}};
@@ -96,8 +96,8 @@ std::vector<CollisionEvent> strikesOf(const std::string& line, const SessionSetu
     const auto* message = std::get_if<PlainMessage>(&read.value);
     if (message == nullptr) return {};
     const auto found = std::ranges::find(messageTable, message->name, &MessageDescription::name);
-    return std::get<MessageDescription::Strikes*>(found->act)({*message, *found, setup.panner},
-                                                              setup.scene.materials, setup.shaping);
+    return std::get<MessageDescription::Strikes*>(found->action)({*message, *found, setup.panner},
+                                                                 setup.scene.materials, setup.shaping);
 }
 
 /// Each axis of a place by letter is scaled as the panner scales the layout: x and depth by the widths, y by
@@ -106,7 +106,7 @@ TEST(MessageArguments, APlaceByLetterIsThatActuatorOnEachAxis) {
     const SessionSetup setup = inSpace();
     for (int j = 0; j < 6; ++j) {
         const std::string letter(1, static_cast<char>('A' + j));
-        const EnchanterPlace at = setup.panner.layout().places[static_cast<std::size_t>(j)];
+        const ActuatorPlace at = setup.panner.layout().places[static_cast<std::size_t>(j)];
         const auto events = strikesOf(R"({"message": "phantom", "place": ")" + letter + "\"}", setup);
         ASSERT_EQ(events.size(), 1U);
         EXPECT_NEAR(events[0].x, at.xMetres * 3.0 / 0.2, 1e-12) << letter;
@@ -202,7 +202,7 @@ TEST(MessageArguments, EachCountsForItselfAlone) {
     }
     for (const MessageDescription& message : messageTable)
         for (const MessageArgument& argument : message.arguments)
-            EXPECT_TRUE(!std::holds_alternative<MessageDescription::Strikes*>(message.act) ||
+            EXPECT_TRUE(!std::holds_alternative<MessageDescription::Strikes*>(message.action) ||
                         seen[std::string(message.name)].contains(std::string(argument.name)))
                 << message.name << ' ' << argument.name << ": in no row of this test";
 }
@@ -220,7 +220,7 @@ TEST(MessageArguments, ALevelIsThatOfTheStrikeWhateverTheScenesGain) {
             const auto read = readInputLine(
                 R"({"message": "phantom", "seconds": 0.1, "level": )" + std::to_string(level) + "}", {}, 6);
             ASSERT_EQ(read.error, "");
-            EXPECT_EQ(router.take(std::get<PlainMessage>(read.value)).error, "");
+            EXPECT_EQ(router.handle(std::get<PlainMessage>(read.value)).error, "");
             std::vector<std::vector<float>> samples(6, std::vector<float>(480));
             std::vector<float*> at;
             for (auto& channel : samples) at.push_back(channel.data());
@@ -245,7 +245,7 @@ std::string page() {
 
 std::string rangeOf(const MessageArgument& argument) {
     using Type = MessageArgument::Type;
-    const std::string range = numberText(argument.least) + " to " + plainNumber(argument.most);
+    const std::string range = numberText(argument.minimum) + " to " + plainNumber(argument.maximum);
     switch (argument.type) {
     case Type::number: return range;
     case Type::word: return "word";
@@ -258,8 +258,8 @@ std::string rangeOf(const MessageArgument& argument) {
 std::string rowsOf(std::span<const MessageArgument> arguments) {
     std::string text = "| value | is | usual | meaning |\n| --- | --- | --- | --- |\n";
     for (const auto& a : arguments)
-        text += "| `" + std::string(a.name) + "` | " + rangeOf(a) + " | " + std::string(a.usual) + " | " +
-                std::string(a.meaning) + " |\n";
+        text += "| `" + std::string(a.name) + "` | " + rangeOf(a) + " | " + std::string(a.defaultText) +
+                " | " + std::string(a.meaning) + " |\n";
     return text;
 }
 
@@ -271,8 +271,9 @@ TEST(MessagesPage, HasTheTable) {
     }
     const std::string text = page();
     EXPECT_NE(text.find(table), std::string::npos) << "expected in Docs/messages.md:\n\n" << table;
-    EXPECT_NE(text.find(rowsOf(messages::when)), std::string::npos) << "expected in Docs/messages.md:\n\n"
-                                                                    << rowsOf(messages::when);
+    EXPECT_NE(text.find(rowsOf(messages::timeArguments)), std::string::npos)
+        << "expected in Docs/messages.md:\n\n"
+        << rowsOf(messages::timeArguments);
 }
 
 Result<LoadedClip> anyClip(const std::string& name) {
@@ -297,7 +298,7 @@ TEST(MessagesPage, ItsLinesAreTaken) {
         const std::string line = text.substr(at, text.find('\n', at) - at);
         const auto read = readInputLine(line, {}, 4);
         ASSERT_EQ(read.error, "") << line;
-        EXPECT_EQ(router.take(std::get<PlainMessage>(read.value), nullptr, anyClip).error, "") << line;
+        EXPECT_EQ(router.handle(std::get<PlainMessage>(read.value), nullptr, anyClip).error, "") << line;
     }
     EXPECT_GE(lines, 8);
 }

@@ -61,7 +61,7 @@ TEST(SessionClock, TheSameMomentAgainChangesNothing) {
 
 struct Device final : OutputClock {
     using OutputClock::OutputClock;
-    using OutputClock::tell;
+    using OutputClock::publish;
 };
 
 TEST(OutputClock, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
@@ -71,15 +71,15 @@ TEST(OutputClock, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
     for (int i = 0; i < 3; ++i)
         readers.emplace_back([&device] {
             for (std::int64_t last = 0; last < moments;) {
-                const OutputMoment now = device.felt();
+                const OutputMoment now = device.latestMoment();
                 ASSERT_GE(now.sessionNs, last);
                 ASSERT_EQ(now.steadyNs, now.sessionNs);
-                ASSERT_EQ(now.behindNs, now.sessionNs);
+                ASSERT_EQ(now.lagNs, now.sessionNs);
                 ASSERT_EQ(now.sampleRateHz, now.sessionNs);
                 last = now.sessionNs;
             }
         });
-    for (int n = 1; n <= moments; ++n) device.tell({n, n, n, n});
+    for (int n = 1; n <= moments; ++n) device.publish({n, n, n, n});
     for (std::thread& reader : readers) reader.join();
 }
 
@@ -98,31 +98,31 @@ TEST(OutputClock, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
 // What a world is given up for is the processor's time, not that of the day.
 
 TEST(Patience, WaitingIsNoSlowWorld) {
-    Patience patience{0.05};
+    SimulationTimeLimit patience{0.05};
     std::this_thread::sleep_for(std::chrono::milliseconds{200}); // as on a machine where others work
     EXPECT_TRUE(patience(0));
-    EXPECT_EQ(patience.fault(), "");
+    EXPECT_EQ(patience.error(), "");
 }
 
 TEST(Patience, WorkIsGivenUp) {
-    Patience patience{0.05};
-    const double end = threadSeconds() + 0.15;
-    while (threadSeconds() < end) {
+    SimulationTimeLimit patience{0.05};
+    const double end = threadCpuSeconds() + 0.15;
+    while (threadCpuSeconds() < end) {
     }
     EXPECT_TRUE(patience(1'000'000'000)) << "a second was simulated";
     EXPECT_FALSE(patience(10'000'000));
-    EXPECT_TRUE(patience.fault().starts_with(
+    EXPECT_TRUE(patience.error().starts_with(
         "expected a world that is simulated as fast as it lasts, found 0.01 s of it after 0."))
-        << patience.fault();
-    EXPECT_TRUE(patience.fault().ends_with(" s of processor time (--patience waits longer)"))
-        << patience.fault();
+        << patience.error();
+    EXPECT_TRUE(patience.error().ends_with(" s of processor time (--patience waits longer)"))
+        << patience.error();
 }
 
 TEST(Patience, AnotherThreadsWorkIsNotCounted) {
-    Patience patience{0.05};
+    SimulationTimeLimit patience{0.05};
     std::thread{[] {
-        const double end = threadSeconds() + 0.15;
-        while (threadSeconds() < end) {
+        const double end = threadCpuSeconds() + 0.15;
+        while (threadCpuSeconds() < end) {
         }
     }}.join();
     EXPECT_TRUE(patience(0));

@@ -96,7 +96,7 @@ CollisionEvent pulse(double seconds) {
 TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     const auto setup = deskSetup();
     Session session{setup};
-    EnchanterLayout five = setup.panner.layout();
+    ActuatorLayout five = setup.panner.layout();
     five.places[static_cast<std::size_t>(five.count++)] = {0.5 * five.extentWidthMetres,
                                                            0.5 * five.extentHeightMetres};
     const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres,
@@ -133,9 +133,9 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     const auto live = play(session, 6.0, script);
     EXPECT_EQ(session.status().render.late, 0u);
     const auto saved = savedOf(session, setup, 5);
-    ASSERT_EQ(saved.log.takes.size(), 2u);
+    ASSERT_EQ(saved.log.runs.size(), 2u);
     EXPECT_EQ(saved.log.strikes.size(), 2u);
-    EXPECT_LT(saved.log.takes[0].stalls.size(), 12u) << "slow motion is one entry, however long it lasts";
+    EXPECT_LT(saved.log.runs[0].stalls.size(), 12u) << "slow motion is one entry, however long it lasts";
     EXPECT_GT(energyOf(live[4], 2.8, 5.9), 0.0);
     EXPECT_EQ(differences(live, saved, session.timeline().outputLatencyFrames()), 0);
 }
@@ -150,8 +150,8 @@ TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
     EXPECT_EQ(energyOf(paused[2], 4.5, 5.0), 0.0);
     SessionLog log;
     other.readLog(log);
-    EXPECT_EQ(log.takes[0].stalls.size(), 1u);
-    EXPECT_NEAR(static_cast<double>(log.takes[0].stalls[0].lengthNs) * 1e-9, 3.0, 0.02);
+    EXPECT_EQ(log.runs[0].stalls.size(), 1u);
+    EXPECT_NEAR(static_cast<double>(log.runs[0].stalls[0].lengthNs) * 1e-9, 3.0, 0.02);
     EXPECT_NEAR(energyOf(paused[2], 5.5, 9.0), energyOf(live[2], 2.5, 6.0),
                 0.2 * energyOf(live[2], 2.5, 6.0));
 }
@@ -203,7 +203,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     session.readLog(saved.log);
     Mix mix;
     mix.layout = describeLayout("phone4", setup.panner.layout());
-    mix.layout.enchanters[1].label = "thumb";
+    mix.layout.actuators[1].label = "thumb";
     mix.resizeStrips();
     mix.strips[2] = {-7.5, true, false, true, 12.5, -3.0, 6};
     mix.law = PanningLaw::energy;
@@ -214,7 +214,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     ASSERT_TRUE(again) << again.error;
     const Mix read = mixOf(again.value);
     EXPECT_EQ(read.strips, mix.strips);
-    EXPECT_EQ(read.layout.enchanters, mix.layout.enchanters);
+    EXPECT_EQ(read.layout.actuators, mix.layout.actuators);
     EXPECT_EQ(read.levelDb, -20.0);
     EXPECT_EQ(read.dragNewtonSecondsPerScreenMetre, 12'000.0);
     EXPECT_EQ(*read.scene, setup.scene);
@@ -257,7 +257,7 @@ std::vector<std::pair<std::int64_t, float>> gainsIn(const SavedSession& saved, s
                                                     std::int64_t lengthNs) {
     std::vector<std::pair<std::int64_t, float>> gains;
     for (const ChannelChange& c : saved.log.channels) {
-        const std::int64_t at = c.timeNs - saved.log.takes[take].startNs;
+        const std::int64_t at = c.timeNs - saved.log.runs[take].startNs;
         if (c.kind == Kind::gain && c.channel == channel && at > 200'000'000 && at < lengthNs)
             gains.emplace_back(at, c.value);
     }
@@ -331,7 +331,7 @@ TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
                    {0.8, SoundAction{3, 90.0, 20.0}},
                    {0.9, TextureAction{3, 0.004, 2.0, GrainPattern::regular, 0.5}},
                    {0.9, GripAction{"added 1", Vector{1.0, 1.0}, {}}}};
-    const Scene left = sceneAsLeft(take);
+    const Scene left = sceneAtEndOfRun(take);
     EXPECT_EQ(left.bodies.size(), take.scene->bodies.size());
     EXPECT_EQ(left.bodies.back().name, "added 1");
     EXPECT_EQ(left.bodies.back().fixtures[0].material, 2);

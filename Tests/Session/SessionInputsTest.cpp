@@ -41,7 +41,7 @@ TEST(SessionInputs, WhatTheRenderCallCannotQueueIsCounted) {
     for (int i = 0; i < 1500; ++i) {
         const CollisionEvent strike{.frequencyHz = 205, .decayPerSecond = 30, .amplitude = 0.001};
         if (!session.callback().strike(strike, 0)) ++refused;
-        if (!session.callback().perform({.hold = {1.0, 0.0}}, 0)) ++refused;
+        if (!session.callback().postInput({.hold = {1.0, 0.0}}, 0)) ++refused;
     }
     EXPECT_GT(refused, 0u);
     play(session, 1);
@@ -56,15 +56,15 @@ TEST(SessionInputs, AGroupIsScaledAsItIsPerformed) {
     Session session{setup};
     session.prepare(rate, block);
     session.advance();
-    session.callback().perform({.group = 0, .scale = 0.5}, 0);
-    session.callback().perform({.group = 1}, 0); // there is none
+    session.callback().postInput({.group = 0, .scale = 0.5}, 0);
+    session.callback().postInput({.group = 1}, 0); // there is none
     play(session, 2);
     SessionLog log;
     session.readLog(log);
-    const auto& inputs = log.takes.at(0).inputs;
+    const auto& inputs = log.runs.at(0).inputs;
     ASSERT_EQ(inputs.size(), 2u);
     EXPECT_EQ(std::get<SpawnAction>(inputs[0].action).body.velocityMetresPerSecond, (Vector{2.0, -1.0}));
-    EXPECT_EQ(std::get<ImpulseAction>(inputs[1].action).newtonSeconds, (Vector{3.0, 4.0}));
+    EXPECT_EQ(std::get<ImpulseAction>(inputs[1].action).impulseNewtonSeconds, (Vector{3.0, 4.0}));
 }
 
 TEST(SessionInputs, AFaderThatIsSetBesideItsLaneHoldsWhileTheSceneStandsStill) {
@@ -117,8 +117,8 @@ TEST(SessionInputs, ClipsAreBoundedBySamplesAtTheSessionsRate) {
         return std::array{
             ContactRecording{0.0, 8'000, std::vector<float>(samples), {.path = path, .hash = path}}};
     };
-    EXPECT_FALSE(session.keepClip(clip("long", 1'400'000))) << "24 times as many at 192 kHz";
-    EXPECT_EQ(session.keepClip(clip("short", 1'400)), 0);
+    EXPECT_FALSE(session.addClip(clip("long", 1'400'000))) << "24 times as many at 192 kHz";
+    EXPECT_EQ(session.addClip(clip("short", 1'400)), 0);
 }
 
 TEST(SessionInputs, TheSmallestMarginNeverRises) {
@@ -130,8 +130,8 @@ TEST(SessionInputs, TheSmallestMarginNeverRises) {
         if (i % 7 == 0 || i % 3 == 0) session.advance();
         session.render(out.at.data(), block, RenderMode::realtime);
         drain(session);
-        ASSERT_LE(session.status().leastMarginFrames, margin);
-        margin = session.status().leastMarginFrames;
+        ASSERT_LE(session.status().minMarginFrames, margin);
+        margin = session.status().minMarginFrames;
     }
     EXPECT_LT(margin, noMargin) << "there were events";
 }
@@ -147,7 +147,7 @@ TEST(SessionInputs, AStrikeThatCannotBeStoppedMustNotBeFarAhead) {
 
 TEST(SessionInputs, AStopLeavesWhatIsDueHoweverLateTheDriver) {
     auto setup = emptyBoxSetup(0.02);
-    setup.direct = Direct::told; // a stop acts on a time that is past in the session
+    setup.direct = Direct::inputs; // a stop acts on a time that is past in the session
     const auto felt = [&](bool isDriverLate) {
         Session session{setup};
         session.prepare(rate, block);
@@ -181,11 +181,11 @@ TEST(SessionInputs, ACeilingThatIsLoweredIsStillTheHighestThatWas) {
 
 TEST(WaitingStrikes, AreForgottenFromATimeOnAndBounded) {
     const auto at = [](std::int64_t timeNs) { return std::array{CollisionEvent{.timeNs = timeNs}}; };
-    WaitingStrikes waiting;
+    ScheduledEvents waiting;
     for (const std::int64_t timeNs : {20, 10, 30}) EXPECT_TRUE(waiting.add(at(timeNs)));
-    waiting.forget(20);
+    waiting.cancelFrom(20);
     EXPECT_EQ(waiting.size(), 1u) << "that of 20 ns has gone as well";
-    EXPECT_FALSE(waiting.add(std::vector<CollisionEvent>(WaitingStrikes::most)));
+    EXPECT_FALSE(waiting.add(std::vector<CollisionEvent>(ScheduledEvents::maxEvents)));
     EXPECT_EQ(waiting.size(), 1u) << "nothing of what found no room was kept";
 }
 
@@ -215,14 +215,14 @@ void leaveInTheMiddle(Session& session) {
     session.prepare(rate, block);
     Interleaved signal;
     for (int i = 0; i < 100; ++i) {
-        if (i == 10) session.callback().perform({.group = 0}, 0);
+        if (i == 10) session.callback().postInput({.group = 0}, 0);
         if (i % 2 == 0) session.advance();
         renderBlock(session, signal);
     }
     for (int i = 0; i < 50; ++i) renderBlock(session, signal); // without a driver: the world waits
-    session.wait(block);
+    session.lengthenLatency(block);
     session.advance();
-    EXPECT_GT(session.world().slippedNs(), 0);
+    EXPECT_GT(session.world().stalledNs(), 0);
     const std::int64_t now = session.timeline().presentNs();
     const std::array strikes{knock()};
     EXPECT_TRUE(session.submit({Strikes{strikes, true}, now}));
@@ -234,7 +234,7 @@ void leaveInTheMiddle(Session& session) {
     EXPECT_TRUE(session.submit({RenderControl{0, Kind::gain, 2, 0.0f, {}}}));
     EXPECT_TRUE(session.callback().strike(knock(), 0));
     EXPECT_TRUE(session.callback().control({0, Kind::mute, 1, 1.0f, {}}, 0));
-    EXPECT_TRUE(session.callback().perform({.group = 0}, 0));
+    EXPECT_TRUE(session.callback().postInput({.group = 0}, 0));
     session.world().setSlowness(3);
     session.world().stepOnce();
 }
@@ -242,7 +242,7 @@ void leaveInTheMiddle(Session& session) {
 struct Played {
     Interleaved signal;
     SavedSession saved;
-    std::int64_t sceneNs = 0, slippedNs = 0, leastMarginFrames = 0;
+    std::int64_t sceneNs = 0, stalledNs = 0, minMarginFrames = 0;
 };
 
 Played playTwoSeconds(Session& session, const SessionSetup& setup) {
@@ -250,7 +250,7 @@ Played playTwoSeconds(Session& session, const SessionSetup& setup) {
     Played played;
     for (int i = 0; i < 200; ++i) {
         session.advance();
-        if (i == 50) EXPECT_TRUE(session.callback().perform({.group = 0}, 0));
+        if (i == 50) EXPECT_TRUE(session.callback().postInput({.group = 0}, 0));
         if (i == 100) EXPECT_TRUE(session.submit({RenderControl{0, Kind::mute, 3, 1.0f, {}}}));
         if (i == 150) session.world().setSlowness(0);
         renderBlock(session, played.signal);
@@ -258,8 +258,8 @@ Played playTwoSeconds(Session& session, const SessionSetup& setup) {
     played.saved = {setup.run(), session.panner(), hostChannels, true, setup.ceilings, 2'000'000'000, {}, {}};
     session.readLog(played.saved.log);
     played.sceneNs = session.world().sceneNs();
-    played.slippedNs = session.world().slippedNs();
-    played.leastMarginFrames = session.status().leastMarginFrames;
+    played.stalledNs = session.world().stalledNs();
+    played.minMarginFrames = session.status().minMarginFrames;
     return played;
 }
 
@@ -271,22 +271,22 @@ TEST(SessionStart, PreparedAgainASessionPlaysAsANewOne) {
     EXPECT_TRUE(again.signal == expected.signal);
     EXPECT_EQ(sessionJson(again.saved), sessionJson(expected.saved)) << "its log has nothing from before";
     EXPECT_EQ(again.sceneNs, expected.sceneNs);
-    EXPECT_EQ(again.slippedNs, 0);
-    EXPECT_EQ(used.timeline().framesGrown(), 0);
-    EXPECT_EQ(again.leastMarginFrames, expected.leastMarginFrames);
+    EXPECT_EQ(again.stalledNs, 0);
+    EXPECT_EQ(used.timeline().latencyGrowthFrames(), 0);
+    EXPECT_EQ(again.minMarginFrames, expected.minMarginFrames);
 }
 
 TEST(SessionStart, AClipStaysKeptAndIsInTheNextLog) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, block);
     const std::array clip{ContactRecording{0.0, rate, {0.1f, 0.2f}, {.path = "a.wav", .hash = "00"}}};
-    ASSERT_EQ(session.keepClip(clip), 0);
+    ASSERT_EQ(session.addClip(clip), 0);
     session.prepare(rate, block);
     SessionLog log;
     session.readLog(log);
     ASSERT_EQ(log.clips.size(), 1u);
     EXPECT_EQ(log.clips[0].file.path, "a.wav");
-    EXPECT_EQ(session.keepClip(clip), 0) << "the same number";
+    EXPECT_EQ(session.addClip(clip), 0) << "the same number";
 }
 
 TEST(SessionStart, AnotherRatePlaysTheSameRecordings) {
@@ -318,7 +318,7 @@ TEST(SessionStart, AShorterLatencyMakesNoStallOfALagThatWasAllowed) {
     session.render(out.at.data(), 8192, RenderMode::realtime);
     session.resume(rate, 64);
     session.advance();
-    EXPECT_EQ(session.world().slippedNs(), 0);
+    EXPECT_EQ(session.world().stalledNs(), 0);
 }
 
 TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
@@ -336,19 +336,19 @@ TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
         for (int i = 0; i < 400; ++i) {
             session.advance();
             if (grows && i == 200) {
-                session.wait(block);
+                session.lengthenLatency(block);
                 EXPECT_EQ(session.timeline().outputLatencyFrames(), latency + block);
                 session.advance();
             }
             if (grows && i == 300)
-                session.wait(out.data(), block);
+                session.shortenLatency(out.data(), block);
             else
                 session.render(out.data(), block, RenderMode::realtime);
             signal.insert(signal.end(), samples.begin(), samples.end());
             drain(session);
         }
         EXPECT_EQ(session.timeline().outputLatencyFrames(), latency);
-        EXPECT_EQ(session.timeline().framesGrown(), 0);
+        EXPECT_EQ(session.timeline().latencyGrowthFrames(), 0);
         return signal;
     };
     EXPECT_TRUE(play(true) == play(false)) << "on the actuators, as audio of contacts and as marks";

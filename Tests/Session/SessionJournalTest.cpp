@@ -33,7 +33,7 @@ protected:
             session.render(block.at.data(), 480, RenderMode::realtime);
             session.advance();
             for (PlayedEvent e; session.played().pop(e); ++events)
-                journal.played(e, session.timeline().sampleRateHz());
+                journal.onPlayed(e, session.timeline().sampleRateHz());
         }
     }
     std::size_t rows() const {
@@ -59,14 +59,14 @@ TEST_F(SessionJournals, BecomeOrdinarySessionFiles) {
     const auto cut = loadSession(folder / "monday.json");
     ASSERT_EQ(cut.error, "");
     ASSERT_EQ(journal.finish(), "");
-    EXPECT_EQ(journal.news(), "");
+    EXPECT_EQ(journal.currentError(), "");
     const std::string json = text("monday.json");
     EXPECT_FALSE(isJournal(json));
     EXPECT_EQ(sessionJson(cut.value), json);
     const auto saved = readSession(json, "monday.json");
     ASSERT_EQ(saved.error, "");
     EXPECT_EQ(saved.value.lengthNs, 5'000'000'000);
-    EXPECT_EQ(saved.value.log.takes[0].inputs.size(), inputs);
+    EXPECT_EQ(saved.value.log.runs[0].inputs.size(), inputs);
     EXPECT_GT(events, 20u);
     EXPECT_EQ(rows(), events);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder}, {}), 2);
@@ -81,7 +81,7 @@ TEST_F(SessionJournals, StayWhatTheyAreWhereNobodyCanWaitAndAreReadAlike) {
     const std::string kept = text("monday.json");
     ASSERT_EQ(journal.finish(kept.size() - 1), "");
     EXPECT_EQ(text("monday.json"), kept);
-    EXPECT_EQ(loadSession(folder / "monday.json").value.log.takes[0].inputs.size(), inputs);
+    EXPECT_EQ(loadSession(folder / "monday.json").value.log.runs[0].inputs.size(), inputs);
     ASSERT_EQ(journal.finish(kept.size()), "");
     EXPECT_FALSE(isJournal(text("monday.json")));
 }
@@ -100,7 +100,7 @@ TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {
     std::string news;
     for (int i = 0; i < 300 && news.empty(); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds{20});
-        news = journal.news();
+        news = journal.currentError();
     }
     const auto cut = loadSession(folder / "monday.json");
     setrlimit(RLIMIT_FSIZE, &before);
@@ -109,13 +109,13 @@ TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {
     EXPECT_EQ(cut.error, "") << "it never ends inside a line";
     play(session, journal, 100);
     journal.end(session.status().sessionNs);
-    EXPECT_EQ(journal.news(),
+    EXPECT_EQ(journal.currentError(),
               (folder / "monday.json").string() + ": can be written again, and nothing is missing");
     ASSERT_EQ(journal.finish(), "");
     const auto saved = loadSession(folder / "monday.json");
     ASSERT_EQ(saved.error, "");
     EXPECT_EQ(saved.value.lengthNs, 8'000'000'000);
-    EXPECT_EQ(saved.value.log.takes[0].inputs.size(), inputs);
+    EXPECT_EQ(saved.value.log.runs[0].inputs.size(), inputs);
     EXPECT_EQ(rows(), events);
 }
 
@@ -125,8 +125,8 @@ TEST_F(SessionJournals, SayThatTheyAreFull) {
     SessionJournal journal{folder / "monday.json", session, setup, {}};
     play(session, journal, 10);
     journal.end(limits::maxSessionNs + 1);
-    EXPECT_EQ(journal.news().rfind((folder / "monday.json").string() + ": is full (", 0), 0U)
-        << journal.news();
+    EXPECT_EQ(journal.currentError().rfind((folder / "monday.json").string() + ": is full (", 0), 0U)
+        << journal.currentError();
 }
 
 TEST_F(SessionJournals, SayWhatOthersDidToTheirFiles) {

@@ -44,12 +44,12 @@ OwnedControl anyControl(Random& random) {
     control.value = static_cast<float>(control.kind == RenderControl::Kind::mute ? random.below(2)
                                                                                  : random.uniform(0, 1));
     if (control.kind == RenderControl::Kind::panner) {
-        EnchanterLayout layout{1, 1, 1 + random.below(channels), {}};
+        ActuatorLayout layout{1, 1, 1 + random.below(channels), {}};
         for (int j = 0; j < layout.count; ++j)
             layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
-        control.kept = std::make_shared<const PhantomPanner>(layout, static_cast<PanningLaw>(random.below(4)),
-                                                             1.5, 6.4, 3.6);
-        control.panner = control.kept.get();
+        control.ownedPanner = std::make_shared<const PhantomPanner>(
+            layout, static_cast<PanningLaw>(random.below(4)), 1.5, 6.4, 3.6);
+        control.panner = control.ownedPanner.get();
     }
     return control;
 }
@@ -107,7 +107,7 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
 }
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
-    auto made = runTakes(session.log.takes, session.run, session.lengthNs);
+    auto made = simulateRuns(session.log.runs, session.run, session.lengthNs);
     std::ranges::transform(made.events, made.events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
@@ -128,18 +128,18 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     auto setup = shakeTheBoxSetup(0.05);
     setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
     setup.equalised[2] = {{205, 8}, {180, 230}};
-    ASSERT_TRUE(renderingMethodNamed("AV-FV-DRF", setup.shaping.method));
+    ASSERT_TRUE(parseRenderingMethod("AV-FV-DRF", setup.shaping.method));
     setup.shaping.remap.band = {150, 600};
     setup.shaping.perceived.isWeighted = true;
     Session session{setup};
     const Felt felt = playEdited(session, setup, 60 * rate);
     const auto frames = static_cast<std::int64_t>(felt.signal.size()) / channels;
-    ASSERT_GT(felt.log.takes.size(), 3u);
+    ASSERT_GT(felt.log.runs.size(), 3u);
     ASSERT_GT(felt.log.panners.size(), 10u);
     ASSERT_GT(felt.refused, 5);
-    ASSERT_GT(session.world().slippedNs(), 0);
+    ASSERT_GT(session.world().stalledNs(), 0);
     std::size_t inputs = 0;
-    for (const auto& take : felt.log.takes) inputs += take.inputs.size();
+    for (const auto& take : felt.log.runs) inputs += take.inputs.size();
     ASSERT_GT(inputs, 50u);
 
     const std::string text = sessionJson(saved(setup, felt.log, frames * 1'000'000'000 / rate));
@@ -164,19 +164,19 @@ TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     setup.shaping.perceived.isWeighted = true;
     Session whole{setup}, told{setup};
     const Felt felt = playEdited(whole, setup, 40 * rate);
-    ASSERT_GT(felt.log.takes.size(), 2u);
-    ASSERT_GT(whole.world().slippedNs(), 0);
+    ASSERT_GT(felt.log.runs.size(), 2u);
+    ASSERT_GT(whole.world().stalledNs(), 0);
     JournalLines lines{saved(setup, {}, 0), {}};
     std::string text = lines.head();
     std::vector<std::size_t> ends;
     const Felt same = playEdited(told, setup, 40 * rate, [&](SessionLog& log) {
-        text += lines.take(log, told.readLog(log));
+        text += lines.nextLines(log, told.readLog(log));
         ends.push_back(text.size());
-        EXPECT_TRUE(log.takes.size() == 1 && log.takes[0].inputs.empty() && log.channels.empty())
+        EXPECT_TRUE(log.runs.size() == 1 && log.runs[0].inputs.empty() && log.channels.empty())
             << "it is on disk";
     });
     SessionLog rest = same.log;
-    text += lines.take(rest, nsOf(same));
+    text += lines.nextLines(rest, nsOf(same));
     ASSERT_TRUE(isJournal(text));
     const auto read = readSession(text, "monday.json");
     ASSERT_EQ(read.error, "");
@@ -210,28 +210,28 @@ TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
         for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.submit({TiltAction{0.0001 * k}}).error, "");
-        text += lines.take(log, session.readLog(log));
+        text += lines.nextLines(log, session.readLog(log));
     }
-    EXPECT_EQ(lines.full(), "100000 inputs");
-    EXPECT_NEAR(static_cast<double>(lines.toldNs()) * 1e-9, 1.0, 0.02);
+    EXPECT_EQ(lines.limitError(), "100000 inputs");
+    EXPECT_NEAR(static_cast<double>(lines.completeNs()) * 1e-9, 1.0, 0.02);
     EXPECT_LT(session.world().size().inputs, 3000u);
     const auto read = readSession(text, "monday.json");
     ASSERT_EQ(read.error, "");
-    EXPECT_EQ(read.value.log.takes[0].inputs.size(), 100'000u);
-    EXPECT_EQ(read.value.lengthNs, lines.toldNs());
+    EXPECT_EQ(read.value.log.runs[0].inputs.size(), 100'000u);
+    EXPECT_EQ(read.value.lengthNs, lines.completeNs());
 }
 
 TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
     const auto setup = shakeTheBoxSetup(0.05);
     JournalLines lines{saved(setup, {}, 0), {}};
     SessionLog log;
-    log.takes.push_back({0,
-                         0,
-                         1,
-                         std::make_shared<const Scene>(setup.scene),
-                         {{0.5, TiltAction{1.0}}},
-                         {{200'000'000, 10'000'000}}});
-    const std::string text = lines.head() + lines.take(log, 1'000'000'000);
+    log.runs.push_back({0,
+                        0,
+                        1,
+                        std::make_shared<const Scene>(setup.scene),
+                        {{0.5, TiltAction{1.0}}},
+                        {{200'000'000, 10'000'000}}});
+    const std::string text = lines.head() + lines.nextLines(log, 1'000'000'000);
     ASSERT_EQ(readSession(text, "s.json").error, "");
     const auto refuses = [&](const std::string& from, const std::string& to, const std::string& why) {
         EXPECT_EQ(readSession(textWith(text, from, to), "s.json").error, why);
@@ -278,7 +278,8 @@ TEST(SessionLog, StatesFromAThirdThreadDisturbNothing) {
     }
     stop = true;
     third.join();
-    const auto made = runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, played.back().timeNs + 1);
+    const auto made =
+        simulateScene(setup.scene, {setup.seed, setup.stepsPerSecond}, played.back().timeNs + 1);
     EXPECT_TRUE(played == made.events);
 }
 
@@ -298,7 +299,7 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
     }
     SessionLog log;
     session.readLog(log);
-    ASSERT_EQ(log.takes.size(), 5u);
+    ASSERT_EQ(log.runs.size(), 5u);
     const std::string text = sessionJson(saved(setup, log, 15'000'000'000));
     EXPECT_EQ(text.find("\"bodies\""), text.rfind("\"bodies\""));
     std::vector<std::vector<CollisionEvent>> takes(5);
@@ -320,7 +321,7 @@ TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
         << "what waits for its time are strikes and stops";
     SessionLog log;
     session.readLog(log);
-    EXPECT_TRUE(log.takes[0].inputs.empty());
+    EXPECT_TRUE(log.runs[0].inputs.empty());
 }
 
 } // namespace physvib::session_log_test

@@ -4,7 +4,7 @@
 #include "Live/Session/Session.h"
 #include "FakeHost.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <future>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ constexpr int rate = hostRate, channels = hostChannels;
 
 /// What a render of the scene gives, L later.
 Interleaved rendered(const SessionSetup& s, std::int64_t delayFrames, std::int64_t frames) {
-    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate);
+    const auto made = simulateScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
     renderOffline(made.events, {{rate, channels, s.panner, s.limiterEnabled}, frames - delayFrames, 256},
                   [&](const float* const* block, int n) {
@@ -31,9 +31,9 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 20 * rate, 2048, 0.05, 1, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_EQ(session.status().render.untold, 0u);
-    EXPECT_GE(session.status().leastMarginFrames, 0);
-    EXPECT_LT(session.status().leastMarginFrames, session.timeline().outputLatencyFrames());
+    EXPECT_EQ(session.status().render.unsent, 0u);
+    EXPECT_GE(session.status().minMarginFrames, 0);
+    EXPECT_LT(session.status().minMarginFrames, session.timeline().outputLatencyFrames());
     EXPECT_GT(played.size(), 300u);
     EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 20 * rate));
 }
@@ -72,7 +72,7 @@ TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
     EXPECT_EQ(session.world().drops(), 0u);
     EXPECT_GT(played.size(), 36'000u);
     EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 4 * rate));
-    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
+    const auto made = simulateScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
     const auto list = readEventsCsv(eventsCsv(made, {}, {}, SoundNames{s.scene.materials}), "list");
     ASSERT_EQ(list.error, "");
     EXPECT_TRUE(list.value.events == made);
@@ -94,8 +94,8 @@ struct Keeper final : Sink {
     explicit Keeper(double latencySeconds)
         : latencySeconds_{latencySeconds} {}
     double latencySeconds() const noexcept override { return latencySeconds_; }
-    void made(const CollisionEvent& event) noexcept override { events.push_back(event); }
-    void posted(const RenderControl& control) noexcept override { controls.push_back(control); }
+    void onCollision(const CollisionEvent& event) noexcept override { events.push_back(event); }
+    void onControl(const RenderControl& control) noexcept override { controls.push_back(control); }
     std::vector<CollisionEvent> events;
     std::vector<RenderControl> controls;
 
@@ -149,7 +149,7 @@ TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
     std::vector<CollisionEvent> played;
     playLive(session, 20 * rate, 64, 0.05, 3, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_GT(session.world().slippedNs(), 1'000'000'000);
+    EXPECT_GT(session.world().stalledNs(), 1'000'000'000);
     EXPECT_GT(played.size(), 100u);
 }
 
@@ -190,10 +190,10 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     driver.join();
     session.render(block.at.data(), 8192, RenderMode::offline); // whatever is still under way
     for (const auto& e : drain(session)) played.push_back(e);
-    ASSERT_EQ(session.world().slippedNs(), 0);
+    ASSERT_EQ(session.world().stalledNs(), 0);
     std::stable_sort(played.begin(), played.end(),
                      [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
-    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
+    const auto made = simulateScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
     ASSERT_EQ(played.size(), made.events.size());
     EXPECT_TRUE(played == made.events);
 }
@@ -216,7 +216,7 @@ TEST(Session, ABlockThatStepsTheWorldItselfIsNoStallToADriverThatComesFirst) {
         });
         session.advance();
         host.join();
-        ASSERT_EQ(session.world().slippedNs(), 0) << i;
+        ASSERT_EQ(session.world().stalledNs(), 0) << i;
     }
 }
 
@@ -238,7 +238,7 @@ TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
     }
     EXPECT_LE(loudest, 1.0f);
     EXPECT_EQ(session.status().render.rejected, 0u);
-    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
+    const auto made = simulateScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
     EXPECT_TRUE(played == made.events);
 }
 
@@ -284,8 +284,8 @@ TEST(Session, ARestartThatWaitsKeepsItsTimeAtAnotherRate) {
     session.advance();
     SessionLog log;
     session.readLog(log);
-    ASSERT_EQ(log.takes.size(), 2u);
-    EXPECT_EQ(log.takes[1].startNs, 1'005'000'000);
+    ASSERT_EQ(log.runs.size(), 2u);
+    EXPECT_EQ(log.runs[1].startNs, 1'005'000'000);
 }
 
 // As a host with automation and notes, and nobody who reads a log.
@@ -302,8 +302,8 @@ TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
         SessionLog log;
         std::size_t mostBodies = 0, mostInputs = 0, notes = 0;
         for (int i = 0; i < 3000; ++i) { // half a minute
-            session.callback().perform({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
-            if (i % 7 == 0 && session.callback().perform({.group = 0}, 0)) ++notes;
+            session.callback().postInput({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
+            if (i % 7 == 0 && session.callback().postInput({.group = 0}, 0)) ++notes;
             session.render(block.at.data(), 480, RenderMode::offline);
             drain(session);
             if (i % 100 == 0) session.readLog(log);
@@ -316,8 +316,8 @@ TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
             << "the newest notes, and those of the last half second";
         EXPECT_LE(mostInputs, use == LogUse::none ? 8u : 140u);
         session.readLog(log);
-        EXPECT_EQ(log.takes.size(), use == LogUse::none ? 0u : 1u);
-        if (use == LogUse::stream) EXPECT_EQ(log.takes[0].inputs.size(), 3000u + 2 * notes - 64);
+        EXPECT_EQ(log.runs.size(), use == LogUse::none ? 0u : 1u);
+        if (use == LogUse::stream) EXPECT_EQ(log.runs[0].inputs.size(), 3000u + 2 * notes - 64);
     }
 }
 
@@ -331,7 +331,7 @@ TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     // 5 s without a driver
     for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime);
     EXPECT_LE(session.advance(), 4);
-    EXPECT_NEAR(static_cast<double>(session.world().slippedNs()) * 1e-9, 4.97, 0.001);
+    EXPECT_NEAR(static_cast<double>(session.world().stalledNs()) * 1e-9, 4.97, 0.001);
     session.render(block.at.data(), 480, RenderMode::realtime);
     EXPECT_LE(session.advance(), 2) << "caught up";
     for (int i = 0; i < 500; ++i) {
@@ -421,7 +421,7 @@ TEST(Session, AStepThatTakesLongIsNotWaitedForByWhoeverDrawsTheWorld) {
     ASSERT_EQ(times.size(), 3U) << "it waited";
     EXPECT_EQ(times[0], 0) << "nobody had asked before";
     EXPECT_EQ(times[2], 20'000'000) << "the last whole step";
-    EXPECT_EQ(poses.size(), sceneCast(*session.world().state().scene).size());
+    EXPECT_EQ(poses.size(), allBodies(*session.world().state().scene).size());
     EXPECT_EQ(session.world().readPoses(poses), 30'000'000) << "between steps they are those of now";
 }
 

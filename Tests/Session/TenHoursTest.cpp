@@ -34,7 +34,7 @@ struct Monday {
     void step() {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
-        for (PlayedEvent e; session.played().pop(e);) journal.played(e, session.timeline().sampleRateHz());
+        for (PlayedEvent e; session.played().pop(e);) journal.onPlayed(e, session.timeline().sampleRateHz());
     }
     const SessionSetup setup = streamed();
     Session session;
@@ -59,7 +59,7 @@ TEST(SessionForHours, DISABLED_HoldsNoMoreAndGetsNoSlower) {
         for (Monday* monday : {&one, &other}) {
             monday->journal.end(monday->session.status().sessionNs);
             EXPECT_EQ(monday->journal.finish(), "");
-            EXPECT_EQ(monday->journal.news(), "");
+            EXPECT_EQ(monday->journal.currentError(), "");
         }
     }
     std::filesystem::remove_all(folder);

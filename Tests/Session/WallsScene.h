@@ -30,7 +30,7 @@ inline SessionSetup setupOfWalls() {
     s.seed = 0;
     s.stepsPerSecond = 1000;
     s.longestGapSeconds = driverThreadGapSeconds;
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     s.panner = {layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
     return s;

@@ -38,7 +38,7 @@ TEST(Stimulus, EveryPulseOfEveryPatternStartsAndEndsOnItsFrame) {
                 for (int j = 0; j < enchanters; ++j) {
                     const auto [first, end] = soundFrom(
                         channels[std::size_t(j)], std::max(0, k * period - 100), k * period + pulse + 100);
-                    if (j != pattern.enchanters[std::size_t(k)]) {
+                    if (j != pattern.actuators[std::size_t(k)]) {
                         EXPECT_EQ(first, end) << patternLabel(pattern) << " pulse " << k << " on " << j;
                         continue;
                     }
@@ -76,7 +76,7 @@ TEST(Stimulus, PulsesStayOnOneEnchanterInEveryNumberOfThem) {
 }
 
 TEST(Stimulus, PhantomsFollowTheLawAtEveryPointOfTheGrid) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     ASSERT_TRUE(layoutPreset("phone4", layout));
     for (const int lines : {3, 4, 5, 7})
         for (int point = 0; point < lines * lines; ++point) {
@@ -155,7 +155,7 @@ TEST(PulsePattern, CountsAreThoseOfTheThesisNoTwoAreAlikeAndAllStayOnTheirEnchan
     for (auto p = patterns.begin(); p != patterns.end(); ++p) {
         EXPECT_EQ(std::count(patterns.begin(), patterns.end(), *p), 1);
         EXPECT_TRUE(
-            std::all_of(p->enchanters.begin(), p->enchanters.end(), [](int e) { return e >= 0 && e < 4; }));
+            std::all_of(p->actuators.begin(), p->actuators.end(), [](int e) { return e >= 0 && e < 4; }));
     }
 }
 
@@ -190,7 +190,7 @@ TEST(PulsePattern, LabelsOfAllDurationsAndLettersAreReadBack) {
         EXPECT_FALSE(parsePatternLabel(bad)) << bad;
     const auto wide = parsePatternLabel("YZ-100");
     ASSERT_TRUE(wide);
-    EXPECT_EQ(wide->enchanters, (std::array<int, 3>{24, 25, 0}));
+    EXPECT_EQ(wide->actuators, (std::array<int, 3>{24, 25, 0}));
 }
 
 } // namespace physvib::stimulus_test

@@ -69,7 +69,7 @@ protected:
     DeviceFaults() {
         hands.isReal = true;
         hands.outputs = 2;
-        p = std::make_unique<test::Participant>(withNoDevice(test::fakeDrivers({&hands})), "Fake:hands");
+        p = std::make_unique<test::Participant>(withNullDevice(test::fakeDrivers({&hands})), "Fake:hands");
         p->model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
         p->model.change("One", [](Mix& mix) {
             mix.layout = presetLayout("phone1");
@@ -179,7 +179,7 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
     for (int n = 0; n < trials; ++n) {
         SCOPED_TRACE(n);
         ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial);
-        ASSERT_EQ(p->experiment().trialsTaken(), n);
+        ASSERT_EQ(p->experiment().answeredTrials(), n);
         const Trial trial = p->experiment().trial();
         const std::size_t parts = std::max<std::size_t>(1, trial.parts.size());
         bursts.clear();
@@ -195,11 +195,11 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
             if (p->screen()->plays() > 0) played += hands.block / 64;
             if (!hasFailed && played >= moment)
                 hasFailed = true, fail(faults[only != nullptr ? std::atoi(only) : n % 6]);
-            const bool isFeeling = p->screen()->isFeeling();
+            const bool isStimulusPlaying = p->screen()->isStimulusPlaying();
             const bool isFree = task.peaks.size() != 2 || p->find("Feel number 1")->isEnabled(); // no
                                                                                                  // sequence
-            isOpen = hasFailed && p->screen()->answers()->isEnabled() && !isFeeling;
-            if (!isOpen && isFree && !isFeeling && (hasFailed || played == 0 || played < moment))
+            isOpen = hasFailed && p->screen()->answers()->isEnabled() && !isStimulusPlaying;
+            if (!isOpen && isFree && !isStimulusPlaying && (hasFailed || played == 0 || played < moment))
                 press(*p, juce::KeyPress::spaceKey, ' ');
         }
         ASSERT_LT(blocks, 80'000);
@@ -210,14 +210,14 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
         ASSERT_FALSE(bursts.empty() && !isWorld);
         if (task.peaks.size() == 1) EXPECT_NEAR(bursts.back().peak, task.peaks[0], 0.02);
         if (!task.peaks.empty()) EXPECT_NEAR(bursts.back().seconds, seconds, 0.1 * seconds);
-        for (int tries = 0; tries < 200 && !p->experiment().isDone() && p->experiment().trialsTaken() == n;
+        for (int tries = 0; tries < 200 && !p->experiment().isDone() && p->experiment().answeredTrials() == n;
              ++tries) {
             task.answer(*p);
             run(2);
             press(*p, juce::KeyPress::returnKey, '\r');
             run(2);
         }
-        ASSERT_EQ(p->experiment().trialsTaken(), n + 1);
+        ASSERT_EQ(p->experiment().answeredTrials(), n + 1);
         const auto table = rows();
         const auto cell = [&](const char* name) { return table.rows.back().cells[*table.column(name)]; };
         ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(n + 1));

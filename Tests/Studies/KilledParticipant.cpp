@@ -23,8 +23,8 @@ int answer(const juce::File& folder, int trials) {
     if (const auto error = p.tab().begin(); !error.empty()) return std::puts(error.c_str()), 1;
     p.pump();
     for (int n = 0; p.screen()->page() != StudyScreen::Page::done; ++n) {
-        if (p.screen()->page() == StudyScreen::Page::pause) p.click("Next");
-        const int taken = p.experiment().trialsTaken();
+        if (p.screen()->page() == StudyScreen::Page::ready) p.click("Next");
+        const int taken = p.experiment().answeredTrials();
         if (n == trials) {
             p.space();
             std::raise(SIGKILL);
@@ -33,7 +33,7 @@ int answer(const juce::File& folder, int trials) {
         // whatever was felt
         p.click("Row " + juce::String{1 + taken % 2} + ", column " + juce::String{1 + taken % 3});
         p.click("Next");
-        if (!test::runUntil([&] { return p.experiment().trialsTaken() > taken; })) return 1;
+        if (!test::runUntil([&] { return p.experiment().answeredTrials() > taken; })) return 1;
         p.pump();
     }
     return 0;

@@ -18,7 +18,7 @@ namespace physvib::test {
 class Participant {
 public:
     explicit Participant(AudioDrivers drivers = onlyNoDevice(),
-                         const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
+                         const std::string& device = std::string{nullDeviceType} + ":" + nullDeviceName)
         : model{std::move(drivers), {device, 48000, 128}} {
         view.setSize(1440, 900);
         view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
@@ -57,7 +57,7 @@ public:
     }
     bool leave() { return click("Leave the study; what was answered is kept"), isGone(); }
     bool hasTaken(int trials) {
-        return runUntil([&] { return experiment().trialsTaken() == trials; });
+        return runUntil([&] { return experiment().answeredTrials() == trials; });
     }
     void clickAt(juce::Point<float> at) {
         for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) mouse(at, buttons);
@@ -106,7 +106,7 @@ public:
     void feel() {
         const int before = plays();
         space();
-        EXPECT_TRUE(runUntil([&] { return plays() > before && !isFeeling(); })) << "nothing was felt";
+        EXPECT_TRUE(runUntil([&] { return plays() > before && !isStimulusPlaying(); })) << "nothing was felt";
         pump(); // the answer unlocks with the next picture
     }
     /// Writes into the editor of what has that title, if it is there.
@@ -131,7 +131,7 @@ private:
                                juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
     }
     int plays() { return screen() != nullptr ? screen()->plays() : 0; }
-    bool isFeeling() { return screen() != nullptr && screen()->isFeeling(); }
+    bool isStimulusPlaying() { return screen() != nullptr && screen()->isStimulusPlaying(); }
     static juce::Component* findIn(juce::Component& root, const juce::String& title, bool mustShow = true,
                                    const std::function<bool(juce::Component&)>& fits = {}) {
         if (root.getTitle() == title && (!mustShow || root.isShowing()) && (!fits || fits(root)))

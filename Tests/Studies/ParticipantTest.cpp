@@ -32,7 +32,7 @@ protected:
     void goOn() { StudyTest::goOn(*p); }
     /// Past the page before a session, by mouse.
     void passPage() {
-        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
+        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::ready);
         p->click("Next");
         ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial);
     }
@@ -70,7 +70,7 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
     begin(
         R"({"name": "training", "training": true, "task": "explore"}, {"name": "main", "task": "identify", "most_plays": 2})",
         R"("layout": "phone2", "stimuli": "patterns", "enchanters": 2, "pulse_s": [0.03], "gap_s": 0.01)");
-    const auto items = stimuliOf(p->screen()->study().protocol().conditions[0]);
+    const auto items = conditionStimuli(p->screen()->study().protocol().conditions[0]);
     const auto titleOf = [](const std::string& label) {
         juce::StringArray words;
         for (const char c : label.substr(0, label.find('-')))
@@ -133,7 +133,7 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
         if (n == 7) { // the window goes, as in a crash; the rows are there
             p = std::make_unique<test::Participant>();
             begin(session, points);
-            EXPECT_EQ(p->experiment().trialsTaken(), 7);
+            EXPECT_EQ(p->experiment().answeredTrials(), 7);
             passPage();
         }
         asked.push_back(p->experiment().trial().stimulus);
@@ -147,7 +147,7 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
             p->key(juce::KeyPress::rightKey);
             juce::Component::unfocusAllComponents(); // another window takes the focus for a moment
             p->enter();
-            EXPECT_EQ(p->experiment().trialsTaken(), 5) << "chosen, not confirmed";
+            EXPECT_EQ(p->experiment().answeredTrials(), 5) << "chosen, not confirmed";
             p->enter();
             ASSERT_TRUE(p->hasTaken(6));
             answers.push_back("2,2");
@@ -168,10 +168,10 @@ TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
     p->pump();
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
     EXPECT_TRUE(p->words().contains("The study is paused."));
-    EXPECT_FALSE(p->screen()->isFeeling());
+    EXPECT_FALSE(p->screen()->isStimulusPlaying());
     p->click("Next");
     passPage();
-    EXPECT_EQ(p->experiment().trialsTaken(), 0) << "what was not answered begins anew";
+    EXPECT_EQ(p->experiment().answeredTrials(), 0) << "what was not answered begins anew";
     p->feel();
     EXPECT_TRUE(p->view.pauseStudy());
     EXPECT_TRUE(p->view.pauseStudy()) << "again";
@@ -204,7 +204,7 @@ TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
     passPage();
     p->space();
     ASSERT_TRUE(test::runUntil([&] {
-        return p->pump(), p->screen()->plays() == 2 && !p->screen()->isFeeling();
+        return p->pump(), p->screen()->plays() == 2 && !p->screen()->isStimulusPlaying();
     })) << "one press plays both";
     const bool isRight = p->experiment().trial().parts[0] == "b";
     p->click("Answer: number 1");
@@ -224,7 +224,7 @@ TEST_F(ByAParticipant, FeedbackStandsOnThePageAfterTheAnswerAndNotInAnotherSessi
     p->feel();
     p->click("Answer: number 1");
     p->click("Next");
-    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::ready);
     EXPECT_TRUE(p->words().contains("That was")) << p->words();
     passPage();
     EXPECT_FALSE(p->words().contains("That was")) << "it was of the session before";
@@ -240,12 +240,12 @@ TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
     EXPECT_FALSE(p->isAnswerOpen("Answer: number 1"));
     p->space();
     ASSERT_TRUE(test::runUntil([&] { return p->pump(), p->screen()->plays() == 2; }));
-    ASSERT_TRUE(p->screen()->isFeeling() && p->isAnswerOpen("Answer: number 1"));
+    ASSERT_TRUE(p->screen()->isStimulusPlaying() && p->isAnswerOpen("Answer: number 1"));
     p->click("Answer: number 1");
-    ASSERT_TRUE(p->screen()->isFeeling()) << "it is not over";
+    ASSERT_TRUE(p->screen()->isStimulusPlaying()) << "it is not over";
     EXPECT_FALSE(p->isAnswerOpen("Next"));
     p->click("Next");
-    EXPECT_EQ(p->experiment().trialsTaken(), 1);
+    EXPECT_EQ(p->experiment().answeredTrials(), 1);
 }
 
 TEST_F(ByAParticipant, WhatTheExperimenterWasToldIsNoInstruction) {
@@ -284,14 +284,14 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
     begin(
         R"({"name": "training", "training": true, "task": "explore", "fewest_touches": 3}, {"name": "main", "task": "locate", "repetitions": 4})",
         R"("layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 2, "seconds": 0.05)");
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     std::vector<FieldPlace> touched;
     const auto touch = [&](FieldPlace at) {
         ASSERT_TRUE(p->canUse("Field"));
         auto* field = p->find("Field");
         p->clickAt(p->view.getLocalPoint(
-            field, pointOn(fieldIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
+            field, pixelOn(fieldAreaIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
         touched.push_back(at);
     };
     passPage();
@@ -320,7 +320,7 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
             touched.push_back({0.1, 0.01});
             p->enter();
         }
-        EXPECT_EQ(p->experiment().trialsTaken(), 3 + n) << "a mark is no answer yet";
+        EXPECT_EQ(p->experiment().answeredTrials(), 3 + n) << "a mark is no answer yet";
         ASSERT_TRUE(p->canUse("Next"));
         if (n % 2 == 0)
             p->enter();
@@ -398,7 +398,7 @@ TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
         p->enter();
     }
     close();
-    const auto log = p->model.saved().log;
+    const auto log = p->model.savedSession().log;
     ASSERT_GE(log.recordings.size(), 4u);
     for (std::size_t i = 0; i < log.recordings.size(); ++i)
         EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2)
@@ -546,7 +546,7 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
         p->type("1");
         p->enter();
     }
-    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed);
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposureLimit);
     EXPECT_GT(trials, 1) << "0.8 s of 1 g at 40 Hz are an A(8) of about 0.015 m/s^2";
     EXPECT_LT(trials, 4);
     EXPECT_TRUE(p->words().contains("the study pauses")) << p->words();
@@ -554,14 +554,14 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     p->enter();
     ASSERT_TRUE(p->isGone());
     goOn();
-    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed) << "the same day";
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposureLimit) << "the same day";
     p->enter();
     ASSERT_TRUE(p->isGone());
     const juce::File rows = folder.getChildFile("short-P01.csv");
     rows.setLastModificationTime(juce::Time::getCurrentTime() - juce::RelativeTime::days(2));
     goOn();
-    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::pause) << "another day";
-    EXPECT_EQ(p->experiment().trialsTaken(), trials);
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::ready) << "another day";
+    EXPECT_EQ(p->experiment().answeredTrials(), trials);
 }
 
 TEST_F(ByAParticipant, GivesNumbers) {
@@ -582,7 +582,7 @@ TEST_F(ByAParticipant, GivesNumbers) {
     const auto& report = p->tab().analysis()->report();
     EXPECT_EQ(report.error, "");
     EXPECT_FALSE(report.isSimulated);
-    EXPECT_NE(report.table.find(",1,1,7,"), std::string::npos) << report.words;
+    EXPECT_NE(report.table.find(",1,1,7,"), std::string::npos) << report.text;
     ASSERT_NE(p->tab().analysis()->picture(), nullptr);
     EXPECT_GT(p->tab().analysis()->picture()->getWidth(), 100);
     p->click("Close the analysis");
@@ -625,7 +625,7 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
     ASSERT_NE(p->tab().analysis(), nullptr);
     const auto& report = p->tab().analysis()->report();
     EXPECT_TRUE(report.isSimulated);
-    EXPECT_EQ("SIMULATED: a simulated observer answered, not a person\n" + report.words,
+    EXPECT_EQ("SIMULATED: a simulated observer answered, not a person\n" + report.text,
               folder.getChildFile("told.txt").loadFileAsString().toStdString());
     const auto warned = folder.getChildFile("warned.txt").loadFileAsString();
     for (const auto& warning : report.warnings)
@@ -683,7 +683,7 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     EXPECT_EQ(p->model.device().listening().settings().noise, (std::vector<int>{6, 7}));
     EXPECT_EQ(p->model.device().listening().settings().noiseDb, -35.0)
         << "the protocol's level, as it was chosen later";
-    EXPECT_EQ(p->model.device().listening().hear({{3}, -40.0, {}, 0.0}),
+    EXPECT_EQ(p->model.device().listening().beginStudy({{3}, -40.0, {}, 0.0}),
               "output 4 is an actuator's; expected another one to listen to");
     ASSERT_TRUE(p->leave());
     EXPECT_TRUE(p->model.device().listening().settings().noise.empty());
@@ -710,8 +710,8 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
     EXPECT_NE(p->tab().begin().find("expected the master level as in the trials before, 0 dB, found -12 dB"),
               std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
-    ASSERT_EQ(p->model.messages().shown().act.name, "Set 0.0 dB") << "the level is offered";
-    p->model.messages().shown().act.run();
+    ASSERT_EQ(p->model.messages().current().action.name, "Set 0.0 dB") << "the level is offered";
+    p->model.messages().current().action.run();
     EXPECT_EQ(p->model.mix().levelDb, 0.0);
     p->tab().setNoise(p->tab().noiseChoices().front(), -35.0);
     EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"),
@@ -728,7 +728,7 @@ TEST_F(ByAParticipant, AnswersInTimeOrTheTrialRunsOut) {
           calls("n", R"(["1"])", tone + "0.1"));
     EXPECT_TRUE(p->words().contains("Answer within 1.5 s."));
     passPage();
-    const auto taken = [&] { return p->experiment().trialsTaken(); };
+    const auto taken = [&] { return p->experiment().answeredTrials(); };
     p->feel();
     ASSERT_TRUE(test::runUntil([&] { return taken() == 1; })) << "time is over";
     EXPECT_TRUE(p->words().contains("Time was over."));
@@ -765,12 +765,12 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
 
 TEST(FeltStimuli, AreInGWhateverAnActuatorCanGive) {
     LayoutDescription layout = presetLayout("phone4");
-    for (std::size_t j = 0; j < 4; ++j) layout.enchanters[j].fullScaleG = 2.0 + static_cast<double>(j);
+    for (std::size_t j = 0; j < 4; ++j) layout.actuators[j].fullScaleG = 2.0 + static_cast<double>(j);
     const auto file = juce::File::createTempFile(".json");
     file.replaceWithText(juce::String{layoutJson(layout)});
     StimulusJob job{PhantomJob{}};
     job.layout = file.getFullPathName().toStdString();
-    const auto felt = feltStimulus(job, 48000);
+    const auto felt = makePlayableStimulus(job, 48000);
     file.deleteFile();
     ASSERT_EQ(felt.value.gains.size(), 4u) << felt.error;
     for (std::size_t j = 0; j < 4; ++j)

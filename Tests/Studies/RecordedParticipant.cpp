@@ -27,7 +27,7 @@ public:
         if (auto error = p.tab().begin(); !error.empty()) return error;
         p.pump();
         while (p.screen()->page() != StudyScreen::Page::done) {
-            if (p.screen()->page() == StudyScreen::Page::fault) return "the screen shows a fault";
+            if (p.screen()->page() == StudyScreen::Page::error) return "the screen shows a fault";
             if (p.screen()->page() != StudyScreen::Page::trial)
                 p.click("Next");
             else if (auto error = takeTrial(); !error.empty())
@@ -40,10 +40,10 @@ public:
 private:
     std::string takeTrial() {
         auto& p = participant_;
-        const int taken = p.experiment().trialsTaken();
+        const int taken = p.experiment().answeredTrials();
         const auto parts = static_cast<int>(p.experiment().trial().parts.size());
         const auto scales = p.experiment().session().scales;
-        if (p.experiment().session().answer() == AnswerKind::number) return estimate();
+        if (p.experiment().session().answerKind() == AnswerKind::number) return estimate();
         for (int part = 1; part <= parts; ++part)
             if (!(scales.empty() ? fall() : shake(part)))
                 return "trial " + std::to_string(taken + 1) + ": part " + std::to_string(part) +
@@ -59,7 +59,7 @@ private:
             p.click(title, 60.0f);
         }
         p.click("Next");
-        return test::runUntil([&] { return p.experiment().trialsTaken() > taken; })
+        return test::runUntil([&] { return p.experiment().answeredTrials() > taken; })
                    ? ""
                    : "trial " + std::to_string(taken + 1) + " was not taken";
     }
@@ -67,11 +67,12 @@ private:
     /// Feels it until it left, however often the device fails meanwhile.
     std::string estimate() {
         auto& p = participant_;
-        const int taken = p.experiment().trialsTaken();
+        const int taken = p.experiment().answeredTrials();
         const auto isTaken = [&] {
             p.pump();
-            if (p.experiment().isDone() || p.experiment().trialsTaken() > taken) return true;
-            if (p.screen()->page() != StudyScreen::Page::trial || p.screen()->isFeeling()) return false;
+            if (p.experiment().isDone() || p.experiment().answeredTrials() > taken) return true;
+            if (p.screen()->page() != StudyScreen::Page::trial || p.screen()->isStimulusPlaying())
+                return false;
             if (!p.screen()->answers()->isEnabled())
                 p.screen()->keyPressed(juce::KeyPress{juce::KeyPress::spaceKey});
             else if (!p.screen()->answers()->isComplete())
@@ -88,8 +89,8 @@ private:
         const int before = p.screen()->plays();
         p.space();
         const bool isBegun =
-            test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); });
-        return isBegun && test::runUntil([&] { return p.pump(), !p.screen()->isFeeling(); });
+            test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isStimulusPlaying(); });
+        return isBegun && test::runUntil([&] { return p.pump(), !p.screen()->isStimulusPlaying(); });
     }
 
     bool shake(int part) {
@@ -99,10 +100,10 @@ private:
         if (!test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }))
             return false;
         auto& view = p.world();
-        const double least = p.experiment().session().leastSeconds;
-        for (int drag = 0; world.feltSeconds() < least + 0.3; ++drag) {
+        const double least = p.experiment().session().minSeconds;
+        for (int drag = 0; world.playedSeconds() < least + 0.3; ++drag) {
             const auto body =
-                p.view.getLocalPoint(&view, view.placeOfBody("large " + std::to_string(1 + drag % 3)));
+                p.view.getLocalPoint(&view, view.pixelOfBody("large " + std::to_string(1 + drag % 3)));
             p.drag(body, body + juce::Point<float>{drag % 2 == 0 ? 60.0f : -60.0f, -40.0f}); // 18 mm
             p.key(drag % 8 < 4 ? juce::KeyPress::leftKey : juce::KeyPress::rightKey);
             test::runFor(0.15);

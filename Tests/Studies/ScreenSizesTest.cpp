@@ -55,7 +55,7 @@ protected:
         while (!isThere()) {
             if (study.experiment().mayEnd())
                 study.endSession();
-            else if (!study.take(observer.answer(study.experiment())))
+            else if (!study.acceptAnswer(observer.answer(study.experiment())))
                 return;
         }
     }
@@ -89,7 +89,7 @@ TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
                 if (isTrial) p.click("Next");
                 const auto& condition = p.experiment().condition();
                 if (isTrial && std::holds_alternative<PatternSet>(condition.stimuli)) {
-                    if (p.experiment().session().answer() == AnswerKind::label) p.feel();
+                    if (p.experiment().session().answerKind() == AnswerKind::label) p.feel();
                     p.type("a");
                 }
                 for (const auto& [width, height] : displays) {
@@ -137,11 +137,11 @@ TEST_F(OnASmallDisplay, HowMuchWeakerHitsAreIsToldBesideBeginWhereTheLevelIsRais
     }
     fader->setValue(-20.0);
     p.pump();
-    EXPECT_TRUE(p.tab().master().remark() == "10 times weaker") << p.tab().master().remark();
+    EXPECT_TRUE(p.tab().master().warning() == "10 times weaker") << p.tab().master().warning();
     fader->setValue(0.0);
     p.pump();
     EXPECT_EQ(p.model.mix().levelDb, 0.0);
-    EXPECT_EQ(p.tab().master().remark(), "");
+    EXPECT_EQ(p.tab().master().warning(), "");
 }
 
 // Where answers are: points at their stimuli, a window of their own, letters instead of boxes.
@@ -159,7 +159,7 @@ juce::Point<double> centreOf(const juce::Component& c) {
 
 TEST(AnswerScreens, PointsStandWhereTheirStimuliAreInEveryGridAndLayout) {
     for (const char* name : {"phone1", "phone2", "phone3", "phone4", "ring1", "ring2", "ring3", "ring4"}) {
-        EnchanterLayout geometry;
+        ActuatorLayout geometry;
         ASSERT_TRUE(layoutPreset(name, geometry));
         const auto layout = describeLayout(name, geometry);
         juce::Rectangle<double> corners; // of the 3 x 3 grid: the field
@@ -190,13 +190,13 @@ TEST(AnswerScreens, PointsStandWhereTheirStimuliAreInEveryGridAndLayout) {
 }
 
 TEST(AnswerScreens, TheCornersOfAGridAreTheEnchanters) {
-    EnchanterLayout phone;
+    ActuatorLayout phone;
     ASSERT_TRUE(layoutPreset("phone4", phone));
     for (const int n : {3, 4, 5}) {
         const PhantomGrid grid{n, n};
         int j = 0;
         for (const GridCell& cell : {GridCell{1, 1}, GridCell{1, n}, GridCell{n, 1}, GridCell{n, n}})
-            EXPECT_EQ(placeOf(phone, j++), grid.place(cell));
+            EXPECT_EQ(actuatorPlace(phone, j++), grid.place(cell));
     }
 }
 
@@ -211,7 +211,7 @@ protected:
 };
 
 TEST_F(AParticipantElsewhere, AnswersMayBeGivenInASecondWindow) {
-    p.tab().setAnswersElsewhere(true);
+    p.tab().setAnswerWindow(true);
     begin(R"("layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)",
           R"("task": "identify")");
     EXPECT_EQ(p.find("Row 1, column 1"), nullptr) << "not in the first one";
@@ -223,15 +223,15 @@ TEST_F(AParticipantElsewhere, AnswersMayBeGivenInASecondWindow) {
     ASSERT_NE(point, nullptr);
     p.clickOn(*point);
     p.clickOn(*p.findBelow(answers, "Next"));
-    EXPECT_EQ(p.experiment().trialsTaken(), 1);
+    EXPECT_EQ(p.experiment().answeredTrials(), 1);
     p.feel();
     ASSERT_TRUE(p.leave());
 }
 
 TEST_F(AParticipantElsewhere, KoreanScreensShowLettersAndNoBoxes) {
-    const Words korean = findWords("ko").value;
+    const Translation korean = findTranslation("ko").value;
     const auto typeface = typefaceFor(korean);
-    ASSERT_EQ(p.tab().chooseWords("ko"), "");
+    ASSERT_EQ(p.tab().chooseLanguage("ko"), "");
     if (!typeface) {
         EXPECT_NE(p.tab().begin().find("expected a font with the letters of ko"), std::string::npos);
         GTEST_SKIP() << "no Korean font is installed (fonts-nanum has one)";
@@ -239,12 +239,12 @@ TEST_F(AParticipantElsewhere, KoreanScreensShowLettersAndNoBoxes) {
     begin(
         R"("stimuli": "calls", "factors": [{"name": "pair", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --frequency {object}{pair}")",
         R"("task": "rate", "scales": ["realism", "harmony"], "definitions": ["The vibration felt realistic.", "I liked the vibration."], "objects": ["20", "30"])");
-    EXPECT_TRUE(p.words().contains(utf8(korean.of("Rate what you felt.")))) << p.words();
+    EXPECT_TRUE(p.words().contains(utf8(korean.translate("Rate what you felt.")))) << p.words();
     p.feel();
     p.feel();
-    EXPECT_TRUE(hasLetters({}, utf8(korean.of("Rate what you felt."))))
+    EXPECT_TRUE(hasLetters({}, utf8(korean.translate("Rate what you felt."))))
         << "drawn by the typeface that screens are drawn with";
-    auto missed = p.screen()->words().missed();
+    auto missed = p.screen()->texts().untranslated();
     for (const char* own : {"20", "30"}) missed.erase(own); // the protocol's
     EXPECT_TRUE(missed.empty()) << *missed.begin();
 }

@@ -138,13 +138,14 @@ TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
     const auto fall = [&] {
         const int before = p.screen()->plays();
         p.space();
-        ASSERT_TRUE(test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); }));
+        ASSERT_TRUE(
+            test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isStimulusPlaying(); }));
         auto& view = p.world();
-        const auto start = view.placeOfBody("wood sphere");
+        const auto start = view.pixelOfBody("wood sphere");
         EXPECT_TRUE(test::runUntil([&] {
-            return p.pump(), view.placeOfBody("wood sphere").y > start.y + 20.0f;
+            return p.pump(), view.pixelOfBody("wood sphere").y > start.y + 20.0f;
         })) << "it falls";
-        ASSERT_TRUE(test::runUntil([&] { return p.pump(), !p.screen()->isFeeling(); }));
+        ASSERT_TRUE(test::runUntil([&] { return p.pump(), !p.screen()->isStimulusPlaying(); }));
         p.pump();
     };
     fall();
@@ -199,19 +200,19 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
             else
                 p.click("Feel number " + juce::String{part});
             ASSERT_TRUE(test::runUntil([&] {
-                return p.pump(), p.screen()->isFeeling() && p.screen()->world().world().isMoving() &&
+                return p.pump(), p.screen()->isStimulusPlaying() && p.screen()->world().world().isMoving() &&
                                      p.screen()->plays() == part;
             }));
-            const auto start = view.placeOfBody("large 1");
+            const auto start = view.pixelOfBody("large 1");
             EXPECT_TRUE(test::runUntil([&] {
-                return p.pump(), view.placeOfBody("large 1").y > start.y + 20.0f;
+                return p.pump(), view.pixelOfBody("large 1").y > start.y + 20.0f;
             })) << "the world moves";
-            const auto ball = p.view.getLocalPoint(&view, view.placeOfBody("large 2"));
+            const auto ball = p.view.getLocalPoint(&view, view.pixelOfBody("large 2"));
             p.drag(ball, ball + juce::Point<float>{24.0f, -32.0f}); // 10 mm
             for (int k = 0; k < 6; ++k) p.key(juce::KeyPress::leftKey);
-            const double before = p.screen()->world().world().feltSeconds();
+            const double before = p.screen()->world().world().playedSeconds();
             EXPECT_TRUE(test::runUntil(
-                [&] { return p.pump(), p.screen()->world().world().feltSeconds() > before + 0.7; }));
+                [&] { return p.pump(), p.screen()->world().world().playedSeconds() > before + 0.7; }));
             EXPECT_EQ(p.find("Realism"), nullptr) << "rated when the world stands still";
         }
         p.click("Pause");
@@ -228,12 +229,12 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         ASSERT_TRUE(saved) << saved.error;
         const auto name = nameOf(saved.value.shaping.method);
         EXPECT_EQ(std::string(name.begin(), name.end()), methods[i / 3]);
-        const auto& inputs = saved.value.log.takes.at(0).inputs;
+        const auto& inputs = saved.value.log.runs.at(0).inputs;
         const auto dragged = std::ranges::find_if(inputs, [](const LiveInput& input) {
             return std::holds_alternative<ImpulseAction>(input.action);
         });
         ASSERT_NE(dragged, inputs.end());
-        const auto& push = std::get<ImpulseAction>(dragged->action).newtonSeconds;
+        const auto& push = std::get<ImpulseAction>(dragged->action).impulseNewtonSeconds;
         EXPECT_NEAR(std::hypot(push.x, push.y), 320.0, 0.1);
         ASSERT_TRUE(std::holds_alternative<TiltAction>(inputs.back().action));
         EXPECT_NEAR(std::get<TiltAction>(inputs.back().action).angleRadians, -juce::degreesToRadians(30.0),
@@ -259,7 +260,7 @@ TEST_F(AWorldInAStudy, IsPlayedWithAndRatedByKeysAlone) {
         ASSERT_TRUE(
             test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }));
         p.key(juce::KeyPress::rightKey);
-        EXPECT_TRUE(test::runUntil([&] { return p.pump(), world.feltSeconds() > 0.7; }));
+        EXPECT_TRUE(test::runUntil([&] { return p.pump(), world.playedSeconds() > 0.7; }));
     }
     p.space();
     ASSERT_TRUE(p.canUse("Realism"));
@@ -267,7 +268,7 @@ TEST_F(AWorldInAStudy, IsPlayedWithAndRatedByKeysAlone) {
     for (const int code : {juce::KeyPress::rightKey, juce::KeyPress::tabKey, juce::KeyPress::leftKey,
                            juce::KeyPress::returnKey})
         p.key(code);
-    EXPECT_EQ(p.experiment().trialsTaken(), 1);
+    EXPECT_EQ(p.experiment().answeredTrials(), 1);
     const auto table = rows();
     EXPECT_EQ(table.rows.at(0).cells[*table.column("realism")], "51");
     EXPECT_EQ(table.rows.at(0).cells[*table.column("liking")], "49");
@@ -280,7 +281,7 @@ TEST_F(AWorldInAStudy, ASceneAndWordsMayLieBesideTheProtocol) {
     begin(
         R"({"physvib_protocol": 1, "name": "short", "words": "words.json", "conditions": [{"name": "own", "layout": "phone1", "stimuli": "world",
   "factors": [{"name": "scene", "values": ["own"]}], "call": "render {scene}.json --seconds 0.2 --layout phone1"}], "sessions": [{"name": "main", "task": "estimate"}]})");
-    EXPECT_EQ(p.screen()->words()("Begin"), "Los");
+    EXPECT_EQ(p.screen()->texts()("Begin"), "Los");
     p.click("Next");
     p.feel();
     EXPECT_EQ(p.screen()->page(), StudyScreen::Page::trial) << p.words();
@@ -306,7 +307,7 @@ TEST_F(AWorldInAStudy, IsSeenAtTheScaleOfTheProtocol) {
     begin(fallingWith(R"( "display_scale": 10,)"));
     p.click("Next");
     p.space();
-    EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->page() == StudyScreen::Page::fault; }));
+    EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->page() == StudyScreen::Page::error; }));
     EXPECT_TRUE(p.words().contains("as the world is 800 x 450 mm at 1:10")) << p.words();
     p.tab().end();
     p.model.setDisplayWidth(0.0);

@@ -107,7 +107,7 @@ TEST(Boundaries, AlternativesStandInEveryOrder) {
             const std::vector<std::string> parts = experiment.trial().parts;
             EXPECT_EQ(std::set<std::string>(parts.begin(), parts.end()).size(), count);
             ++seen[parts];
-            experiment.take({.response = parts.front()});
+            experiment.acceptAnswer({.response = parts.front()});
         }
         const std::size_t orders = count == 2 ? 2 : count == 3 ? 6 : 24;
         ASSERT_EQ(seen.size(), orders) << count << " alternatives";
@@ -131,8 +131,8 @@ TEST(Boundaries, ObjectsStandInEveryOrder) {
     while (!experiment.isDone()) {
         ++seen[experiment.trial().parts];
         const Answer answer{.scores = {50.0}};
-        ASSERT_EQ(experiment.refusal(answer), "");
-        experiment.take(answer);
+        ASSERT_EQ(experiment.answerError(answer), "");
+        experiment.acceptAnswer(answer);
     }
     EXPECT_EQ(seen.size(), 6U);
     for (const auto& [order, times] : seen) EXPECT_LT(times, 30);
@@ -150,7 +150,7 @@ TEST_F(ExposureOfADay, IsTodaysOnlyIfItWasWrittenToday) {
         for (const double exposure : {0.75, 1.5}) {
             Answer answer = observer.answer(study.experiment());
             answer.exposure = exposure;
-            ASSERT_TRUE(study.take(answer)) << study.error();
+            ASSERT_TRUE(study.acceptAnswer(answer)) << study.error();
         }
     }
     const auto writtenAt = std::filesystem::last_write_time(run.trialFile());

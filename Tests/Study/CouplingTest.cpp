@@ -17,7 +17,7 @@ struct Centroid {
     double x = 0.0, y = 0.0;
 };
 
-EnchanterLayout unitSquare() { return {1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}}; }
+ActuatorLayout unitSquare() { return {1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}}; }
 
 Centroid centroidOf(const ComplexAmplitudes& felt) {
     Centroid c;
@@ -60,13 +60,14 @@ TEST(Coupling, WithoutCouplingTheDriveIsWhatIsWanted) {
     const CouplingMatrix none(4), drives = compensationMatrix(none);
     for (std::size_t k = 0; k < drives.entries.size(); ++k)
         EXPECT_NEAR(std::abs(drives.entries[k] - none.entries[k]), 0.0, 1e-8);
-    EXPECT_NEAR(strongestDrive(none), 1.0, 1e-4);
+    EXPECT_NEAR(maxDrive(none), 1.0, 1e-4);
 }
 
 TEST(Coupling, WithinTheLimitWhatIsFeltIsWhatIsWanted) {
     const CouplingMatrix coupling = coupled(0.2, 90.0);
-    EXPECT_NEAR(strayShare(coupling, CouplingMatrix(4)), 0.3, 1e-12); // 0.2, 0.2 and 0.1 from the others
-    EXPECT_LT(strayShare(coupling, compensationMatrix(coupling)), 1e-6);
+    EXPECT_NEAR(relativeAmplitudeError(coupling, CouplingMatrix(4)), 0.3, 1e-12); // 0.2, 0.2 and 0.1 from the
+                                                                                  // others
+    EXPECT_LT(relativeAmplitudeError(coupling, compensationMatrix(coupling)), 1e-6);
 }
 
 TEST(Coupling, NoGainsOfAPannerDriveMoreThanThreeDecibelsMore) {
@@ -82,8 +83,8 @@ TEST(Coupling, NoGainsOfAPannerDriveMoreThanThreeDecibelsMore) {
                 for (const auto& d : drives.times(wanted)) most = std::max(most, std::abs(d));
             }
             EXPECT_LE(most, 1.41254) << share << ' ' << degrees;
-            EXPECT_LE(most, strongestDrive(drives)) << share << ' ' << degrees;
-            EXPECT_GE(most, 0.999 * strongestDrive(drives)) << share << ' ' << degrees;
+            EXPECT_LE(most, maxDrive(drives)) << share << ' ' << degrees;
+            EXPECT_GE(most, 0.999 * maxDrive(drives)) << share << ' ' << degrees;
         }
 }
 
@@ -92,7 +93,7 @@ TEST(Coupling, TheStrongestDriveIsAnyEnchanters) {
         CouplingMatrix drives(3);
         drives.at(driven, (driven + 1) % 3) = {0.0, -0.75};
         // its own and the other's, a quarter turn apart
-        EXPECT_NEAR(strongestDrive(drives), 1.25, 1e-4) << driven;
+        EXPECT_NEAR(maxDrive(drives), 1.25, 1e-4) << driven;
     }
 }
 
@@ -106,7 +107,7 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
             double misjudged = 0.0, after = 0.0;
             constexpr int draws = 20;
             for (int i = 0; i < draws; ++i) {
-                const CouplingMatrix truth = mismatched(believed, random);
+                const CouplingMatrix truth = withRandomMismatch(believed, random);
                 misjudged += errorOf(truth, plain) / draws;
                 after += errorOf(truth, drives) / draws;
             }
@@ -148,12 +149,12 @@ TEST(Coupling, DrivesBetweenTwoFrequenciesAreBetweenTheirsAndBeyondThemTheNeares
 }
 
 TEST(Coupling, TheResidualIsThatOfTheWorstFrequency) {
-    const CouplingResidual r = residualOf({{100.0, 300.0}, {coupled(0.1, 0.0), coupled(0.2, 90.0)}});
-    EXPECT_NEAR(r.plain, 0.3, 1e-12);
+    const CouplingResidual r = couplingResidual({{100.0, 300.0}, {coupled(0.1, 0.0), coupled(0.2, 90.0)}});
+    EXPECT_NEAR(r.uncompensated, 0.3, 1e-12);
     EXPECT_LT(r.compensated, 1e-6);
-    EXPECT_GT(r.mismatchedPlain, r.mismatchedCompensated);
+    EXPECT_GT(r.mismatchedUncompensated, r.mismatchedCompensated);
     EXPECT_GT(r.mismatchedCompensated, 0.1);
-    EXPECT_LE(r.strongestDrive, 1.41254);
+    EXPECT_LE(r.maxDrive, 1.41254);
 }
 
 TEST(Coupling, AttenuationIsEquation31And32) {

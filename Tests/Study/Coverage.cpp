@@ -35,7 +35,7 @@ SessionPlan sessionOf(Method method) {
     if (method == Method::staircase) {
         session.staircase.emplace();
         session.staircase->startDb = 16.0;
-        session.staircase->leastDb = -10.0;
+        session.staircase->minDb = -10.0;
         session.staircase->reversals = 12;
     } else if (method == Method::quest)
         session.quest.emplace();
@@ -57,7 +57,7 @@ bool holds(Method method, int people, SeededRandom& random, double& off) {
                 LevelCount& count = counts.emplace_back(LevelCount{4.0 + 1.75 * i, 0, 30});
                 for (int t = 0; t < 30; ++t) count.hits += random.chance(observer.probability(count.level));
             }
-            if (const auto fit = fitPsychometric(counts, {observer.shape, 0.5, lapse}); fit.fault.empty())
+            if (const auto fit = fitPsychometric(counts, {observer.shape, 0.5, lapse}); fit.error.empty())
                 fitted.push_back(fit.function.threshold);
             continue;
         }
@@ -65,16 +65,16 @@ bool holds(Method method, int people, SeededRandom& random, double& off) {
             const bool isCorrect = random.chance(observer.probability(level.levelDb()));
             trials.push_back({method == Method::quest ? LevelTrial::Kind::quest : LevelTrial::Kind::staircase,
                               std::to_string(p), "c", "", level.levelDb(), isCorrect ? 1.0 : 0.0, "s",
-                              session.quest ? questWords(*session.quest, 0.5) : std::string{}});
+                              session.quest ? questText(*session.quest, 0.5) : std::string{}});
             level.answer(isCorrect);
         }
         if (method == Method::staircase) // two down, one up comes to 70.7 %
-            truth = meanThreshold + observer.levelOf(std::sqrt(0.5)) - observer.threshold;
+            truth = meanThreshold + observer.levelAt(std::sqrt(0.5)) - observer.threshold;
     }
     if (method == Method::constant) {
         const Moments interval{fitted};
         off += interval.mean - truth;
-        return interval.least() <= truth && truth <= interval.most();
+        return interval.lowerLimit() <= truth && truth <= interval.upperLimit();
     }
     const LevelSummary summary = summariseLevels(trials).front();
     off += summary.estimate - truth;

@@ -31,20 +31,20 @@ TEST(Experiment, TrainingShowsEveryPatternAndTheMainSessionEachOnce) {
         trial.session == 0 ? ++felt[answer.response] : ++asked[trial.stimulus];
     EXPECT_EQ(felt.size(), 28u);
     EXPECT_EQ(asked.size(), 28u);
-    EXPECT_EQ(records[28].trial.restSeconds, 120.0);
-    EXPECT_EQ(records[29].trial.restSeconds, 0.0);
+    EXPECT_EQ(records[28].trial.breakSeconds, 120.0);
+    EXPECT_EQ(records[29].trial.breakSeconds, 0.0);
 }
 
 TEST(Experiment, WhoExploresSaysWhenTheTrainingEndsAndAFileOfItGoesOnThere) {
     const auto felt = [](Experiment& experiment, int touches) {
         std::vector<TrialRecord> records;
-        for (int n = 0; n < touches; ++n) records.push_back(experiment.take({.place = FieldPlace{0.5, 0.5}}));
+        for (int n = 0; n < touches; ++n)
+            records.push_back(experiment.acceptAnswer({.place = FieldPlace{0.5, 0.5}}));
         return records;
     };
-    const auto p =
-        protocolOf(GridSet{2, 2},
-                   {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 3},
-                    {.name = "main", .task = StudyTask::locate}});
+    const auto p = protocolOf(
+        GridSet{2, 2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore, .minTouches = 3},
+                        {.name = "main", .task = StudyTask::locate}});
     Experiment experiment{p, {}, true};
     auto records = felt(experiment, 2);
     EXPECT_FALSE(experiment.mayEnd());
@@ -55,11 +55,11 @@ TEST(Experiment, WhoExploresSaysWhenTheTrainingEndsAndAFileOfItGoesOnThere) {
     EXPECT_EQ(experiment.session().name, "main");
     for (auto& record : felt(experiment, 1)) records.push_back(record);
     Experiment again{p, {}, true};
-    for (const auto& record : records) ASSERT_EQ(again.redo(record), "");
+    for (const auto& record : records) ASSERT_EQ(again.replay(record), "");
     EXPECT_EQ(again.trial().number, 2);
     Experiment soon{p, {}, true};
-    ASSERT_EQ(soon.redo(records[0]), "");
-    EXPECT_EQ(soon.redo(records[5]), "expected the session training") << "too early";
+    ASSERT_EQ(soon.replay(records[0]), "");
+    EXPECT_EQ(soon.replay(records[5]), "expected the session training") << "too early";
 }
 
 TEST(Experiment, ABreakLiesBetweenConditionsAsBeforeSessions) {
@@ -70,7 +70,7 @@ TEST(Experiment, ABreakLiesBetweenConditionsAsBeforeSessions) {
     p.conditionBreakSeconds = 60.0;
     std::vector<double> rests;
     for (const auto& record : answered(p))
-        if (record.trial.number == 1) rests.push_back(record.trial.restSeconds);
+        if (record.trial.number == 1) rests.push_back(record.trial.breakSeconds);
     EXPECT_EQ(rests, (std::vector<double>{0.0, 120.0, 60.0, 120.0}));
 }
 
@@ -87,38 +87,39 @@ TEST(Experiment, OrdersDifferByParticipantAndRepeatBySeed) {
 TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
     const auto whole = answered(patterns);
     Experiment experiment{patterns, {"P02", 2}};
-    for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
-    EXPECT_TRUE(experiment.redo(whole[28]).starts_with("expected the stimulus "))
+    for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.replay(whole[i]), "");
+    EXPECT_TRUE(experiment.replay(whole[28]).starts_with("expected the stimulus "))
         << "the other participant's order";
-    EXPECT_EQ(experiment.redo(whole[29]), "expected trial 1");
-    EXPECT_EQ(experiment.trialsTaken(), 28);
+    EXPECT_EQ(experiment.replay(whole[29]), "expected trial 1");
+    EXPECT_EQ(experiment.answeredTrials(), 28);
     auto broken = whole[0];
     broken.answer.response = "Z-100";
-    EXPECT_NE(Experiment(patterns, {}).redo(broken), "");
+    EXPECT_NE(Experiment(patterns, {}).replay(broken), "");
 }
 
 TEST(Experiment, AnswersAreCheckedByTask) {
     const auto protocol = protocolOf(GridSet{2, 2}, {{.name = "main", .task = StudyTask::locate}});
     Experiment experiment{protocol, {}};
-    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.0}}), "");
-    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.1}}), "expected a place on the field");
-    EXPECT_EQ(experiment.refusal({.place = FieldPlace{std::nan(""), 0.0}}), "expected a place on the field");
-    EXPECT_EQ(experiment.refusal({.response = "1,1"}), "expected a place on the field");
-    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 0.5}, .plays = 0}),
+    EXPECT_EQ(experiment.answerError({.place = FieldPlace{0.5, 1.0}}), "");
+    EXPECT_EQ(experiment.answerError({.place = FieldPlace{0.5, 1.1}}), "expected a place on the field");
+    EXPECT_EQ(experiment.answerError({.place = FieldPlace{std::nan(""), 0.0}}),
+              "expected a place on the field");
+    EXPECT_EQ(experiment.answerError({.response = "1,1"}), "expected a place on the field");
+    EXPECT_EQ(experiment.answerError({.place = FieldPlace{0.5, 0.5}, .plays = 0}),
               "expected that the stimulus was felt");
 }
 
 TEST(Experiment, FreeTouchesAreCountedNotListed) {
-    const auto p = protocolOf(
-        GridSet{7, 5},
-        {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 100},
-         {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
+    const auto p =
+        protocolOf(GridSet{7, 5},
+                   {{.name = "training", .isTraining = true, .task = StudyTask::explore, .minTouches = 100},
+                    {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
     const auto records = answered(p);
     EXPECT_EQ(records.size(), 100u + 175u);
     EXPECT_TRUE(records.front().answer.place);
-    EXPECT_TRUE(callsOf(p, records.front()).starts_with("stimulus phantom --at "))
-        << callsOf(p, records.front());
-    EXPECT_TRUE(callsOf(p, records.back()).starts_with("stimulus phantom --grid 7x5 --cell "));
+    EXPECT_TRUE(resolvedCalls(p, records.front()).starts_with("stimulus phantom --at "))
+        << resolvedCalls(p, records.front());
+    EXPECT_TRUE(resolvedCalls(p, records.back()).starts_with("stimulus phantom --grid 7x5 --cell "));
 }
 
 TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
@@ -137,8 +138,8 @@ TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
     std::map<std::pair<std::string, std::string>, int> seen;
     for (std::size_t i = 0; i < 54; ++i) ++seen[{records[i].trial.stimulus, records[i].trial.parts.front()}];
     EXPECT_EQ(seen.size(), 54u);
-    EXPECT_EQ(callsOf(p, records.front()).find('{'), std::string::npos);
-    EXPECT_TRUE(has(callsOf(p, records.front()), " ; "));
+    EXPECT_EQ(resolvedCalls(p, records.front()).find('{'), std::string::npos);
+    EXPECT_TRUE(has(resolvedCalls(p, records.front()), " ; "));
 }
 
 TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
@@ -157,9 +158,9 @@ TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
     Experiment experiment{p, {}};
     std::map<std::string, double> sums;
     while (experiment.trial().task == StudyTask::adjust) {
-        const double db = experiment.trial().stimulus == "a" ? -6.0 + experiment.trialsTaken() : 3.0;
+        const double db = experiment.trial().stimulus == "a" ? -6.0 + experiment.answeredTrials() : 3.0;
         sums[experiment.trial().stimulus] += db;
-        experiment.take({.value = db});
+        experiment.acceptAnswer({.value = db});
     }
     EXPECT_NEAR(*experiment.adjustedDb(0, "matching", "a"), sums["a"] / 2, 1e-12);
     EXPECT_FALSE(experiment.adjustedDb(0, "matching", "z"));
@@ -168,7 +169,7 @@ TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
         for (std::size_t i = 0; i < 2; ++i)
             EXPECT_NEAR(trial.partLevelsDb[i], trial.parts[i] == "RM" ? sums[trial.stimulus] / 2 : 0.0,
                         1e-12);
-        experiment.take({.response = "RM"});
+        experiment.acceptAnswer({.response = "RM"});
     }
 }
 
@@ -179,7 +180,7 @@ TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
         .repetitions = 20,
         .alternatives = {{"RM"}, {"SV"}},
         .adjustment = Adjustment{
-            .alternative = "RM", .stepDb = 2.0, .leastDb = -10.0, .mostDb = 5.0, .startsAnywhere = true}};
+            .alternative = "RM", .stepDb = 2.0, .minDb = -10.0, .maxDb = 5.0, .hasRandomStart = true}};
     const auto p =
         protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching});
     std::set<double> starts;
@@ -200,7 +201,7 @@ TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
                      .alternatives = {{"RM"}, {"SV", 1.0}},
                      .levelsFile = "levels.csv"};
     auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {main});
-    EXPECT_EQ(levelsFault(p), "levels.csv: expected a level of A, a, found none");
+    EXPECT_EQ(levelsError(p), "levels.csv: expected a level of A, a, found none");
     using Kind = LevelTrial::Kind;
     std::vector<LevelTrial> experts;
     // E1 twice
@@ -211,21 +212,21 @@ TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
     ASSERT_EQ(p.levels.size(), 2u);
     EXPECT_EQ(p.levels[0].levelDb, -3.0) << "everybody counts once";
     EXPECT_EQ(p.levels[0].participants, 2u);
-    EXPECT_EQ(levelsFault(p), "");
+    EXPECT_EQ(levelsError(p), "");
     for (const auto& record : answered(p))
         for (std::size_t i = 0; i < 2; ++i)
             EXPECT_EQ(record.trial.partLevelsDb[i], record.trial.parts[i] == "SV"  ? 1.0
                                                     : record.trial.stimulus == "a" ? -3.0
                                                                                    : 3.0);
     p.levels = averageLevels(experts, "AV");
-    EXPECT_EQ(levelsFault(p), "levels.csv: expected levels of an alternative of session main, found AV");
+    EXPECT_EQ(levelsError(p), "levels.csv: expected levels of an alternative of session main, found AV");
 }
 
 TEST(Experiment, RatingsWaitForEveryObject) {
     SessionPlan main{.name = "main",
                      .task = StudyTask::rate,
                      .repetitions = 10,
-                     .leastSeconds = 10.0,
+                     .minSeconds = 10.0,
                      .breakEvery = 20,
                      .breakSeconds = 120.0,
                      .objects = {"a", "b", "c"},
@@ -236,19 +237,19 @@ TEST(Experiment, RatingsWaitForEveryObject) {
     TrialProgress progress{experiment.session(), experiment.trial()};
     for (std::size_t part = 0; part < 3; ++part) {
         EXPECT_FALSE(progress.canAnswer());
-        progress.played(part);
-        progress.spent(part, 9.0);
+        progress.addPlay(part);
+        progress.addSeconds(part, 9.0);
         EXPECT_FALSE(progress.canAnswer());
-        progress.spent(part, 1.0);
+        progress.addSeconds(part, 1.0);
     }
     EXPECT_TRUE(progress.canAnswer());
     EXPECT_EQ(progress.plays(), 3);
-    EXPECT_NE(experiment.refusal({.scores = {50, 50}}), "");
-    EXPECT_NE(experiment.refusal({.scores = {50, 50, 101}}), "");
+    EXPECT_NE(experiment.answerError({.scores = {50, 50}}), "");
+    EXPECT_NE(experiment.answerError({.scores = {50, 50, 101}}), "");
     const auto records = answered(p);
     ASSERT_EQ(records.size(), 80u);
     int breaks = 0;
-    for (const auto& r : records) breaks += r.trial.restSeconds > 0.0;
+    for (const auto& r : records) breaks += r.trial.breakSeconds > 0.0;
     EXPECT_EQ(breaks, 3);
 }
 
@@ -258,27 +259,27 @@ TEST(Experiment, WordsMayBeEmptyWhereTheProtocolSaysSo) {
                                   {{.name = "main", .task = StudyTask::describe, .mayBeEmpty = mayBeEmpty}});
         ASSERT_EQ(validate(p), "");
         const Experiment experiment{p, {}};
-        EXPECT_EQ(experiment.refusal({}), mayBeEmpty ? "" : "expected words, found none");
-        EXPECT_EQ(experiment.refusal({.response = std::string(4000, 'x')}), "");
-        EXPECT_EQ(experiment.refusal({.response = std::string(4001, 'x')}),
+        EXPECT_EQ(experiment.answerError({}), mayBeEmpty ? "" : "expected words, found none");
+        EXPECT_EQ(experiment.answerError({.response = std::string(4000, 'x')}), "");
+        EXPECT_EQ(experiment.answerError({.response = std::string(4001, 'x')}),
                   "expected at most 4000 bytes of words");
     }
 }
 
 TEST(Experiment, APlayThatWasLostIsOwedAndCountsForNothing) {
-    const SessionPlan session{.mostPlays = 2, .leastSeconds = 1.0};
+    const SessionPlan session{.maxPlays = 2, .minSeconds = 1.0};
     TrialProgress progress{session, {}};
-    progress.played(0);
-    progress.spent(0, 1.0);
+    progress.addPlay(0);
+    progress.addSeconds(0, 1.0);
     EXPECT_TRUE(progress.canAnswer());
-    progress.played(0);
-    progress.lost(0);
+    progress.addPlay(0);
+    progress.revokePlay(0);
     EXPECT_FALSE(progress.canAnswer()) << "though it was felt before";
     EXPECT_TRUE(progress.canPlay(0));
     EXPECT_EQ(progress.plays(), 1);
-    EXPECT_EQ(progress.again(), 1);
-    progress.played(0);
-    progress.spent(0, 1.0);
+    EXPECT_EQ(progress.revokedPlays(), 1);
+    progress.addPlay(0);
+    progress.addSeconds(0, 1.0);
     EXPECT_TRUE(progress.canAnswer());
     EXPECT_FALSE(progress.canPlay(0));
 }
@@ -288,7 +289,7 @@ TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     plan.alternative = "stronger";
     plan.startDb = 10.0;
     plan.reversals = 60;
-    plan.mostTrials = 5000;
+    plan.maxTrials = 5000;
     Staircase stairs{plan, plan.startDb};
     SeededRandom random{5};
     constexpr double noiseDb = 3.0; // of either of two levels: 70.7 % at 0.545 sqrt(2) noise

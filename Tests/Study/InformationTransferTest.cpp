@@ -25,7 +25,7 @@ TEST(InformationTransfer, OfPerfectAnswersIsLog2OfTheirNumber) {
             EXPECT_NEAR(it.bits, std::log2(count), 1e-12);
             EXPECT_NEAR(it.bits, bits, 0.005);
             EXPECT_EQ(it.biasBits, 0.0) << "nothing varies";
-            EXPECT_NEAR(it.leastBits, it.bits, 1e-12) << "Fano's bound is tight";
+            EXPECT_NEAR(it.minBits, it.bits, 1e-12) << "Fano's bound is tight";
         }
 }
 
@@ -35,7 +35,7 @@ TEST(InformationTransfer, OfIndependentAnswersIsZero) {
         for (int r = 0; r < 9; ++r) trials.push_back({std::to_string(s), std::to_string(r)});
     const auto it = informationTransfer(ConfusionMatrix{trials});
     EXPECT_NEAR(it.bits, 0.0, 1e-12);
-    EXPECT_EQ(it.leastBits, 0.0);
+    EXPECT_EQ(it.minBits, 0.0);
     EXPECT_EQ(it.correctedBits(), 0.0);
 }
 
@@ -44,7 +44,7 @@ TEST(InformationTransfer, OfNothingOrOneStimulusIsZeroAndNoNumberIsMissing) {
          {std::vector<IdentificationTrial>{}, {{"a", "a"}}, {{"a", "b"}}, {{"a", "b"}, {"a", "c"}}}) {
         const auto it = informationTransfer(ConfusionMatrix{trials});
         EXPECT_EQ(it.bits, 0.0);
-        EXPECT_TRUE(std::isfinite(it.biasBits) && std::isfinite(it.leastBits) && std::isfinite(it.mostBits) &&
+        EXPECT_TRUE(std::isfinite(it.biasBits) && std::isfinite(it.minBits) && std::isfinite(it.maxBits) &&
                     std::isfinite(it.trialsPerCell));
     }
 }
@@ -60,11 +60,11 @@ TEST(InformationTransfer, FanosBoundHoldsWhereResponsesAreNoStimulus) {
         for (int i = 0; i < 20; ++i) trials.push_back({stimulus, i < 3 ? stimulus : "none"});
     const auto it = informationTransfer(ConfusionMatrix{trials});
     EXPECT_NEAR(it.bits, 0.15, 1e-12);
-    EXPECT_LE(it.leastBits, it.bits);
+    EXPECT_LE(it.minBits, it.bits);
     for (int i = 0; i < 400; ++i) trials.push_back({"a", "a"}), trials.push_back({"b", "b"});
     const auto most = informationTransfer(ConfusionMatrix{trials});
-    EXPECT_LE(most.leastBits, most.bits);
-    EXPECT_GT(most.leastBits, 0.7) << "a bound that says something";
+    EXPECT_LE(most.minBits, most.bits);
+    EXPECT_GT(most.minBits, 0.7) << "a bound that says something";
 }
 
 /// A channel with a known transition matrix: on a line of `size` places, a normal blur of `blur` places.
@@ -120,8 +120,8 @@ Errors meanErrors(const Channel& channel, double perCell, int runs) {
         e.plain += (it.bits - truth) / runs;
         e.miller += (it.bits - miller - truth) / runs;
         e.corrected += (it.correctedBits() - truth) / runs;
-        e.bound += (it.leastBits - truth) / runs;
-        if (it.leastBits > truth) ++e.boundTooHigh;
+        e.bound += (it.minBits - truth) / runs;
+        if (it.minBits > truth) ++e.boundTooHigh;
     }
     return e;
 }
@@ -210,8 +210,8 @@ TEST(ConfusionMatrix, ToleranceCountsNeighboursAsTheStimulus) {
 
 PercentCounts printed(const thesis::Counts& one) {
     return {std::string{one.condition},
-            thesis::countRows,
-            thesis::countColumns,
+            thesis::printedRows,
+            thesis::printedColumns,
             {one.percent.begin(), one.percent.end()}};
 }
 
@@ -241,7 +241,7 @@ TEST(PercentCounts, TheThresholdIsInclusive) {
 }
 
 TEST(PercentCounts, MergedCellsAreSums) {
-    const auto grid = merged(phoneLinear, perceptualResolution(phoneLinear).ties.front());
+    const auto grid = mergedCounts(phoneLinear, perceptualResolution(phoneLinear).ties.front());
     EXPECT_NEAR(grid.at(0, 0), 6.05, 1e-9); // as printed in Fig. 4.9 (b)
     EXPECT_NEAR(grid.at(1, 0), 1.61, 1e-9);
     EXPECT_NEAR(grid.at(4, 4), 5.77, 1e-9); // printed 5.78, from figures that were not yet rounded
@@ -267,7 +267,7 @@ std::pair<std::size_t, std::size_t> bruteForce(const PercentCounts& counts, doub
         for (unsigned c = 0; c < 1u << (counts.columns - 1); ++c) {
             const GridMerge merge{groups(counts.columns, c), groups(counts.rows, r)};
             const std::size_t cells = merge.columnGroups.size() * merge.rowGroups.size();
-            const auto grid = merged(counts, merge);
+            const auto grid = mergedCounts(counts, merge);
             if (std::ranges::any_of(grid.percent, [=](double p) { return p < least - 1e-9; }) || cells < best)
                 continue;
             ties = cells > best ? 1 : ties + 1;

@@ -72,10 +72,10 @@ TEST(SimulatedObserver, AnswersGridsAsItsModelSays) {
 TEST(SimulatedObserver, PullAndOffsetMoveWhatIsFelt) {
     ObserverSettings settings;
     settings.placeBlur = 1e-9;
-    settings.pullToMiddle = 1.0;
+    settings.centralTendency = 1.0;
     for (const auto& trial : mainTrials(identification(GridSet{3, 3}, 1), settings, 1))
         EXPECT_EQ(trial.response, "2,2");
-    settings.pullToMiddle = 0.0;
+    settings.centralTendency = 0.0;
     settings.offsetX = 0.5;
     for (const auto& trial : mainTrials(identification(GridSet{3, 1}, 1), settings, 1))
         EXPECT_EQ(trial.response, trial.stimulus == "1,1" ? "1,2" : "1,3");

@@ -67,10 +67,10 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
                                          "target_y=true_y", "x=touch_x",         "y=touch_y"};
     const auto read = as(words, readPlaces);
     ASSERT_TRUE(read) << read.error;
-    ASSERT_EQ(read.value.conditions.front().trials.size(), 40u);
+    ASSERT_EQ(read.value.groups.front().trials.size(), 40u);
     EXPECT_EQ(read.value.warnings.front(),
               "t.csv: rows left out, with nothing in one of the named columns: 1");
-    for (const ParticipantError& one : participantErrors(read.value.conditions.front().trials)) {
+    for (const ParticipantError& one : participantErrors(read.value.groups.front().trials)) {
         EXPECT_DOUBLE_EQ(one.distance, 5.0) << one.participant;
         EXPECT_NEAR(one.gainX, 1.0, 1e-12);
     }
@@ -79,14 +79,14 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
               "places` takes targets on no grid");
     const std::vector<std::string> line{"target_x=true_x", "x=touch_x"}; // and places as names
     const auto one = as(line, readPlaces);
-    EXPECT_EQ(one.value.conditions.front().trials.front().target, "100");
+    EXPECT_EQ(one.value.groups.front().trials.front().target, "100");
     EXPECT_EQ(as({"target_x=true_x", "x=touch_x", "y=touch_y"}, readPlaces).error,
               "t.csv: expected both columns target_y and y, or none of them, found y");
-    EXPECT_EQ(unitFault(parseColumnNames(line).value), "");
-    EXPECT_EQ(unitFault(parseColumnNames(std::vector<std::string>{"x=touch_x:0:1230", "y=touch_y"}).value),
+    EXPECT_EQ(unitError(parseColumnNames(line).value), "");
+    EXPECT_EQ(unitError(parseColumnNames(std::vector<std::string>{"x=touch_x:0:1230", "y=touch_y"}).value),
               "--columns: expected a range of both x and y, or of none of them, as they are compared");
     EXPECT_EQ(
-        unitFault(parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value),
+        unitError(parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value),
         "--columns: expected a range of both x and target_x, or of none of them, as they are compared");
 }
 
@@ -99,10 +99,10 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
                        "P1,b,main,locate,\"1,4\",4,1,1,0.5,stimulus phantom --grid 4x2\n";
     const auto read = readOne(readPlaces, text, "t.csv");
     ASSERT_TRUE(read) << read.error;
-    ASSERT_EQ(read.value.conditions.size(), 2u);
-    EXPECT_EQ(read.value.conditions[0].trials,
+    ASSERT_EQ(read.value.groups.size(), 2u);
+    EXPECT_EQ(read.value.groups[0].trials,
               (std::vector<PlaceTrial>{{"P1", "2,1", 0.125, 0.75, 0.225, 0.85}}));
-    EXPECT_EQ(read.value.conditions[1].trials, (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
+    EXPECT_EQ(read.value.groups[1].trials, (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
         << "corners unless the call says middles";
     ASSERT_EQ(read.value.warnings.size(), 1u);
     EXPECT_TRUE(has(read.value.warnings[0], "shares of the field's width and height"));
@@ -145,7 +145,7 @@ std::vector<LocationTrial> cloud(int column, int row, double x, double y, double
 
 TEST(ResponseMap, MeansAndSampleCovariances) {
     const auto made = responseNormals({{1, 1, 0.1, 0.2}, {1, 1, 0.3, 0.2}, {1, 1, 0.2, 0.5}});
-    ASSERT_EQ(made.fault, "");
+    ASSERT_EQ(made.error, "");
     const PlaceNormal& n = made.normals.front();
     EXPECT_NEAR(n.meanX, 0.2, 1e-12);
     EXPECT_NEAR(n.meanY, 0.3, 1e-12);
@@ -189,9 +189,9 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     for (int i = 0; i < 5; ++i) trials.push_back({3, 1, 0.8 + 0.01 * i, 0.4 + 0.02 * i}); // on one line
     for (int i = 0; i < 5; ++i) trials.push_back({5, 1, 0.95, 0.5});                      // all the same
     const auto made = resolveCondition("sparse", trials);
-    ASSERT_EQ(made.normals.fault, "");
-    EXPECT_FALSE(made.normals.normals[0].isBorrowed);
-    for (const std::size_t i : {1u, 2u, 4u}) EXPECT_TRUE(made.normals.normals[i].isBorrowed) << i;
+    ASSERT_EQ(made.normals.error, "");
+    EXPECT_FALSE(made.normals.normals[0].usesPooledCovariance);
+    for (const std::size_t i : {1u, 2u, 4u}) EXPECT_TRUE(made.normals.normals[i].usesPooledCovariance) << i;
     EXPECT_EQ(made.normals.warnings.size(), 4u) << "three that borrow, and column 4 without a response";
     for (const double percent : made.counts.percent) EXPECT_TRUE(std::isfinite(percent));
     EXPECT_EQ(made.counts.percent[3], 0.0);
@@ -199,9 +199,9 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
 }
 
 TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {
-    EXPECT_NE(responseNormals({}).fault, "");
-    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}}).fault, "");
-    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}, {1, 1, 0.5, 0.5}, {2, 1, 0.6, 0.5}, {2, 1, 0.6, 0.5}}).fault,
+    EXPECT_NE(responseNormals({}).error, "");
+    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}}).error, "");
+    EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}, {1, 1, 0.5, 0.5}, {2, 1, 0.6, 0.5}, {2, 1, 0.6, 0.5}}).error,
               "");
     EXPECT_TRUE(resolveCondition("none", {}).counts.percent.empty());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Protocols as JSON, and the thesis' studies as protocols.
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/Words.h"
+#include "Lab/Files/Translation.h"
 #include "Support/Has.h"
 #include "Support/Studies.h"
 #include <gtest/gtest.h>
@@ -57,9 +57,9 @@ TEST(ProtocolFile, AWorldIsASceneThatIsWatchedAndMayHaveHands) {
     const auto watched = worldOf(R"("call": "render drop --set pair={pair}")"),
                played = worldOf(R"("call": "render box-study --set pair={pair}", "hands": true)");
     ASSERT_TRUE(watched && played) << watched.error << played.error;
-    EXPECT_FALSE(std::get<WorldSet>(watched.value.conditions[0].stimuli).hasHands);
-    EXPECT_TRUE(std::get<WorldSet>(played.value.conditions[0].stimuli).hasHands);
-    EXPECT_EQ(stimuliOf(played.value.conditions[0]).front().label, "wood-wood");
+    EXPECT_FALSE(std::get<WorldSet>(watched.value.conditions[0].stimuli).isInteractive);
+    EXPECT_TRUE(std::get<WorldSet>(played.value.conditions[0].stimuli).isInteractive);
+    EXPECT_EQ(conditionStimuli(played.value.conditions[0]).front().label, "wood-wood");
     EXPECT_EQ(worldOf(R"("call": "stimulus phantom --at 0.5,0.5 {pair}")").error,
               "p.json: conditions[0].call: expected render and a scene, which a world needs");
 }
@@ -173,19 +173,20 @@ TEST(ProtocolFile, TheThesisStudiesHaveTheirNumbersOfTrials) {
 const std::string wordsHead = R"({"physvib_words": 1, "name": "xx", "language": "X", "texts": )";
 
 TEST(Words, ATextThatIsNotThereStaysEnglish) {
-    const auto words = readWords(wordsHead + R"({"Begin": "Los", "trial {n}": "{n}. Versuch"}})", "x.json");
+    const auto words =
+        readTranslation(wordsHead + R"({"Begin": "Los", "trial {n}": "{n}. Versuch"}})", "x.json");
     ASSERT_TRUE(words) << words.error;
-    EXPECT_EQ(words.value.of("Begin"), "Los");
-    EXPECT_EQ(words.value.of("Close"), "Close");
-    EXPECT_TRUE(findWords("en").value.texts.empty());
+    EXPECT_EQ(words.value.translate("Begin"), "Los");
+    EXPECT_EQ(words.value.translate("Close"), "Close");
+    EXPECT_TRUE(findTranslation("en").value.texts.empty());
     std::string names = "en";
-    for (const Words& one : builtInWords()) names += ", " + one.name;
-    EXPECT_EQ(findWords("xx").error, "no words \"xx\"; expected " + names + " or a file");
+    for (const Translation& one : builtInTranslations()) names += ", " + one.name;
+    EXPECT_EQ(findTranslation("xx").error, "no words \"xx\"; expected " + names + " or a file");
 }
 
 TEST(Words, FaultsAreNamedByTheirText) {
     const auto fault = [](const std::string& texts) {
-        return readWords(wordsHead + texts + "}", "x.json").error;
+        return readTranslation(wordsHead + texts + "}", "x.json").error;
     };
     EXPECT_EQ(fault(R"({"trial {n}": "Versuch"})"),
               "x.json: texts.trial {n}: expected the same names in braces as in the English text");
@@ -194,8 +195,8 @@ TEST(Words, FaultsAreNamedByTheirText) {
 }
 
 TEST(Words, EachLanguageHasAllThatBuiltInProtocolsAsk) {
-    ASSERT_FALSE(builtInWords().empty());
-    for (const Words& words : builtInWords()) {
+    ASSERT_FALSE(builtInTranslations().empty());
+    for (const Translation& words : builtInTranslations()) {
         const auto expect = [&](const std::string& text) {
             EXPECT_TRUE(text.empty() || words.texts.contains(text)) << words.name << ": " << text;
         };

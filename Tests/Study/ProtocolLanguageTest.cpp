@@ -32,10 +32,10 @@ TEST(ProtocolLanguage, AVariableFollowsTheLevelInEveryCall) {
     EXPECT_EQ(readProtocol(protocolJson(read.value), "again").value, read.value);
     Experiment experiment{read.value, {}};
     const Trial trial = experiment.trial();
-    const auto jobs = jobsOf(read.value, {trial, {}});
+    const auto jobs = trialJobs(read.value, {trial, {}});
     ASSERT_EQ(jobs.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-        const std::string& call = std::get<WrittenCall>(jobs[i]).words;
+        const std::string& call = std::get<ResolvedCall>(jobs[i]).words;
         const char* hz = trial.parts[i] == "higher" ? "--frequency 251.785082 " : "--frequency 200 ";
         EXPECT_TRUE(has(call, hz));
     }
@@ -61,7 +61,7 @@ TEST(ProtocolLanguage, MoreThan512LevelsAreSpreadEvenlyOverTheirRange) {
     stairs.upRatio = 2.7182818; // steps that do not divide one another
     std::vector<double> levels;
     for (const PlannedStimulus& s : plannedStimuli(protocol)) {
-        EXPECT_EQ(s.isSpread, s.part == "higher");
+        EXPECT_EQ(s.isEvenlySpaced, s.part == "higher");
         if (s.part == "higher") levels.push_back(s.levelDb);
     }
     ASSERT_EQ(levels.size(), 513u);
@@ -69,7 +69,7 @@ TEST(ProtocolLanguage, MoreThan512LevelsAreSpreadEvenlyOverTheirRange) {
     EXPECT_EQ(levels.back(), 4.0);
     for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_NEAR(levels[i] - levels[i - 1], 4.0 / 512, 1e-12);
     for (const PlannedStimulus& s : plannedStimuli(readProtocol(frequencies(), "own").value))
-        EXPECT_FALSE(s.isSpread);
+        EXPECT_FALSE(s.isEvenlySpaced);
 }
 
 TEST(ProtocolLanguage, LevelsThatWereSetMayBeAnyBetweenTheirEnds) {
@@ -105,8 +105,8 @@ TEST(ProtocolLanguage, NamesAndFieldsThatCannotBeAreRefusedWithTheirPlace) {
 // Kaernbach 1991: one down, one up, steps up three times as large: 3 (1 - p) = p at 75 %.
 TEST(ProtocolLanguage, AWeightedStaircaseComesToThreeQuarters) {
     StaircasePlan plan;
-    plan.startDb = 20.0, plan.leastDb = -40.0, plan.stepDb = plan.leastStepDb = 0.25;
-    plan.upRatio = 3.0, plan.down = 1, plan.reversals = 100, plan.mostTrials = 10000;
+    plan.startDb = 20.0, plan.minDb = -40.0, plan.stepDb = plan.minStepDb = 0.25;
+    plan.upRatio = 3.0, plan.down = 1, plan.reversals = 100, plan.maxTrials = 10000;
     double sum = 0.0;
     constexpr int runs = 60;
     for (int run = 0; run < runs; ++run) {
@@ -128,20 +128,20 @@ TEST(ProtocolLanguage, EqualRmsAndEnergyAreThoseOfTheSamples) {
                 squares += std::exp(-2.0 * decay * seconds * (i + 0.5) / steps) * seconds / steps;
             PhantomJob job{FieldPlace{0.5, 0.5}, PanningLaw::linear, 1.0, seconds, decay};
             EXPECT_EQ(job.peakFactor(205.0), 1.0);
-            job.levelOf = LevelOf::rms;
+            job.levelMeasure = LevelMeasure::rms;
             EXPECT_NEAR(job.peakFactor(205.0) * std::sqrt(squares / seconds), 1.0, 1e-6);
-            job.levelOf = LevelOf::energy;
+            job.levelMeasure = LevelMeasure::energy;
             EXPECT_NEAR(job.peakFactor(205.0) * std::sqrt(squares), 1.0, 1e-6);
         }
     StimulusJob plain{PhantomJob{FieldPlace{0.5, 0.5}}};
     EXPECT_FALSE(has(textOf(plain), "--decay")) << "rows of before stay the same";
-    std::get<PhantomJob>(plain.what).decayPerSecond = 30.0;
-    std::get<PhantomJob>(plain.what).levelOf = LevelOf::energy;
+    std::get<PhantomJob>(plain.stimulus).decayPerSecond = 30.0;
+    std::get<PhantomJob>(plain.stimulus).levelMeasure = LevelMeasure::energy;
     EXPECT_TRUE(has(textOf(plain), "--decay 30 --level-of energy --seconds 1"));
 }
 
 TEST(ProtocolLanguage, EqualWeightedLevelsAreThoseOfTheWeightedSamples) {
-    PhantomJob job{.at = FieldPlace{0.5, 0.5}, .levelOf = LevelOf::weighted};
+    PhantomJob job{.target = FieldPlace{0.5, 0.5}, .levelMeasure = LevelMeasure::weighted};
     constexpr int rate = 192000;
     for (const double hz : {12.5, 40.0, 205.0, 1000.0})
         for (const double decay : {0.0, 30.0, 300.0})
@@ -175,7 +175,8 @@ TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {
 
 std::vector<std::string> wordsOf(const Protocol& protocol, const TrialRecord& record) {
     std::vector<std::string> words;
-    for (const TrialJob& job : jobsOf(protocol, record)) words.push_back(std::get<WrittenCall>(job).words);
+    for (const TrialJob& job : trialJobs(protocol, record))
+        words.push_back(std::get<ResolvedCall>(job).words);
     return words;
 }
 
@@ -194,7 +195,7 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
         EXPECT_EQ(trial.partLevelsDb[0], trial.partLevelsDb[1]) << "both rove together";
         EXPECT_LE(std::abs(trial.partLevelsDb[0]), 3.0);
         roved.insert(trial.partLevelsDb[0]);
-        const auto record = experiment.take({.response = trial.number % 4 ? "higher" : "standard"});
+        const auto record = experiment.acceptAnswer({.response = trial.number % 4 ? "higher" : "standard"});
         EXPECT_EQ(isCorrect(protocol, record), trial.number % 4 != 0);
         rows += trialRow(protocol, {}, record);
     }
@@ -203,7 +204,7 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
     const NamedText file{rows, "rows.csv"};
     const auto answers = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
     ASSERT_TRUE(answers) << answers.error;
-    EXPECT_EQ(answers.value.conditions.front().trials.size(), 100u);
+    EXPECT_EQ(answers.value.groups.front().trials.size(), 100u);
     std::set<double> levels;
     for (const PlannedStimulus& s : plannedStimuli(protocol)) levels.insert(s.levelDb);
     EXPECT_EQ(*levels.begin(), -3.0);
@@ -217,7 +218,7 @@ std::vector<TrialRecord> ranThrough(const Protocol& protocol) {
     const std::string rows = trialFile(protocol, {}, records);
     Experiment again{protocol, {}};
     for (const TrialRecord& record : readTrialLog(rows, "rows.csv", protocol, {}).value.records)
-        EXPECT_EQ(again.redo(record), "");
+        EXPECT_EQ(again.replay(record), "");
     EXPECT_TRUE(again.isDone()) << rows;
     return records;
 }
@@ -228,11 +229,11 @@ TEST(ProtocolLanguage, AQuestionnaireIsAskedOncePerConditionAndFeelsNothing) {
     for (const TrialRecord& record : ranThrough(protocol))
         if (record.trial.task == StudyTask::rate) {
             ++asked;
-            EXPECT_TRUE(record.trial.stimulus.empty() && jobsOf(protocol, record).empty());
+            EXPECT_TRUE(record.trial.stimulus.empty() && trialJobs(protocol, record).empty());
             EXPECT_TRUE(TrialProgress(protocol.sessions[1], record.trial).canAnswer());
         }
     EXPECT_EQ(asked, 2) << "conditions";
-    EXPECT_EQ(mostTrialsOf(protocol.sessions[1], 14), 1);
+    EXPECT_EQ(maxSessionTrials(protocol.sessions[1], 14), 1);
 }
 
 TEST(ProtocolLanguage, PointsAreWholeNumbers) {
@@ -240,7 +241,7 @@ TEST(ProtocolLanguage, PointsAreWholeNumbers) {
     ranThrough(protocol);
     for (const auto& [score, fits] :
          {std::pair{0.0, false}, {1.0, true}, {3.5, false}, {7.0, true}, {8.0, false}})
-        EXPECT_EQ(Experiment(protocol, {}).refusal({.scores = {score, 4.0}}).empty(), fits) << score;
+        EXPECT_EQ(Experiment(protocol, {}).answerError({.scores = {score, 4.0}}).empty(), fits) << score;
 }
 
 TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
@@ -248,31 +249,31 @@ TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
     for (SessionPlan& session : points.sessions) session.answerSeconds = 1.5;
     std::set<bool> outcomes;
     for (const TrialRecord& record : ranThrough(points)) {
-        EXPECT_EQ(record.answer.scores.empty(), record.answer.ranOut);
-        EXPECT_TRUE(!record.answer.ranOut || record.answer.seconds == 1.5);
-        outcomes.insert(record.answer.ranOut);
+        EXPECT_EQ(record.answer.scores.empty(), record.answer.timedOut);
+        EXPECT_TRUE(!record.answer.timedOut || record.answer.seconds == 1.5);
+        outcomes.insert(record.answer.timedOut);
     }
     EXPECT_EQ(outcomes.size(), 2u);
     Protocol steps = findProtocol("level-steps").value;
-    EXPECT_NE(Experiment(steps, {}).refusal({.ranOut = true}), "") << "time is not limited";
+    EXPECT_NE(Experiment(steps, {}).answerError({.timedOut = true}), "") << "time is not limited";
     steps.sessions.front().answerSeconds = 2.0;
     Experiment experiment{steps, {}};
     std::string rows = trialHeader(steps, {}, "0");
     for (int n = 1; !experiment.isDone(); ++n) {
         const double before = experiment.trial().levelDb;
-        const Answer answer = n % 3 == 0 ? Answer{.ranOut = true} : Answer{.response = "standard"};
-        ASSERT_EQ(experiment.refusal(answer), "");
-        const TrialRecord record = experiment.take(answer);
+        const Answer answer = n % 3 == 0 ? Answer{.timedOut = true} : Answer{.response = "standard"};
+        ASSERT_EQ(experiment.answerError(answer), "");
+        const TrialRecord record = experiment.acceptAnswer(answer);
         rows += trialRow(steps, {}, record);
-        EXPECT_EQ(isCorrect(steps, record).has_value(), !record.answer.ranOut);
+        EXPECT_EQ(isCorrect(steps, record).has_value(), !record.answer.timedOut);
         if (n % 3 == 0 && !experiment.isDone()) EXPECT_EQ(experiment.trial().levelDb, before);
     }
     Experiment again{steps, {}};
     const auto log = readTrialLog(rows, "rows.csv", steps, {});
-    for (const TrialRecord& record : log.value.records) ASSERT_EQ(again.redo(record), "");
+    for (const TrialRecord& record : log.value.records) ASSERT_EQ(again.replay(record), "");
     EXPECT_EQ(log.value.records.size(), 299u) << "200 answers";
     const auto levels = readOne(readLevels, rows, "rows.csv");
-    EXPECT_EQ(levels.value.conditions.front().trials.size(), 200u);
+    EXPECT_EQ(levels.value.groups.front().trials.size(), 200u);
     EXPECT_EQ(levels.value.warnings,
               std::vector<std::string>{"rows.csv: left out: 99 trials ran out of time, without an answer"});
     steps.sessions.front().staircase.reset(), steps.sessions.front().task = StudyTask::adjust;
@@ -289,7 +290,7 @@ TEST(ProtocolLanguage, SideBySideTheReferenceComesOpenlyAndHidden) {
         EXPECT_TRUE(has(calls[0], "--frequency 200 "));
         EXPECT_EQ(std::ranges::count(calls, calls[0]), 2);
         EXPECT_EQ(record.answer.scores.size(), 4u);
-        orders.insert(callsOf(protocol, record).substr(calls[0].size()));
+        orders.insert(resolvedCalls(protocol, record).substr(calls[0].size()));
     }
     EXPECT_GT(orders.size(), 4u);
 }
@@ -301,7 +302,7 @@ TEST(ProtocolLanguage, PairsAreEveryTwoStimuliInBothOrders) {
         const auto calls = wordsOf(protocol, record);
         ASSERT_EQ(calls.size(), 2u);
         EXPECT_NE(calls[0], calls[1]);
-        EXPECT_TRUE(all.insert(callsOf(protocol, record)).second);
+        EXPECT_TRUE(all.insert(resolvedCalls(protocol, record)).second);
     }
     EXPECT_EQ(all.size(), 30u);
 }
@@ -326,12 +327,12 @@ TEST(ProtocolLanguage, AnswersAreOfOneIntervalAndAVariableRovesAlone) {
         levels.insert(record.trial.roveDb);
     }
     EXPECT_GT(levels.size(), 10u);
-    EXPECT_TRUE(movedBesideStrength(roved.conditions[0], true).empty()) << "what roves is the strength";
+    EXPECT_TRUE(nonGainVariables(roved.conditions[0], true).empty()) << "what roves is the strength";
     Protocol mixed = roved;
     mixed.conditions.push_back(roved.conditions[0]);
     mixed.conditions[1].name = "other";
     EXPECT_EQ(validate(mixed), "");
-    for (auto& variable : std::get<CallSet>(mixed.conditions[1].stimuli).variables) variable.roves = false;
+    for (auto& variable : std::get<CallSet>(mixed.conditions[1].stimuli).variables) variable.isRoving = false;
     EXPECT_EQ(validate(mixed), "conditions: expected a variable that roves in each of them, or in none");
 }
 
@@ -345,7 +346,7 @@ TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {
         ASSERT_TRUE(shown == "yes" || shown == "no") << shown;
         EXPECT_TRUE(has(wordsOf(protocol, {experiment.trial(), {}})[0],
                         shown == "yes" ? "--level-g 0.05" : "--level-g 0.001"));
-        experiment.take({.response = trials != 3 ? shown : shown == "yes" ? "no" : "yes"});
+        experiment.acceptAnswer({.response = trials != 3 ? shown : shown == "yes" ? "no" : "yes"});
     }
     EXPECT_EQ(trials, 4 + 6) << "the fourth answer was wrong";
     EXPECT_EQ(experiment.sessionTrials(), 80);
@@ -370,19 +371,19 @@ TEST(ProtocolLanguage, InterleavedStaircasesAreMixedAndEachGoesItsOwnWay) {
         changes += !records.empty() && records.back().trial.staircase != trial.staircase ? 1 : 0;
         const bool isRight = random.chance(trial.levelDb > 3.0 ? 0.95 : 0.6);
         own.answer(isRight);
-        records.push_back(experiment.take({.response = isRight ? "stronger" : "standard"}));
+        records.push_back(experiment.acceptAnswer({.response = isRight ? "stronger" : "standard"}));
         rows += trialRow(protocol, {}, records.back());
     }
     EXPECT_TRUE(alone[0].isDone() && alone[1].isDone());
     EXPECT_GT(changes, records.size() / 4) << "trials are mixed";
     const auto levels = readOne(readLevels, rows, "rows.csv");
     ASSERT_TRUE(levels) << levels.error;
-    const auto summary = summariseLevels(levels.value.conditions.front().trials).front();
+    const auto summary = summariseLevels(levels.value.groups.front().trials).front();
     EXPECT_NEAR(summary.estimate, 0.5 * (thresholdDb(alone[0]) + thresholdDb(alone[1])), 0.5);
     Experiment resumed{protocol, {}};
     const auto log = readTrialLog(rows, "rows.csv", protocol, {});
     ASSERT_TRUE(log) << log.error;
-    for (const TrialRecord& record : log.value.records) ASSERT_EQ(resumed.redo(record), "");
+    for (const TrialRecord& record : log.value.records) ASSERT_EQ(resumed.replay(record), "");
     EXPECT_TRUE(resumed.isDone());
     Protocol wrong = protocol;
     wrong.sessions.front().staircase->startsDb[1] = 12.0;
@@ -398,7 +399,7 @@ TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {
         ASSERT_EQ(calls.size(), 2u);
         EXPECT_TRUE(has(calls[0], "--level-g 0.2"));
         EXPECT_TRUE(has(calls[1], "--level-g " + trial.stimulus));
-        experiment.take({.value = 10.0});
+        experiment.acceptAnswer({.value = 10.0});
     }
     double plays = 0.0;
     for (const PlannedTrials& planned : plannedTrials(protocol)) plays += planned.count;
@@ -412,7 +413,7 @@ TEST(ProtocolLanguage, FactorsMayBeLeftOutAndFieldsThatDoNotFitAreRefused) {
     text.replace(text.find("{s}"), 3, "0.3");
     const auto read = readProtocol(text, "own");
     ASSERT_TRUE(read) << read.error;
-    EXPECT_EQ(stimuliOf(read.value.conditions.front()).size(), 1u);
+    EXPECT_EQ(conditionStimuli(read.value.conditions.front()).size(), 1u);
     Protocol wrong = example("frequency-constant");
     const auto fault = [&](auto edit) {
         Protocol edited = wrong;
@@ -427,7 +428,7 @@ TEST(ProtocolLanguage, FactorsMayBeLeftOutAndFieldsThatDoNotFitAreRefused) {
             "expected {level_db} or a variable"));
     EXPECT_TRUE(has(fault([](S& s, C&) { s.modulus = "210"; }), "modulus: expected it of"));
     EXPECT_TRUE(has(fault([](S& s, C&) { s.correct = {}, s.untilCorrect = 3; }), "until_correct: expected"));
-    EXPECT_TRUE(has(fault([](S&, C& c) { c.factors[0].otherwise = {}; }), "alternative and otherwise"));
+    EXPECT_TRUE(has(fault([](S&, C& c) { c.factors[0].otherValue = {}; }), "alternative and otherwise"));
     EXPECT_TRUE(has(fault([](S&, C& c) { c.factors[0].labels = {"a"}; }), "a label of each value"));
     wrong = example("strength-modulus");
     EXPECT_TRUE(has(fault([](S& s, C&) { s.modulus = "9"; }), "expected the modulus of session main"));
@@ -446,7 +447,7 @@ protected:
         Answer one;
         one.value = 10.0;
         one.apparatus = with("1 2 3 4", "5 6");
-        ASSERT_TRUE(study.take(one)) << study.error();
+        ASSERT_TRUE(study.acceptAnswer(one)) << study.error();
     }
 };
 
@@ -455,18 +456,18 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     {
         StudyInProgress study{run()};
         ASSERT_EQ(study.error(), "");
-        ASSERT_EQ(study.begin(with("1 2 3 4", "5 6")), "");
+        ASSERT_EQ(study.logStart(with("1 2 3 4", "5 6")), "");
         answer(study);
-        ASSERT_EQ(study.note(studyEvents::rest), "");
+        ASSERT_EQ(study.logEvent(studyEvents::breakStart), "");
     }
     {
         StudyInProgress study{run()};
         ASSERT_EQ(study.error(), "");
-        EXPECT_TRUE(has(study.apparatusFault(with("1 2 3 7", "5 6")),
+        EXPECT_TRUE(has(study.apparatusError(with("1 2 3 7", "5 6")),
                         "expected the outputs as in the trials before, 1 2 3 4, found 1 2 3 7"));
-        EXPECT_TRUE(has(study.apparatusFault(with("1 2 3 4", "7 8")), "the outputs of the noise"));
-        ASSERT_EQ(study.apparatusFault(with("1 2 3 4", "5 6")), "");
-        ASSERT_EQ(study.begin(with("1 2 3 4", "5 6")), "");
+        EXPECT_TRUE(has(study.apparatusError(with("1 2 3 4", "7 8")), "the outputs of the noise"));
+        ASSERT_EQ(study.apparatusError(with("1 2 3 4", "5 6")), "");
+        ASSERT_EQ(study.logStart(with("1 2 3 4", "5 6")), "");
     }
     const auto times = loadStudyTimes(timesPathOf(run().trialFile()));
     ASSERT_TRUE(times) << times.error;
@@ -476,7 +477,7 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     EXPECT_EQ(times.value[2].event, "resume");
     EXPECT_EQ(times.value[2].trials, 1);
     EXPECT_EQ(times.value[2].language, "ko");
-    for (const StudyMoment& m : times.value) EXPECT_GT(secondsOf(m.timeUtc), 1.7e9) << m.timeUtc;
+    for (const StudyEvent& m : times.value) EXPECT_GT(unixSeconds(m.timeUtc), 1.7e9) << m.timeUtc;
     EXPECT_FALSE(has(contentOf(run().trialFile()), "5 6"));
 }
 
@@ -484,36 +485,36 @@ TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {
     StudyRun one = run();
     one.protocol.sessions.front().breakBeforeSeconds = 600.0;
     const auto timesWith = [&](std::vector<std::pair<std::string, std::string>> events) {
-        std::vector<StudyMoment> moments;
+        std::vector<StudyEvent> moments;
         for (auto& [time, event] : events) moments.push_back({time, event, 0, {}, {}, {}});
         ASSERT_EQ(writeStudyTimes(timesPathOf(one.trialFile()), moments), "");
     };
-    EXPECT_EQ(StudyInProgress{one}.restLeft(), 600.0);
-    EXPECT_FALSE(StudyInProgress{one}.hasRested());
+    EXPECT_EQ(StudyInProgress{one}.remainingBreakSeconds(), 600.0);
+    EXPECT_FALSE(StudyInProgress{one}.hasBreakBegun());
     timesWith({{utcNow(), "start"}, {utcNow(), "break"}, {utcNow(), "pause"}});
-    EXPECT_NEAR(StudyInProgress{one}.restLeft(), 595.0, 5.0);
-    EXPECT_TRUE(StudyInProgress{one}.isResting());
+    EXPECT_NEAR(StudyInProgress{one}.remainingBreakSeconds(), 595.0, 5.0);
+    EXPECT_TRUE(StudyInProgress{one}.isOnBreak());
     timesWith(
         {{utcNow(), "start"}, {"2026-01-01T00:00:00Z", "break"}, {utcNow(), "pause"}, {utcNow(), "go-on"}});
-    EXPECT_EQ(StudyInProgress{one}.restLeft(), 0.0);
-    EXPECT_TRUE(StudyInProgress{one}.isResting()) << "that go-on ended the pause";
+    EXPECT_EQ(StudyInProgress{one}.remainingBreakSeconds(), 0.0);
+    EXPECT_TRUE(StudyInProgress{one}.isOnBreak()) << "that go-on ended the pause";
     StudyInProgress study{one};
-    ASSERT_EQ(study.note(studyEvents::goOn), "");
-    EXPECT_FALSE(study.isResting());
+    ASSERT_EQ(study.logEvent(studyEvents::goOn), "");
+    EXPECT_FALSE(study.isOnBreak());
     while (!study.experiment().isDone()) answer(study);
     for (const std::string_view event : {studyEvents::end, studyEvents::resume, studyEvents::end})
-        ASSERT_EQ(study.note(event), "");
+        ASSERT_EQ(study.logEvent(event), "");
     const auto times = loadStudyTimes(timesPathOf(one.trialFile()));
     ASSERT_EQ(times.value.size(), 6u);
     EXPECT_EQ(times.value.back().event, "end");
 }
 
 TEST(StudyTimes, SecondsAreThoseOfTheCalendar) {
-    EXPECT_EQ(secondsOf("1970-01-01T00:00:00Z"), 0.0);
-    EXPECT_EQ(secondsOf("2026-11-24T14:02:31Z"), 1795528951.0);
+    EXPECT_EQ(unixSeconds("1970-01-01T00:00:00Z"), 0.0);
+    EXPECT_EQ(unixSeconds("2026-11-24T14:02:31Z"), 1795528951.0);
     for (const char* wrong :
          {"", "2026-02-30T00:00:00Z", "2026-11-24 14:02:31Z", "2026-11-24T24:00:00Z", "x026-11-24T14:02:31Z"})
-        EXPECT_TRUE(std::isnan(secondsOf(wrong))) << wrong;
+        EXPECT_TRUE(std::isnan(unixSeconds(wrong))) << wrong;
 }
 
 } // namespace physvib::protocol_language_test

@@ -4,7 +4,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyTasks.h"
 #include "Support/Has.h"
@@ -136,7 +136,7 @@ TEST(Protocol, OnlyRatingsHaveScores) {
 TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
     const auto check = [](StimulusSet set, std::size_t count, const char* first) {
         const ConditionPlan condition{"A", "", "phone4", 205.0, 1.0, std::move(set)};
-        const auto items = stimuliOf(condition);
+        const auto items = conditionStimuli(condition);
         EXPECT_EQ(items.size(), count);
         EXPECT_EQ(stimulusCount(condition), static_cast<double>(count));
         EXPECT_EQ(items.front().label, first);
@@ -253,7 +253,7 @@ TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsLowestAndHighestLevel) {
     for (const PlannedStimulus& s : planned)
         EXPECT_EQ(s.levelDb, s.part == "SV" ? -8.0 : s.isHighest ? -2.0 : -38.0) << s.part;
     const TrialJob job = planned.front().job(builtIn("model-or-sound"));
-    EXPECT_TRUE(has(std::get<WrittenCall>(job).words, "--level-db -38"));
+    EXPECT_TRUE(has(std::get<ResolvedCall>(job).words, "--level-db -38"));
     EXPECT_EQ(plannedStimuli(builtIn("patterns")).size(), 2u * (28u + 78u + 168u));
     EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
 }
@@ -269,7 +269,7 @@ TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
     }
     const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;
     for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps")))
-        EXPECT_EQ(s.levelDb, s.part == staircase.alternative && s.isHighest ? staircase.mostDb : 0.0);
+        EXPECT_EQ(s.levelDb, s.part == staircase.alternative && s.isHighest ? staircase.maxDb : 0.0);
 }
 
 TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
@@ -277,7 +277,7 @@ TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
     const PlannedTime time = plannedTime(builtIn("model-or-sound"), second);
     EXPECT_EQ(time.trials, 27 + 108);
     EXPECT_NEAR(time.seconds, 135 * (2.0 + PlannedTime::answerSeconds) + 180.0, 1e-6);
-    EXPECT_NEAR(time.longestStretchSeconds, (27 + 54) * (2.0 + PlannedTime::answerSeconds), 1e-6);
+    EXPECT_NEAR(time.maxStretchSeconds, (27 + 54) * (2.0 + PlannedTime::answerSeconds), 1e-6);
     double trials = 0.0;
     for (const PlannedTrials& planned : plannedTrials(builtIn("model-or-sound")))
         trials += planned.part == "SV" ? planned.count : 0;
@@ -301,20 +301,20 @@ TEST(StudyPlan, ASquareOfFourIsBalancedForFourAndNotForFive) {
     const Protocol square = four(Protocol::ConditionOrder::latinSquare);
     const OrderBalance whole = orderBalance(square, 4);
     EXPECT_TRUE(whole.isBalanced());
-    EXPECT_EQ(whole.fewestAtPlace, 1);
+    EXPECT_EQ(whole.minAtPosition, 1);
     EXPECT_EQ(whole.possibleSuccessions, 12);
     EXPECT_FALSE(orderBalance(square, 5).isBalanced());
     const OrderBalance given = orderBalance(four(Protocol::ConditionOrder::given), 8);
-    EXPECT_EQ(given.fewestAtPlace, 0);
-    EXPECT_EQ(given.mostAtPlace, 8);
+    EXPECT_EQ(given.minAtPosition, 0);
+    EXPECT_EQ(given.maxAtPosition, 8);
     EXPECT_EQ(given.successions, 3);
 }
 
 // Stimuli as values: what is wrong with one, and the words that make it again.
 
 std::string faultText(const StimulusJob& job) {
-    const JobFault fault = faultOf(job);
-    return fault ? fault.words() : std::string{};
+    const JobError fault = jobError(job);
+    return fault ? fault.text() : std::string{};
 }
 
 TEST(StimulusJob, ItsWordsAreThoseOfTheProgram) {

@@ -16,9 +16,9 @@ TEST(Psychometric, ThresholdAndWidthMeanTheSameForEveryShape) {
     for (const auto shape : shapes) {
         const PsychometricFunction f{shape, 3.0, 4.0, 0.5, 0.02};
         EXPECT_NEAR(f.probability(3.0), 0.5 + 0.48 * 0.5, 1e-12);
-        EXPECT_NEAR(f.levelOf(0.5 + 0.48 * 0.95) - f.levelOf(0.5 + 0.48 * 0.05), 4.0, 1e-9);
-        EXPECT_NEAR(f.probability(f.levelOf(0.8)), 0.8, 1e-12);
-        EXPECT_NEAR(f.jnd(), 0.5 * (f.levelOf(0.5 + 0.48 * 0.75) - f.levelOf(0.5 + 0.48 * 0.25)), 1e-9);
+        EXPECT_NEAR(f.levelAt(0.5 + 0.48 * 0.95) - f.levelAt(0.5 + 0.48 * 0.05), 4.0, 1e-9);
+        EXPECT_NEAR(f.probability(f.levelAt(0.8)), 0.8, 1e-12);
+        EXPECT_NEAR(f.jnd(), 0.5 * (f.levelAt(0.5 + 0.48 * 0.75) - f.levelAt(0.5 + 0.48 * 0.25)), 1e-9);
     }
 }
 
@@ -28,7 +28,7 @@ TEST(Psychometric, WithoutGuessesItIsTheModelOfRsGlm) {
                  widths[] = {13.441199548498, 12.836988906085, 14.1962160473825};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto fit = fitPsychometric(counts, {shapes[i], 0.0, 0.0});
-        ASSERT_EQ(fit.fault, "");
+        ASSERT_EQ(fit.error, "");
         EXPECT_NEAR(fit.function.threshold, thresholds[i], 1e-4);
         EXPECT_NEAR(fit.function.width, widths[i], 1e-3);
     }
@@ -49,14 +49,14 @@ std::vector<LevelCount> observed(const PsychometricFunction& truth, std::uint64_
 }
 
 TEST(Psychometric, WhatCannotBeFittedIsNamed) {
-    EXPECT_EQ(fitPsychometric({}, {shapes[0]}).fault, "expected trials, found none");
+    EXPECT_EQ(fitPsychometric({}, {shapes[0]}).error, "expected trials, found none");
     const std::vector<LevelCount> one{{2, 3, 5}}, flat{{1, 5, 5}, {2, 7, 7}};
-    EXPECT_EQ(fitPsychometric(one, {shapes[0]}).fault, "expected trials at two or more levels, found one");
-    EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).fault,
+    EXPECT_EQ(fitPsychometric(one, {shapes[0]}).error, "expected trials at two or more levels, found one");
+    EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).error,
               "expected answers that change with the level, found the same share at every one");
-    EXPECT_NE(fitPsychometric(std::vector<LevelCount>{{1, 5, 5}, {2, 0, 5}}, {shapes[2]}).fault, "");
+    EXPECT_NE(fitPsychometric(std::vector<LevelCount>{{1, 5, 5}, {2, 0, 5}}, {shapes[2]}).error, "");
     const auto faultOf = [](const std::vector<LevelCount>& counts, double guess) {
-        return fitPsychometric(counts, {shapes[0], guess}).fault;
+        return fitPsychometric(counts, {shapes[0], guess}).error;
     };
     EXPECT_EQ(faultOf({{1, 9, 10}, {2, 6, 10}, {3, 2, 10}}, 0.0),
               "the share of answers does not rise with the level");
@@ -67,7 +67,7 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
           {{{1, 10, 22}, {2, 9, 22}, {3, 18, 22}, {4, 22, 22}}, 2.963}, // 2.927 to 3 are as likely
           {{{1, 5, 10}, {2, 5, 10}, {3, 5, 10}, {4, 9, 10}}, 3.5}}) {   // with the most lapses
         const auto fit = fitPsychometric(between, {shapes[0]});
-        EXPECT_TRUE(fit.fault.empty() && !fit.hasJnd) << fit.fault;
+        EXPECT_TRUE(fit.error.empty() && !fit.hasJnd) << fit.error;
         EXPECT_NEAR(fit.function.threshold, threshold, 0.003);
     }
     EXPECT_EQ(faultOf({{1, 4, 40}, {2, 7, 40}, {3, 10, 40}}, 0.0).find("the fitted threshold lies"), 0u);
@@ -93,7 +93,7 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
             widths += truth.width;
         }
         const auto interval = Moments(thresholds);
-        held += interval.least() < 5.0 && 5.0 < interval.most();
+        held += interval.lowerLimit() < 5.0 && 5.0 < interval.upperLimit();
     }
     EXPECT_LT(std::abs(off), 0.02 * widths);
     EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
@@ -102,8 +102,8 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
 TEST(Moments, FewParticipantsHaveAnIntervalToo) {
     const std::vector<double> two{1, 3}, same{2, 2, 2};
     EXPECT_NEAR(Moments(two).halfInterval(), 12.706204736174698, 1e-9);
-    EXPECT_EQ(Moments(same).least(), 2.0);
-    EXPECT_EQ(Moments(std::span{two}.first(1)).most(), 1.0);
+    EXPECT_EQ(Moments(same).lowerLimit(), 2.0);
+    EXPECT_EQ(Moments(std::span{two}.first(1)).upperLimit(), 1.0);
     for (const auto& [df, quantile] : {std::pair{1u, 12.706204736174698},
                                        {2u, 4.3026527297494637},
                                        {11u, 2.2009851600916388},
@@ -121,10 +121,10 @@ TEST(PowerLaw, ExponentAndFactorComeBack) {
     const auto law = fitPowerLaw(trials);
     EXPECT_NEAR(law.exponent, 0.55, 1e-12);
     EXPECT_NEAR(law.factor, 4.0, 1e-12);
-    EXPECT_NEAR(law.determination, 1.0, 1e-12);
-    EXPECT_EQ(fitPowerLaw(std::span{trials}.first(1)).fault, "expected magnitudes of two or more levels");
+    EXPECT_NEAR(law.rSquared, 1.0, 1e-12);
+    EXPECT_EQ(fitPowerLaw(std::span{trials}.first(1)).error, "expected magnitudes of two or more levels");
     trials[0].answer = 0.0;
-    EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
+    EXPECT_EQ(fitPowerLaw(trials).error, "expected levels and magnitudes > 0");
 }
 
 } // namespace physvib::psychometric_test

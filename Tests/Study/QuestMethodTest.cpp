@@ -22,10 +22,10 @@ Protocol withSession(SessionPlan session) {
 }
 
 const QuestMethod method{.alternative = "stronger",
-                         .mostDb = 30.0,
+                         .maxDb = 30.0,
                          .stepDb = 1.0,
-                         .leastWidthDb = 3.0,
-                         .mostWidthDb = 12.0,
+                         .minWidthDb = 3.0,
+                         .maxWidthDb = 12.0,
                          .trials = 40};
 
 Protocol questProtocol(const QuestMethod& quest) { return withSession({.quest = quest}); }
@@ -37,7 +37,7 @@ std::vector<TrialRecord> recordsOf(const Protocol& p, const PsychometricFunction
     std::vector<TrialRecord> records;
     while (!experiment.isDone()) {
         const bool isRight = random.chance(truth.probability(experiment.trial().levelDb));
-        records.push_back(experiment.take({.response = isRight ? "stronger" : "standard"}));
+        records.push_back(experiment.acceptAnswer({.response = isRight ? "stronger" : "standard"}));
     }
     return records;
 }
@@ -52,7 +52,7 @@ std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<Trial
             record.trial.stimulus,       record.trial.levelDb, *isCorrect(p, record) ? 1.0 : 0.0};
         if (const auto& quest = p.sessions[0].quest) {
             trial.kind = LevelTrial::Kind::quest;
-            trial.quest = questWords(*quest, p.sessions[0].guessRate());
+            trial.quest = questText(*quest, p.sessions[0].guessRate());
         }
         trials.push_back(std::move(trial));
     }
@@ -72,8 +72,8 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
     const Protocol stairs = withSession({.staircase = StaircasePlan{.alternative = "stronger",
                                                                     .startDb = 25.0,
                                                                     .stepDb = 4.0,
-                                                                    .leastStepDb = 1.0,
-                                                                    .mostDb = 30.0,
+                                                                    .minStepDb = 1.0,
+                                                                    .maxDb = 30.0,
                                                                     .reversals = 12}});
     SeededRandom random{21, "observers"};
     double stairsSquares = 0.0, questSquares = 0.0;
@@ -87,8 +87,8 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
         const Protocol quest = questProtocol(shorter);
         const auto byQuest = recordsOf(quest, truth, number);
         stairsTrials += byStairs.size(), questTrials += byQuest.size();
-        if (const auto found = summaryOf(stairs, byStairs); found.leftOut.empty()) // two down, one up
-            stairsSquares += std::pow(found.estimate - truth.levelOf(std::sqrt(0.5)), 2);
+        if (const auto found = summaryOf(stairs, byStairs); found.excluded.empty()) // two down, one up
+            stairsSquares += std::pow(found.estimate - truth.levelAt(std::sqrt(0.5)), 2);
         questSquares += std::pow(summaryOf(quest, byQuest).estimate - truth.threshold, 2);
     }
     EXPECT_LE(questTrials, 2 * stairsTrials / 3);
@@ -100,8 +100,7 @@ PsychometricFunction plannedObserver(SeededRandom& random) {
     // seven widths, each for half a step to either side
     const double share = (7.0 * random.uniform() - 0.5) / 6.0;
     return {PsychometricShape::weibull, -0.5 + 31.0 * random.uniform(),
-            method.leastWidthDb * std::pow(method.mostWidthDb / method.leastWidthDb, share), 0.5,
-            method.lapse};
+            method.minWidthDb * std::pow(method.maxWidthDb / method.minWidthDb, share), 0.5, method.lapse};
 }
 
 TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
@@ -113,7 +112,7 @@ TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
         for (int number = 1; number <= 500; ++number) {
             const PsychometricFunction truth = draw(random);
             const LevelSummary summary = summaryOf(p, recordsOf(p, truth, number));
-            if (!summary.leftOut.empty()) continue; // at an end of the levels: told, and no threshold
+            if (!summary.excluded.empty()) continue; // at an end of the levels: told, and no threshold
             ++observers;
             off += summary.estimate - truth.threshold;
             widths += truth.width;
@@ -134,10 +133,10 @@ TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
     ASSERT_EQ(records.size(), 40u);
     for (std::size_t cut = 0; cut < records.size(); cut += 13) {
         Experiment experiment{p, {}};
-        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(records[i]), "");
+        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.replay(records[i]), "");
         for (std::size_t i = cut; i < records.size(); ++i) {
             EXPECT_EQ(experiment.trial().partLevelsDb, records[i].trial.partLevelsDb);
-            EXPECT_EQ(experiment.take(observer.answer(experiment)).answer, records[i].answer);
+            EXPECT_EQ(experiment.acceptAnswer(observer.answer(experiment)).answer, records[i].answer);
         }
     }
 }
@@ -147,7 +146,7 @@ TEST(QuestMethod, ARowOfAnotherLevelIsAnotherAnswer) {
     EXPECT_EQ(Experiment(p, {}).sessionTrials(), 40);
     TrialRecord moved = answered(p).front();
     moved.trial.levelDb += 1.0;
-    EXPECT_TRUE(Experiment(p, {}).redo(moved).starts_with("expected the level "));
+    EXPECT_TRUE(Experiment(p, {}).replay(moved).starts_with("expected the level "));
 }
 
 TEST(QuestMethod, EndsOnceTheThresholdIsKnownWellEnough) {
@@ -213,7 +212,7 @@ TEST(QuestMethod, SeveralPeopleTellTheWidthTogether) {
 }
 
 TEST(QuestMethod, ItsWordsAreThePlan) {
-    const std::string words = questWords(method, 0.5);
+    const std::string words = questText(method, 0.5);
     EXPECT_EQ(words, "weibull guess 0.5 lapse 0.02 levels_db 0 1 30 widths_db 3 12");
     const auto plan = questPlan(words);
     ASSERT_TRUE(plan);
@@ -237,9 +236,9 @@ TEST(QuestMethod, WhatMakesNoSenseIsRefusedByItsField) {
     };
     EXPECT_EQ(fault([](SessionPlan& s) { s.quest->alternative = "weaker"; }),
               "sessions[0].quest.alternative: expected the name of an alternative");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->mostDb = 0.0; }),
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->maxDb = 0.0; }),
               "sessions[0].quest: expected least_db < most_db");
-    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->leastWidthDb = 13.0; }),
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->minWidthDb = 13.0; }),
               "sessions[0].quest: expected least_width_db <= most_width_db");
     EXPECT_EQ(fault([](SessionPlan& s) { s.quest->stepDb = 0.1; }),
               "sessions[0].quest.step_db: expected at most 201 levels, found 301");

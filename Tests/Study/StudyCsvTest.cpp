@@ -12,16 +12,16 @@ TEST(StudyCsv, TrialsByCondition) {
     const auto data =
         readOne(readIdentification, "condition,stimulus,response,extra\nA,x,y,1\nB,x,x,2\nA,y,y,3\n");
     ASSERT_TRUE(data) << data.error;
-    ASSERT_EQ(data.value.conditions.size(), 2u);
-    EXPECT_EQ(data.value.conditions[0].name, "A");
-    EXPECT_EQ(data.value.conditions[0].trials, (std::vector<IdentificationTrial>{{"x", "y"}, {"y", "y"}}));
+    ASSERT_EQ(data.value.groups.size(), 2u);
+    EXPECT_EQ(data.value.groups[0].name, "A");
+    EXPECT_EQ(data.value.groups[0].trials, (std::vector<IdentificationTrial>{{"x", "y"}, {"y", "y"}}));
     EXPECT_FALSE(data.value.isSimulated);
 }
 
 TEST(StudyCsv, TrialsWithoutAResponseAreLeftOutAndTold) {
     const auto data = readOne(readIdentification, "stimulus,response\nx,x\ny,\nz,\n");
     ASSERT_TRUE(data) << data.error;
-    EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
+    EXPECT_EQ(data.value.groups.front().trials.size(), 1u);
     EXPECT_EQ(data.value.warnings, std::vector<std::string>{"f.csv: 2 trials without a response left out"});
     EXPECT_EQ(readOne(readIdentification, "stimulus,response\ny,\n").error,
               "f.csv: expected trials of this kind, found none");
@@ -36,7 +36,7 @@ TEST(StudyCsv, TrainingAndOtherTasksDoNotCount) {
                               "observer,phase,task,stimulus,response\nsimulated-PHONE,training,identify,x,"
                               "y\nsimulated-PHONE,main,identify,x,x\nsimulated-PHONE,main,rate,x,\n");
     ASSERT_TRUE(data) << data.error;
-    EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
+    EXPECT_EQ(data.value.groups.front().trials.size(), 1u);
     EXPECT_TRUE(data.value.isSimulated);
 }
 
@@ -64,9 +64,9 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
         readRatings, "participant,condition,realism,calm\nP1,a,70,50\nP1,b,7,50\nP2,a,6,50\nP2,b,5,50\n");
     EXPECT_EQ(alike.value.scales, (std::vector<std::string>{"realism", "calm"})) << "of all people one score";
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
-    EXPECT_EQ(ratings.value.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
+    EXPECT_EQ(ratings.value.groups.front().trials.front().scores, (std::vector<double>{70, 80.5}));
     const auto once = readOne(readRatings, "condition,group,stimulus,load\nbare,a,,3\nglove,b,,4\n");
-    EXPECT_EQ(once.value.conditions.front().trials.front().condition, "condition=bare group=a");
+    EXPECT_EQ(once.value.groups.front().trials.front().condition, "condition=bare group=a");
     EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error,
               "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
     EXPECT_EQ(readOne(readRatings, "condition\nA\n").error,
@@ -76,7 +76,7 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
 TEST(StudyCsv, ChoicesByConditionOrStimulus) {
     const auto data = readOne(readChoices, "participant,condition,choice\nP1,wood,RM\nP2,steel,SV\n");
     ASSERT_TRUE(data) << data.error;
-    EXPECT_EQ(data.value.conditions.front().trials[1].condition, "steel");
+    EXPECT_EQ(data.value.groups.front().trials[1].condition, "steel");
     EXPECT_EQ(readOne(readChoices, "condition,choice\nwood,\n").error,
               "f.csv:2: column choice: expected a label, found \"\"");
     EXPECT_EQ(readOne(readChoices, "condition,choice\nh\xf6lzern,a\n").error,
@@ -87,7 +87,7 @@ TEST(StudyCsv, ConditionsAndStimuliAreToldApart) {
     const auto names = [](const char* rows) {
         std::vector<std::string> names;
         const auto data = readOne(readChoices, std::string{"condition,stimulus,choice\n"} + rows);
-        for (const auto& trial : data.value.conditions.front().trials) names.push_back(trial.condition);
+        for (const auto& trial : data.value.groups.front().trials) names.push_back(trial.condition);
         return names;
     };
     EXPECT_EQ(names("low,s,a\nhigh,s,a\n"), (std::vector<std::string>{"low", "high"}));
@@ -107,7 +107,7 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
     };
     const auto data = answers("NA,1,true\nNA,2,FALSE\n01,2,1.0\n01,1,null\n01,1,NA\n");
     ASSERT_TRUE(data) << data.error;
-    const auto& trials = data.value.conditions.front().trials;
+    const auto& trials = data.value.groups.front().trials;
     ASSERT_EQ(trials.size(), 3u) << "null and NA are no answers";
     EXPECT_EQ(trials[0].participant, "NA") << "a code";
     EXPECT_EQ(trials[0].answer + trials[1].answer + 10 * trials[2].answer, 11.0);
@@ -115,14 +115,15 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
         return readOne(readIdentification, "participant,stimulus,response,group\n" + rows).value;
     };
     const auto labels = named("P,null,null,None\nP,a,null,NA\nP,a,NA,g\n");
-    EXPECT_EQ(labels.conditions.front().trials.size(), 2u) << "a stimulus has that name";
+    EXPECT_EQ(labels.groups.front().trials.size(), 2u) << "a stimulus has that name";
     EXPECT_TRUE(labels.warnings.at(1).starts_with("stimuli are named null: that is an answer here"))
         << labels.warnings.at(1);
-    EXPECT_EQ(named("P,b,b,g\nP,a,null,g\n").conditions.front().trials.size(), 1u);
-    EXPECT_TRUE(RowsLeftOut{}.isNoAnswer("group", "NA") && !RowsLeftOut{}.isNoAnswer("group", "None"));
+    EXPECT_EQ(named("P,b,b,g\nP,a,null,g\n").groups.front().trials.size(), 1u);
+    EXPECT_TRUE(ExcludedRows{}.isMissingAnswer("group", "NA") &&
+                !ExcludedRows{}.isMissingAnswer("group", "None"));
     const std::string head =
         "# physvib 1 protocol=p participant=P\nparticipant,condition,session,trial,choice\n";
-    EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,null\n").value.conditions.front().trials.front().choice,
+    EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,null\n").value.groups.front().trials.front().choice,
               "null")
         << "in our own files it is a label";
     EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,a\nP,c,s,2,a\nP,c,s,1,a\n").error,
@@ -135,7 +136,7 @@ TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining
         const NamedText files[] = {{text, "f.csv", names}, {text, "g.csv", names}};
         const auto data = readIdentification({files, 1}), both = readIdentification(files);
         EXPECT_FALSE(both) << "the same table twice";
-        return data ? std::to_string(data.value.conditions.front().trials.size()) : data.error;
+        return data ? std::to_string(data.value.groups.front().trials.size()) : data.error;
     };
     EXPECT_EQ(read("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
               "f.csv:4: column rt: expected each row once, found \"0.643\"");
@@ -153,19 +154,19 @@ TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {
                       two = head + "Q,low,b,adjust,s,,9,,,\nQ,low,d,choose,s,v,,v|w,,\n";
     const NamedText files[] = {{one, "P.csv"}, {two, "Q.csv"}};
     std::string told;
-    for (const LevelSummary& s : summariseLevels(readLevels(files).value.conditions.front().trials))
+    for (const LevelSummary& s : summariseLevels(readLevels(files).value.groups.front().trials))
         told += s.condition + " " + std::to_string(static_cast<int>(s.estimate)) + ", ";
-    for (const ChoiceSummary& s : bySession(readChoices(files).value, summariseChoices))
+    for (const ChoiceSummary& s : summariseSessions(readChoices(files).value, summariseChoices))
         told += s.condition + " " + std::to_string(s.shares.size()) + ", ";
     EXPECT_EQ(told, "low in a 3, low in b 9, all in c 3, all in d 2, ");
-    EXPECT_EQ(readOne(readLevels, one).value.conditions.front().trials.front().condition, "low");
+    EXPECT_EQ(readOne(readLevels, one).value.groups.front().trials.front().condition, "low");
     EXPECT_TRUE(readOne(readLevels, "participant,stimulus,value\nP,1,2\nP,1,\n")) << "no answer";
 }
 
 TEST(StudyCsv, TrainingIsNoThreshold) {
     const std::string head = "participant,condition,session,phase,task,stimulus,level_db,correct,value\n";
     const auto trials = [&](const std::string& rows) {
-        return readOne(readLevels, head + rows).value.conditions.front().trials;
+        return readOne(readLevels, head + rows).value.groups.front().trials;
     };
     EXPECT_EQ(trials("P,c,t,training,choose,s,9,1,\nP,c,m,main,choose,s,1,1,\n").size(), 1u);
     EXPECT_EQ(trials("P,c,o,main,rate,,,,\nP,c,m,main,estimate,s,,,3\n").size(), 1u) << "of no stimulus";
@@ -180,9 +181,9 @@ TEST(StudyCsv, PercentCountsAreReadBackAsWritten) {
     const std::string text = percentCountsCsv(counts, {"0", {{"observer", "simulated"}}});
     const auto data = readOne(readPercentCounts, text);
     ASSERT_TRUE(data) << data.error;
-    ASSERT_EQ(data.value.conditions.size(), 2u);
-    EXPECT_EQ(data.value.conditions[0].trials.front(), counts[0]);
-    EXPECT_EQ(data.value.conditions[1].trials.front(), counts[1]);
+    ASSERT_EQ(data.value.groups.size(), 2u);
+    EXPECT_EQ(data.value.groups[0].trials.front(), counts[0]);
+    EXPECT_EQ(data.value.groups[1].trials.front(), counts[1]);
     EXPECT_TRUE(data.value.isSimulated);
 }
 
@@ -214,7 +215,7 @@ TEST(StudyCsv, TrialsThatDidNotLeaveAreLeftOutAndTold) {
     };
     const auto told = choices("P1,c,a,x,0.1|0.1,JACK:s,1\nP1,c,b,x,0|0,JACK:s,0\nP1,c,b,x,0|0,JACK:s,1\n");
     ASSERT_TRUE(told) << told.error;
-    EXPECT_EQ(told.value.conditions.front().trials.size(), 2u) << "left says more than a peak";
+    EXPECT_EQ(told.value.groups.front().trials.size(), 2u) << "left says more than a peak";
     EXPECT_EQ(told.value.warnings,
               std::vector<std::string>{
                   "f.csv: 1 trial did not leave as planned (column left, or a peak of 0 g) and is left out"});
@@ -222,7 +223,7 @@ TEST(StudyCsv, TrialsThatDidNotLeaveAreLeftOutAndTold) {
                                "P1,c,a,x --level-db -80 ; y,0|0.1,JACK:s,\nP1,c,a,x,0,None:no device,\n"
                                "P1,c,a,x,,,\n");
     ASSERT_TRUE(older) << older.error;
-    EXPECT_EQ(older.value.conditions.front().trials.size(), 4u)
+    EXPECT_EQ(older.value.groups.front().trials.size(), 4u)
         << "silence that was asked for, rehearsals and other programs' trials stay";
     EXPECT_TRUE(has(choices("P1,c,b,x,0|0,JACK:s,0\n").error, "expected trials of this kind, found none"));
 }
@@ -245,7 +246,7 @@ TEST(ColumnNames, ATableOfPsychoPyIsReadByTheNamesThatItHas) {
     const auto read = as(readIdentification, psychopy,
                          {"stimulus=sound", "response=key_resp.keys", "participant=participant"});
     ASSERT_TRUE(read) << read.error;
-    EXPECT_EQ(read.value.conditions.front().trials,
+    EXPECT_EQ(read.value.groups.front().trials,
               (std::vector<IdentificationTrial>{{"A", "A", "7"}, {"B", "A", "7"}}));
     EXPECT_EQ(read.value.warnings,
               std::vector<std::string>{"t.csv: rows left out, with nothing in one of the named columns: 1"});
@@ -271,7 +272,7 @@ TEST(ColumnNames, TruePlacesInPixelsBecomeRowsAndColumns) {
         as(readLocations, text,
            {"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"});
     ASSERT_TRUE(read) << read.error;
-    const auto& trials = read.value.conditions.front().trials;
+    const auto& trials = read.value.groups.front().trials;
     ASSERT_EQ(trials.size(), 3u);
     EXPECT_TRUE(trials[1].targetColumn == 2 && trials[1].targetRow == 1);
     EXPECT_TRUE(trials[2].targetColumn == 1 && trials[2].targetRow == 2);

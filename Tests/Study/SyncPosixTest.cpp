@@ -67,7 +67,7 @@ TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
     const SimulatedObserver observer{*observerNamed("simulated"), protocol, participant};
     for (int i = 0; i < 3; ++i) {
         seen.clear();
-        EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+        EXPECT_TRUE(log.append(experiment.acceptAnswer(observer.answer(experiment))));
         const auto size = std::to_string(fs::file_size(path));
         EXPECT_EQ(seen, (std::vector{size + " bytes, there " + size}));
     }
@@ -75,12 +75,12 @@ TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
     TrialLogFile simulated{folder / "magnitudes-P02.csv", protocol, {"P02", 1, "simulated"}, "1"};
     seen.clear();
     Experiment again{protocol, {"P02", 1, "simulated"}};
-    EXPECT_TRUE(simulated.append(again.take(observer.answer(again))));
+    EXPECT_TRUE(simulated.append(again.acceptAnswer(observer.answer(again))));
     EXPECT_TRUE(seen.empty()) << "who answers the same again";
     EXPECT_TRUE(simulated.sync());
     EXPECT_EQ(seen.size(), 1u);
     test::syncWatcher = [](int) { return errno = EIO, -1; };
-    EXPECT_FALSE(log.append(experiment.take(observer.answer(experiment))));
+    EXPECT_FALSE(log.append(experiment.acceptAnswer(observer.answer(experiment))));
     EXPECT_EQ(log.error(), path.string() + ": cannot be written: Input/output error");
 }
 
@@ -88,7 +88,7 @@ class FailingStudies : public FolderTest {};
 
 TEST_F(FailingStudies, AreToldByTheFileOfTimesAndTheComment) {
     const StudyRun run{findProtocol("magnitudes").value, {"P01", 1}, folder};
-    const auto prepare = [&] { ASSERT_EQ(StudyInProgress{run}.begin({}), ""); };
+    const auto prepare = [&] { ASSERT_EQ(StudyInProgress{run}.logStart({}), ""); };
     const auto afterwards = [&](auto act) {
         return [&run, act] {
             StudyInProgress study{run};
@@ -97,10 +97,10 @@ TEST_F(FailingStudies, AreToldByTheFileOfTimesAndTheComment) {
     };
     // moments differ: the files are not the same from run to run
     test::expectToldByEachFault(
-        folder, prepare, afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }),
-        true);
+        folder, prepare,
+        afterwards([](StudyInProgress& study) { return study.logEvent(studyEvents::breakStart); }), true);
     test::expectToldByEachFault(
-        folder, prepare, afterwards([](StudyInProgress& study) { return study.keepComment("words"); }), true);
+        folder, prepare, afterwards([](StudyInProgress& study) { return study.saveComment("words"); }), true);
 }
 
 TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
@@ -110,17 +110,17 @@ TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
         folder,
         [&] {
             StudyInProgress study{run};
-            ASSERT_TRUE(study.take(observer.answer(study.experiment())));
+            ASSERT_TRUE(study.acceptAnswer(observer.answer(study.experiment())));
         },
         [&] {
             std::string error;
             {
                 StudyInProgress study{run};
-                if (study.error().empty()) study.take(observer.answer(study.experiment()));
+                if (study.error().empty()) study.acceptAnswer(observer.answer(study.experiment()));
                 error = study.error();
             }
             test::disk.call = {};
-            EXPECT_GE(StudyInProgress{run}.trialsBefore(), 1);
+            EXPECT_GE(StudyInProgress{run}.resumedTrials(), 1);
             return error;
         },
         true);
@@ -134,7 +134,7 @@ TEST_F(FailingStudies, AreToldAtTheEndOfASimulatedOne) {
     test::syncWatcher = [](int) { return errno = EIO, -1; };
     bool isTaken = true;
     while (isTaken && !study.experiment().isDone()) {
-        isTaken = study.take(observer.answer(study.experiment()));
+        isTaken = study.acceptAnswer(observer.answer(study.experiment()));
         EXPECT_EQ(isTaken, !study.experiment().isDone());
     }
     test::syncWatcher = nullptr;

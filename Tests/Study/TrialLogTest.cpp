@@ -22,12 +22,12 @@ TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
         const std::string text = wholeFile(p);
         const auto log = readTrialLog(text, "t.csv", p, participant);
         ASSERT_TRUE(log) << p.name << ": " << log.error;
-        EXPECT_EQ(log.value.wholeBytes, text.size());
+        EXPECT_EQ(log.value.completeBytes, text.size());
         Experiment experiment{p, participant};
         std::string again = trialHeader(p, participant, "0");
         for (const TrialRecord& record : log.value.records) {
             const Trial trial = experiment.trial();
-            ASSERT_EQ(experiment.redo(record), "") << p.name;
+            ASSERT_EQ(experiment.replay(record), "") << p.name;
             again += trialRow(p, participant, {trial, record.answer});
         }
         EXPECT_TRUE(experiment.isDone());
@@ -49,7 +49,7 @@ TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
     EXPECT_GT(text.size(), 64u * 1500);
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
-    EXPECT_EQ(log.value.wholeBytes, text.size());
+    EXPECT_EQ(log.value.completeBytes, text.size());
 }
 
 TEST(TrialLog, NumbersThatAnObserverGivesOfAnyLevelAreReadBack) {
@@ -63,7 +63,7 @@ TEST(TrialLog, NumbersThatAnObserverGivesOfAnyLevelAreReadBack) {
     for (const double number : {0.0, 1e-13, 1e13, std::nan(""), HUGE_VAL}) {
         Answer answer;
         answer.value = number;
-        EXPECT_EQ(experiment.refusal(answer), "expected a number from 1e-12 to 1e12");
+        EXPECT_EQ(experiment.answerError(answer), "expected a number from 1e-12 to 1e12");
     }
 }
 
@@ -75,10 +75,10 @@ TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
         const auto log =
             readTrialLog(std::string_view{text}.substr(0, bytes), "t.csv", protocol, participant);
         ASSERT_TRUE(log) << log.error;
-        EXPECT_LE(log.value.wholeBytes, bytes);
+        EXPECT_LE(log.value.completeBytes, bytes);
         EXPECT_LT(log.value.records.size(), rows);
-        if (log.value.wholeBytes > 0) {
-            EXPECT_EQ(text[log.value.wholeBytes - 1], '\n');
+        if (log.value.completeBytes > 0) {
+            EXPECT_EQ(text[log.value.completeBytes - 1], '\n');
         }
     }
 }
@@ -108,10 +108,10 @@ TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
     const Protocol p = findProtocol("level-steps").value;
     Experiment experiment{p, participant};
     Answer answer{.response = "stronger"};
-    answer.felt = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
+    answer.playedLevels = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
     answer.exposure = 0.0123456789;
     const std::string text =
-        trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
+        trialHeader(p, participant, "0") + trialRow(p, participant, experiment.acceptAnswer(answer));
     EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457,,,,,,,\n")) << text;
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
@@ -151,11 +151,11 @@ protected:
         ASSERT_EQ(log.error(), "");
         Experiment experiment{p, participant};
         const SimulatedObserver observer{{}, p, participant};
-        for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
+        for (const auto& record : log.records()) ASSERT_EQ(experiment.replay(record), "");
         while (!experiment.isDone()) {
             Answer answer = observer.answer(experiment);
             change(answer);
-            ASSERT_TRUE(log.append(experiment.take(answer)));
+            ASSERT_TRUE(log.append(experiment.acceptAnswer(answer)));
             EXPECT_EQ(contentOf(path).back(), '\n') << "each row is there at once";
         }
     }
@@ -196,7 +196,7 @@ TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
         goOn(p, [newest = newest](Answer& answer) {
             if (std::string{newest} != ",left,again")
                 answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0};
-            answer.left = true;
+            answer.wasDelivered = true;
         });
         EXPECT_EQ(contentOf(path), old) << newest;
     }
@@ -220,8 +220,8 @@ TEST_F(TrialLogFiles, SayWhetherEveryPartLeftAndGoOnAlike) {
     const Protocol p = findProtocol("level-steps").value;
     int n = 0;
     goOn(p, [&](Answer& answer) {
-        answer.left = ++n % 3 != 0;
-        answer.again = n % 3;
+        answer.wasDelivered = ++n % 3 != 0;
+        answer.revokedPlays = n % 3;
     });
     const std::string text = contentOf(path);
     EXPECT_TRUE(hasAll(text, {",0,0\n", ",1,2\n"}));
@@ -231,8 +231,8 @@ TEST_F(TrialLogFiles, SayWhetherEveryPartLeftAndGoOnAlike) {
     double levelDb = -1.0;
     for (const TrialRecord& record : log.value.records) {
         if (levelDb >= 0.0) EXPECT_EQ(again.trial().levelDb, levelDb) << "what did not leave moves no level";
-        ASSERT_EQ(again.redo(record), "");
-        levelDb = *record.answer.left ? -1.0 : record.trial.levelDb;
+        ASSERT_EQ(again.replay(record), "");
+        levelDb = *record.answer.wasDelivered ? -1.0 : record.trial.levelDb;
     }
     EXPECT_TRUE(again.isDone());
 }
@@ -259,7 +259,7 @@ TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
         TrialLogFile log{path, p, participant, "0"};
         EXPECT_EQ((TrialLogFile{path, p, participant, "0"}.error()),
                   path.string() + ": another program is writing it: the participant's study runs already");
-        EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+        EXPECT_TRUE(log.append(experiment.acceptAnswer(observer.answer(experiment))));
     }
     const TrialLogFile next{path, p, participant, "0"};
     EXPECT_EQ(next.error(), "");
@@ -277,7 +277,7 @@ TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
             TrialLogFile log{path, p, participant, "0"};
             Experiment experiment{p, participant};
             const SimulatedObserver observer{{}, p, participant};
-            while (!experiment.isDone() && log.append(experiment.take(observer.answer(experiment)))) {
+            while (!experiment.isDone() && log.append(experiment.acceptAnswer(observer.answer(experiment)))) {
             }
             EXPECT_EQ(log.error(), path.string() + ": cannot be written: File too large");
         }
@@ -294,7 +294,7 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     const auto summaries = [&text]() -> Result<std::vector<LevelSummary>> {
         const auto levels = readOne(readLevels, text, "t.csv");
         if (!levels) return Failure{levels.error};
-        return summariseLevels(levels.value.conditions.front().trials);
+        return summariseLevels(levels.value.groups.front().trials);
     };
     const auto read = summaries();
     ASSERT_TRUE(read) << read.error;

@@ -17,10 +17,10 @@ TEST(Ratings, OnePersonAmongSeveralHasNoInterval) {
 
 TEST(Proportion, WilsonsIntervalAsTabled) {
     const auto p = proportion(81, 263); // Newcombe 1998: 0.2553 to 0.3662
-    EXPECT_NEAR(p.least, 0.2553, 5e-5);
-    EXPECT_NEAR(p.most, 0.3662, 5e-5);
-    EXPECT_EQ(proportion(0, 10).least, 0.0);
-    EXPECT_NEAR(proportion(10, 10).most * proportion(0, 0).most, 1.0, 1e-12);
+    EXPECT_NEAR(p.lower, 0.2553, 5e-5);
+    EXPECT_NEAR(p.upper, 0.3662, 5e-5);
+    EXPECT_EQ(proportion(0, 10).lower, 0.0);
+    EXPECT_NEAR(proportion(10, 10).upper * proportion(0, 0).upper, 1.0, 1e-12);
 }
 
 TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
@@ -47,8 +47,8 @@ TEST(Votes, SharesAreOfTrialsThatOfferedIt) {
                     trials.push_back(
                         {who, pair, std::string{own}, isTold ? pair.substr(1) + "|" + pair[0] : "", pair});
         const auto summaries = summariseChoices(trials);
-        EXPECT_TRUE(summaries[0].of("A")->trials == 8 && summaries[0].of("A")->share == 0.5);
-        EXPECT_EQ(summaries.back().of("A"), nullptr) << "BC";
+        EXPECT_TRUE(summaries[0].shareOf("A")->trials == 8 && summaries[0].shareOf("A")->share == 0.5);
+        EXPECT_EQ(summaries.back().shareOf("A"), nullptr) << "BC";
         std::erase_if(trials, [](const auto& one) { return one.condition == "BC" && one.choice == "C"; });
         EXPECT_EQ(std::isnan(summariseChoices(trials).front().shares[0].share), !isTold)
             << "which were offered is not known, as analysis.R has it";
@@ -64,11 +64,11 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     const auto all = summariseChoices(trials).front();
     EXPECT_TRUE(all.participants == 20 && all.trials == 2000);
     ASSERT_TRUE(all.shares[0].interval);
-    EXPECT_NEAR(all.shares[0].interval->least, 0.16, 1e-12) << "the sixth of twenty";
-    EXPECT_NEAR(all.shares[0].interval->most, 0.67, 1e-12);
+    EXPECT_NEAR(all.shares[0].interval->lower, 0.16, 1e-12) << "the sixth of twenty";
+    EXPECT_NEAR(all.shares[0].interval->upper, 0.67, 1e-12);
     trials.resize(100);
     const auto one = summariseChoices(trials).front();
-    EXPECT_NEAR(one.shares[0].interval->least, proportion(one.shares[0].hits, 100).least, 1e-12);
+    EXPECT_NEAR(one.shares[0].interval->lower, proportion(one.shares[0].hits, 100).lower, 1e-12);
 }
 
 TEST(Votes, RatingsAreOfConditions) {
@@ -119,18 +119,18 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw");
     add("P6", {2, 2, 1, 2, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0}, "rrwrrrrrrrrrrr"); // turned above, held at 0
     const auto summaries = summariseLevels(trials);
-    ASSERT_EQ(summaries.at(0).leftOut.size(), 4u);
-    EXPECT_EQ(summaries[0].leftOut[3].first, "P6");
-    EXPECT_EQ(summaries[0].leftOut[3].second.find("a staircase had half or more of its trials"), 0u);
+    ASSERT_EQ(summaries.at(0).excluded.size(), 4u);
+    EXPECT_EQ(summaries[0].excluded[3].first, "P6");
+    EXPECT_EQ(summaries[0].excluded[3].second.find("a staircase had half or more of its trials"), 0u);
     EXPECT_EQ(summaries[0].trials, 21u);
     EXPECT_EQ(summaries[0].participants, 2u);
     EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
     using Left = std::pair<std::string, std::string>;
-    EXPECT_EQ(summaries[0].leftOut.at(0), Left("P2", "a staircase has fewer than two reversals"));
-    EXPECT_EQ(summaries[0].leftOut.at(1),
+    EXPECT_EQ(summaries[0].excluded.at(0), Left("P2", "a staircase has fewer than two reversals"));
+    EXPECT_EQ(summaries[0].excluded.at(1),
               Left("P3", "a staircase had half or more of its trials, or of the reversals "
                          "that count, at the lower end of its levels"));
-    EXPECT_EQ(summaries[0].leftOut.at(2), Left("P4", "staircase 2 of main has fewer than two reversals"));
+    EXPECT_EQ(summaries[0].excluded.at(2), Left("P4", "staircase 2 of main has fewer than two reversals"));
 }
 
 TEST(LevelTrials, AnEndIsOneThoughNoTrialWasHeldThere) {
@@ -138,11 +138,11 @@ TEST(LevelTrials, AnEndIsOneThoughNoTrialWasHeldThere) {
     for (const double level : {3.0, 3.0, 1.0, 2.0, 2.0, 1.5, 1.5, 1.0, 1.0, 0.5, 1.0, 1.5,
                                1.5, 1.0, 1.0, 0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.0, 0.5})
         trials.push_back({LevelTrial::Kind::staircase, "P", "A", "", level, 1.0});
-    EXPECT_TRUE(summariseLevels(trials).at(0).leftOut.empty());
+    EXPECT_TRUE(summariseLevels(trials).at(0).excluded.empty());
     for (LevelTrial& trial : trials) trial.range = {0.0, 14.0};
-    EXPECT_EQ(summariseLevels(trials).at(0).leftOut.size(), 1u);
+    EXPECT_EQ(summariseLevels(trials).at(0).excluded.size(), 1u);
     for (LevelTrial& trial : trials) trial.range = {-1.0, 14.0};
-    EXPECT_TRUE(summariseLevels(trials).at(0).leftOut.empty());
+    EXPECT_TRUE(summariseLevels(trials).at(0).excluded.empty());
 }
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {
@@ -168,7 +168,7 @@ TEST(TactileIcons, TheMostConfusedAreDroppedFirst) {
         << "of b and c the one with fewer correct answers goes";
     EXPECT_EQ(leastConfused(matrix, 9).size(), 4u);
     EXPECT_NEAR(shareCorrect(matrix, 1), 0.6, 1e-12);
-    EXPECT_NEAR(bitsFor(8), 3.0, 1e-12);
+    EXPECT_NEAR(bitsForMeanings(8), 3.0, 1e-12);
 }
 
 } // namespace physvib::votes_test

@@ -38,14 +38,14 @@ inline std::vector<BoardFrame> guardedCodes(const ReferenceSums& limited, Refere
     for (std::size_t n = 0; n < limited.size(); ++n) {
         for (std::size_t j = 0; j < 4; ++j) {
             const double way = static_cast<double>(n % tile + 1) / tile;
-            const double gain = acts ? law.from(j) + (law.to(j) - law.from(j)) * way : 1.0;
+            const double gain = acts ? law.startGain(j) + (law.endGain(j) - law.startGain(j)) * way : 1.0;
             const double code = std::floor(limited[n][j] * gain * 127.0 + 128.5);
             codes[n][j] = static_cast<std::uint8_t>(std::clamp(code, 1.0, 255.0));
             const double left = guard.left != nullptr ? (*guard.left)[n][j] : codes[n][j];
             areas[j] += static_cast<float>((left - 128.0) / (127.0 * limits::board::sampleRateHz));
         }
         if (n % tile != tile - 1) continue;
-        acts = guard.isThere && law.take(areas);
+        acts = guard.isThere && law.update(areas);
         areas.fill(0.0f);
     }
     guard.episodes = law.episodes();

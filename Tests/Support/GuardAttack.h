@@ -211,7 +211,7 @@ inline GuardPath boardGuardPath() {
                 GuardLaw<1> law;
                 law.prepare(1, GuardPlace::last);
                 law.setTile(1.0f / rate);
-                for (float& x : samples) law.take({(x *= law.to(0)) / rate});
+                for (float& x : samples) law.update({(x *= law.endGain(0)) / rate});
                 return samples;
             }};
 }

@@ -37,8 +37,8 @@ private:
     }
 };
 
-inline EnchanterLayout gridLayout(int columns, int rows) {
-    EnchanterLayout layout{1.0, 1.0, columns * rows, {}};
+inline ActuatorLayout gridLayout(int columns, int rows) {
+    ActuatorLayout layout{1.0, 1.0, columns * rows, {}};
     for (int j = 0; j < layout.count; ++j)
         layout.places[static_cast<std::size_t>(j)] = {columns > 1 ? double(j % columns) / (columns - 1) : 0.5,
                                                       rows > 1 ? double(j / columns) / (rows - 1) : 0.5};

@@ -17,7 +17,7 @@ inline std::vector<TrialRecord> answered(const Protocol& protocol, const Partici
     Experiment experiment{protocol, participant};
     const SimulatedObserver observer{settings, protocol, participant};
     std::vector<TrialRecord> records;
-    while (!experiment.isDone()) records.push_back(experiment.take(observer.answer(experiment)));
+    while (!experiment.isDone()) records.push_back(experiment.acceptAnswer(observer.answer(experiment)));
     return records;
 }
 

@@ -57,8 +57,8 @@ constexpr const char* line = "a line of thirty-two characters\n";
 TEST(OutputWriters, WhatNobodyReadsIsDroppedAndCounted) {
     Reader nobody;
     OutputWriter writer{nobody.sink()};
-    constexpr std::uint64_t said = 100'000, kept = OutputWriter::mostBytes / 32;
-    for (std::uint64_t k = 0; k < said; ++k) writer.say(Standard::output, line);
+    constexpr std::uint64_t said = 100'000, kept = OutputWriter::maxQueuedBytes / 32;
+    for (std::uint64_t k = 0; k < said; ++k) writer.writeLine(Standard::output, line);
     EXPECT_EQ(writer.dropped(Standard::output), said - kept);
     EXPECT_EQ(writer.dropped(Standard::error), 0U) << "each has room of its own";
     EXPECT_EQ(writer.finish(Standard::output), std::to_string(said) + " lines were not read");
@@ -74,7 +74,7 @@ TEST(OutputWriters, AReaderThatTakesAllGetsAllInOrder) {
     for (int k = 0; k < 1000; ++k) {
         const std::string text = std::to_string(k) + '\n';
         all += text;
-        writer.say(k % 3 == 0 ? Standard::error : Standard::output, text);
+        writer.writeLine(k % 3 == 0 ? Standard::error : Standard::output, text);
     }
     EXPECT_EQ(writer.finish(Standard::output), "");
     EXPECT_EQ(writer.finish(Standard::error), "");
@@ -85,8 +85,8 @@ TEST(OutputWriters, OneThatIsFullHoldsUpNoOther) {
     Reader reader;
     reader.give(Standard::error, plenty);
     OutputWriter writer{reader.sink()};
-    writer.say(Standard::output, "first\n");
-    writer.say(Standard::error, "second\n");
+    writer.writeLine(Standard::output, "first\n");
+    writer.writeLine(Standard::error, "second\n");
     EXPECT_EQ(writer.finish(Standard::error), "");
     EXPECT_EQ(reader.read(Standard::error), "second\n");
     EXPECT_EQ(reader.read(Standard::output), "");
@@ -98,10 +98,11 @@ TEST(OutputWriters, OneThatIsFullHoldsUpNoOther) {
 TEST(OutputWriters, StandardErrorTellsWhatItLacks) {
     Reader reader;
     OutputWriter writer{reader.sink()};
-    for (std::size_t k = 0; k < OutputWriter::mostBytes / 32 + 3; ++k) writer.say(Standard::error, line);
+    for (std::size_t k = 0; k < OutputWriter::maxQueuedBytes / 32 + 3; ++k)
+        writer.writeLine(Standard::error, line);
     reader.give(Standard::error, plenty);
     EXPECT_NE(writer.finish(Standard::error), "");
-    writer.say(Standard::error, "last\n");
+    writer.writeLine(Standard::error, "last\n");
     writer.finish(Standard::error);
     EXPECT_TRUE(
         reader.read(Standard::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
@@ -112,10 +113,10 @@ TEST(OutputWriters, OneThatCannotBeWrittenSaysWhy) {
         errno = ENOSPC;
         return std::nullopt;
     }};
-    writer.say(Standard::output, line);
+    writer.writeLine(Standard::output, line);
     const std::string reason = std::generic_category().message(ENOSPC);
     EXPECT_EQ(writer.finish(Standard::output), reason);
-    writer.say(Standard::output, line);
+    writer.writeLine(Standard::output, line);
     EXPECT_EQ(writer.finish(Standard::output), reason);
     EXPECT_EQ(writer.dropped(Standard::output), 2U);
 }
@@ -131,9 +132,9 @@ TEST(OutputWriters, OneThatHoldsTheThreadDoesNotHoldTheEnd) {
                 keepGoing->get_future().wait();
                 return text.size();
             }};
-        writer.say(Standard::output, line);
+        writer.writeLine(Standard::output, line);
         isHeld->get_future().wait();
-        writer.say(Standard::error, line);
+        writer.writeLine(Standard::error, line);
         EXPECT_EQ(writer.finish(Standard::output), "1 line was not read");
     }
     keepGoing->set_value();
@@ -159,17 +160,17 @@ TEST(ToldOnce, LinesThatNobodyReadAreCountedOnce) {
         while (!soFar().ends_with(end)) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     };
     const std::string line(1023, 'x');
-    constexpr std::uint64_t kept = OutputWriter::mostBytes / 1024;
+    constexpr std::uint64_t kept = OutputWriter::maxQueuedBytes / 1024;
     for (int round = 0; round < 2; ++round) {
         isOpen = false;
-        for (std::uint64_t i = 0; i < kept + 7; ++i) writer.say(Standard::error, line + '\n');
+        for (std::uint64_t i = 0; i < kept + 7; ++i) writer.writeLine(Standard::error, line + '\n');
         const std::uint64_t dropped = writer.dropped(Standard::error);
         isOpen = true;
         awaitEnd(line + '\n');
         while (!writer.finish(Standard::error).empty() && writer.dropped(Standard::error) == 0) {
         }
         for (const char* after : {"a\n", "b\n", "c\n"}) {
-            writer.say(Standard::error, after);
+            writer.writeLine(Standard::error, after);
             awaitEnd(after);
         }
         const std::string all = soFar();

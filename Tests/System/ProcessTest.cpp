@@ -73,7 +73,7 @@ TEST(Processes, AWatchedProgramsLastWordsAreTheReasonAndItIsEndedWhenNobodyWants
 
 /// Gets a signal, and does not end for a minute.
 int hangAfterSignal() {
-    heedInterrupts();
+    installInterruptHandlers();
     std::raise(SIGTERM);
     if (!interrupted) return 2;
     std::this_thread::sleep_for(std::chrono::seconds{60});
@@ -89,7 +89,7 @@ TEST(Processes, WhatHangsAfterASignalIsEnded) {
 
 TEST(Processes, WhatWasWrittenArrives) {
     std::printf("words\n");
-    EXPECT_EQ(outputFault(), "");
+    EXPECT_EQ(outputError(), "");
 }
 
 } // namespace

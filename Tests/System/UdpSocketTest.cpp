@@ -15,11 +15,11 @@ std::string textOf(const std::optional<std::span<const char>>& packet) {
 }
 
 TEST(UdpSockets, APacketArrivesWholeAndItsAnswerComesBack) {
-    auto in = UdpSocket::listening(here, 0);
+    auto in = UdpSocket::listenAt(here, 0);
     ASSERT_TRUE(in) << in.error;
     EXPECT_GT(in.value.port(), 0);
     EXPECT_GT(in.value.bufferBytes(), 0);
-    auto out = UdpSocket::connected(here + ":" + std::to_string(in.value.port()));
+    auto out = UdpSocket::connectTo(here + ":" + std::to_string(in.value.port()));
     ASSERT_TRUE(out) << out.error;
     EXPECT_FALSE(in.value.wait(atOnce));
     EXPECT_EQ(textOf(in.value.receive()), "nothing") << "and nobody waits for it";
@@ -28,16 +28,16 @@ TEST(UdpSockets, APacketArrivesWholeAndItsAnswerComesBack) {
     ASSERT_TRUE(in.value.wait(soon));
     EXPECT_EQ(textOf(in.value.receive()), longest);
     EXPECT_TRUE(in.value.sender().text().starts_with(here + ":")) << in.value.sender().text();
-    EXPECT_EQ(in.value.takeLost(), 0U);
+    EXPECT_EQ(in.value.resetDroppedCount(), 0U);
     ASSERT_TRUE(in.value.answer(std::string{"yes"}, in.value.sender()));
     ASSERT_TRUE(out.value.wait(soon));
     EXPECT_EQ(textOf(out.value.receive()), "yes");
 }
 
 TEST(UdpSockets, APortHasOneOwner) {
-    auto first = UdpSocket::listening(here, 0);
+    auto first = UdpSocket::listenAt(here, 0);
     ASSERT_TRUE(first) << first.error;
-    auto second = UdpSocket::listening(here, first.value.port());
+    auto second = UdpSocket::listenAt(here, first.value.port());
     ASSERT_TRUE(second) << second.error;
     EXPECT_NE(second.value.port(), first.value.port());
     auto moved = std::move(first.value);
@@ -46,12 +46,12 @@ TEST(UdpSockets, APortHasOneOwner) {
 }
 
 TEST(UdpSockets, WhatCannotBeIsToldInALine) {
-    EXPECT_FALSE(UdpSocket::listening("not an address", 9000));
+    EXPECT_FALSE(UdpSocket::listenAt("not an address", 9000));
     for (const char* many : {"255.255.255.255", "224.0.0.1", "239.1.2.3", "ff02::1"})
-        EXPECT_FALSE(UdpSocket::listening(many, 0)) << many;
-    EXPECT_TRUE(UdpSocket::listening("localhost", 0));
-    EXPECT_EQ(UdpSocket::connected("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
-    EXPECT_FALSE(UdpSocket::connected(here + ":70000"));
+        EXPECT_FALSE(UdpSocket::listenAt(many, 0)) << many;
+    EXPECT_TRUE(UdpSocket::listenAt("localhost", 0));
+    EXPECT_EQ(UdpSocket::connectTo("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
+    EXPECT_FALSE(UdpSocket::connectTo(here + ":70000"));
     EXPECT_FALSE(UdpSocket{}.wait(1)) << "where none is open, nothing comes";
 }
 

@@ -39,13 +39,13 @@ public:
     std::map<std::string, std::string> files() {
         tellBlur();
         tellRehearsals();
-        page_.heading("Files");
+        page_.addHeading("Files");
         std::vector<std::string> names;
         for (const auto& [name, text] : files_)
             if (name.find('/') == std::string::npos) names.push_back(name);
-        page_.list(names);
-        page_.paragraph(std::string("physvib ") + PHYSVIB_VERSION +
-                        "; seeds of rehearsals: those of the protocols.");
+        page_.addList(names);
+        page_.addParagraph(std::string("physvib ") + PHYSVIB_VERSION +
+                           "; seeds of rehearsals: those of the protocols.");
         std::string html = page_.html();
         for (const thesis::Participants& study : thesis::participants) {
             const std::string name = std::string{study.protocol} + "/index.html";
@@ -60,7 +60,7 @@ private:
     std::string chartName() { return "thesis" + std::to_string(++charts_); }
     void addTable(const std::string& name, const ExportTable& table, std::size_t mostRows = 60) {
         files_[name] = table.text();
-        page_.table(table.text(), name, mostRows);
+        page_.addTable(table.text(), name, mostRows);
     }
     void tellBlur();
     void tellRehearsals();
@@ -81,9 +81,10 @@ private:
 };
 
 void RehearsalPage::tellBlur() {
-    page_.heading("Percent correct as printed (Fig. 4.3), and one blur that explains it");
-    page_.paragraph("One normal blur of places per configuration, fitted to the exact shares of three grids, "
-                    "predicts the shares with tolerance that it was not shown.");
+    page_.addHeading("Percent correct as printed (Fig. 4.3), and one blur that explains it");
+    page_.addParagraph(
+        "One normal blur of places per configuration, fitted to the exact shares of three grids, "
+        "predicts the shares with tolerance that it was not shown.");
     ExportTable table{"thesis-blur", false,
                       "configuration,blur,grid,exact_printed,exact_fitted,tolerance_1_printed,tolerance_1_"
                       "predicted,it_printed,it_model,it_tolerance_1_printed,it_tolerance_1_model"};
@@ -117,7 +118,7 @@ std::string RehearsalPage::besideChart(const std::string& title, const std::stri
                    words,
                    groups,
                    {{"printed", bars(printed)}, {"rehearsed (simulated)", bars(rehearsed)}}};
-    chart.most = most;
+    chart.max = most;
     return barChart(chart);
 }
 
@@ -129,8 +130,8 @@ void RehearsalPage::compareIdentification(const ReportTrials& trials, std::strin
         std::vector<std::optional<double>> bits, rehearsedBits, correct, rehearsedCorrect;
         for (const auto& one : thesis::identifications) {
             if (one.study != study) continue;
-            const auto found = std::ranges::find(data.value.conditions, one.condition,
-                                                 &StudyCondition<IdentificationTrial>::name);
+            const auto found =
+                std::ranges::find(data.value.groups, one.condition, &TrialGroup<IdentificationTrial>::name);
             const ConfusionMatrix matrix{tolerance ? withTolerance(found->trials, tolerance) : found->trials};
             groups.emplace_back(one.condition);
             bits.emplace_back(tolerance ? one.bitsTolerance : one.bits);
@@ -141,7 +142,7 @@ void RehearsalPage::compareIdentification(const ReportTrials& trials, std::strin
                                           static_cast<double>(matrix.trials()));
         }
         const std::string words = tolerance ? ", 1 step of tolerance" : "";
-        page_.figure(
+        page_.addFigure(
             {besideChart("Information transfer" + words, "IT (bit)", groups, bits, rehearsedBits,
                          std::nullopt),
              besideChart("Percent correct" + words, "correct (%)", groups, correct, rehearsedCorrect, 100.0)},
@@ -158,7 +159,7 @@ void RehearsalPage::comparePlaces(const ReportTrials& trials) {
                       "condition,grid_printed,deviation_printed,grid_rehearsed,deviation_rehearsed"};
     for (const thesis::Counts& printed : thesis::counts) {
         const auto found =
-            std::ranges::find(data.value.conditions, printed.condition, &StudyCondition<LocationTrial>::name);
+            std::ranges::find(data.value.groups, printed.condition, &TrialGroup<LocationTrial>::name);
         const ConditionResolution made = resolveCondition(found->name, found->trials);
         const auto grid = [](const auto& of) {
             return std::to_string(of.columns) + " x " + std::to_string(of.rows);
@@ -166,7 +167,7 @@ void RehearsalPage::comparePlaces(const ReportTrials& trials) {
         table.row(printed.condition, grid(printed), printed.deviation, grid(made.resolution),
                   made.counts.standardDeviation());
     }
-    page_.paragraph(
+    page_.addParagraph(
         "The observer's blur is that of 4.1 and the same everywhere; it knows nothing of laws, nor of places "
         "where people feel phantoms elsewhere, so its territories are more alike than people's.");
     addTable("resolutions-rehearsed.csv", table);
@@ -174,7 +175,7 @@ void RehearsalPage::comparePlaces(const ReportTrials& trials) {
 
 void RehearsalPage::compareChoices(const ReportTrials& trials) {
     const auto data = readOne(readChoices, trialsCsv(trials, ""));
-    const ChoiceSummary all = summariseChoices(data.value.conditions.front().trials).front();
+    const ChoiceSummary all = summariseChoices(data.value.groups.front().trials).front();
     ExportTable table{"thesis-choices-rehearsed", true, "measure,printed,rehearsed"};
     table.row("model chosen, %", thesis::modelChosenPercent, 100.0 * all.shares.front().share);
     addTable("choices-rehearsed.csv", table);
@@ -182,7 +183,7 @@ void RehearsalPage::compareChoices(const ReportTrials& trials) {
 
 void RehearsalPage::compareRatings(const ReportTrials& trials) {
     const auto data = readOne(readRatings, trialsCsv(trials, ""));
-    const auto summaries = summariseRatings(data.value.conditions.front().trials);
+    const auto summaries = summariseRatings(data.value.groups.front().trials);
     std::vector<std::string> groups;
     std::vector<std::optional<double>> printed, rehearsed;
     for (const thesis::Rating& rating : thesis::ratings) {
@@ -193,14 +194,15 @@ void RehearsalPage::compareRatings(const ReportTrials& trials) {
             rehearsed.emplace_back(found->means[s]);
         }
     }
-    page_.figure({besideChart("Mean scores", "mean score (0 to 100)", groups, printed, rehearsed, 100.0)},
-                 "As Fig. 5.14, the three methods whose scores are printed. The observer's scales differ by "
-                 "chance alone.");
+    page_.addFigure(
+        {besideChart("Mean scores", "mean score (0 to 100)", groups, printed, rehearsed, 100.0)},
+        "As Fig. 5.14, the three methods whose scores are printed. The observer's scales differ by "
+        "chance alone.");
 }
 
 void RehearsalPage::tellRehearsals() {
-    page_.heading("Five rehearsals (SIMULATED)");
-    page_.paragraph(
+    page_.addHeading("Five rehearsals (SIMULATED)");
+    page_.addParagraph(
         std::string(
             "The built-in protocols with as many participants as the thesis had, answered by the observer ") +
         observerName +
@@ -212,11 +214,11 @@ void RehearsalPage::tellRehearsals() {
     for (const thesis::Participants& study : thesis::participants) {
         const std::string name{study.protocol};
         const ReportTrials trials = rehearse(name, observerName, study.count);
-        page_.subheading(trials.protocol->title);
+        page_.addSubheading(trials.protocol->title);
         const StudyReport report = studyReport(trials);
         for (const auto& [file, text] : report.files) files_[name + "/" + file] = text;
-        page_.list({name + "/index.html: " + std::to_string(study.count) + " simulated participants, " +
-                    std::to_string(report.tests.size()) + " tests"});
+        page_.addList({name + "/index.html: " + std::to_string(study.count) + " simulated participants, " +
+                       std::to_string(report.tests.size()) + " tests"});
         if (name == "patterns" || name == "phantom-grids") compareIdentification(trials, name);
         if (name == "phantom-places") comparePlaces(trials);
         if (name == "model-or-sound") compareChoices(trials);

@@ -11,7 +11,7 @@ namespace physvib::board_path_test {
 constexpr int deskRate = 48000, perBoardFrame = deskRate / limits::board::sampleRateHz;
 
 RendererSettings deskOf(PanningLaw law = PanningLaw::linear) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {deskRate, 4, PhantomPanner{layout, law, 1.0, 1.0, 1.0}, false};
 }
@@ -39,13 +39,13 @@ std::vector<BoardSegment> segmentsOf(const std::vector<CollisionEvent>& events, 
     std::vector<BoardPath> paths;
     for (const CollisionEvent& event : events) {
         BoardPath path{event, deskRate};
-        if (!paths.empty()) path.joinTo(paths.back());
+        if (!paths.empty()) path.continueFrom(paths.back());
         while (!path.isOver()) {
             const auto segment = path.next({boardFrameOf(event.timeNs)}, gainsOf(panner));
             if (!segment) break;
             EXPECT_FALSE(path.isCoarse());
             segments.push_back(*segment);
-            path.take();
+            path.advance();
         }
         paths.push_back(path);
     }
@@ -119,7 +119,7 @@ TEST(BoardPath, SoItIsWhereverItBeginsAtAnyFrequencyAndAsItDecays) {
         e.frequencyHz = hz;
         e.timeNs = 33'333'331 + static_cast<std::int64_t>(hz * 1000);
         e.decayPerSecond = hz > 200.0 ? 7.03 : 0.0;
-        e.course.sinceNs = hz > 300.0 ? 123'456'789 : 0;
+        e.course.toneAgeNs = hz > 300.0 ? 123'456'789 : 0;
         SCOPED_TRACE(hz);
         expectOneStep({e}, deskOf());
     }
@@ -132,7 +132,7 @@ TEST(BoardPath, APathOfSeveralPlacesIsOneTone) {
         CollisionEvent e = diagonal(Spread::equal, 0.7);
         e.durationNs = e.course.travelNs = 123'456'789;
         e.timeNs = 1'000'003 + i * e.durationNs;
-        e.course.sinceNs = i * e.durationNs;
+        e.course.toneAgeNs = i * e.durationNs;
         e.x = corners[i][0], e.y = corners[i][1];
         e.course.toX = corners[i + 1][0], e.course.toY = corners[i + 1][1];
         around.push_back(e);
@@ -150,7 +150,7 @@ TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
     BoardPath path{diagonal(Spread::equal, 1.0), deskRate};
     const auto settings = deskOf();
     std::vector<BoardSegment> segments;
-    for (; !path.isOver(); path.take()) {
+    for (; !path.isOver(); path.advance()) {
         // half a millisecond either way
         const auto segment = path.next({80.0 + random.uniform(-4.0, 4.0), 8000.8}, gainsOf(settings.panner));
         if (!segment) break;
@@ -167,7 +167,7 @@ TEST(BoardPath, AClockThatIsCorrectedMakesNoStep) {
 TEST(BoardPath, InAHurryItIsLongerThanItsLawAsksForAndSaysSo) {
     BoardPath path{diagonal(Spread::equal, 0.5), deskRate};
     const auto settings = deskOf();
-    EXPECT_EQ(path.next({}, gainsOf(settings.panner), true)->frames, BoardPath::hurriedFrames);
+    EXPECT_EQ(path.next({}, gainsOf(settings.panner), true)->frames, BoardPath::minHurriedFrames);
     EXPECT_TRUE(path.isCoarse());
     EXPECT_LT(path.next({}, gainsOf(settings.panner))->frames, 40) << "next to a corner";
     EXPECT_FALSE(path.isCoarse());
@@ -177,17 +177,17 @@ TEST(BoardPath, InAHurryItIsLongerThanItsLawAsksForAndSaysSo) {
 // again and again.
 TEST(BoardPath, AClockThatJumpsIsFollowed) {
     CollisionEvent rest = diagonal(Spread::equal, 0.5);
-    rest.timeNs = rest.course.sinceNs = 1'000'000'000;
+    rest.timeNs = rest.course.toneAgeNs = 1'000'000'000;
     BoardPath first{diagonal(Spread::equal, 0.5), deskRate}, second{rest, deskRate};
     const auto settings = deskOf();
-    while (!first.isOver() && first.next({}, gainsOf(settings.panner))) first.take();
+    while (!first.isOver() && first.next({}, gainsOf(settings.panner))) first.advance();
     int segments = 0;
     for (; !second.isOver() && segments < 100; ++segments) {
-        second.joinTo(first);
+        second.continueFrom(first);
         const auto segment = second.next({8000.0 + 4000.0}, gainsOf(settings.panner)); // half a second later
         if (!segment) break;
         if (segments == 0) EXPECT_EQ(segment->frame, 12'000u);
-        second.take();
+        second.advance();
     }
     EXPECT_LE(segments, 40);
 }
@@ -195,7 +195,7 @@ TEST(BoardPath, AClockThatJumpsIsFollowed) {
 TEST(BoardPath, WhatIsSkippedGoesOnWhereItWouldBe) {
     BoardPath path{diagonal(Spread::equal, 0.5), deskRate};
     const auto settings = deskOf();
-    path.next({}, gainsOf(settings.panner)), path.take();
+    path.next({}, gainsOf(settings.panner)), path.advance();
     path.skip();
     const std::int64_t at = path.nextNs();
     const BoardTime later{50'000.25};

@@ -40,9 +40,9 @@ TEST(BoardStrike, OutlastsTheLinksLongestOnlyWhileItIsFelt) {
     e.decayPerSecond = 1.0;
     EXPECT_FALSE(outlastsStrike(e)) << "140 dB weaker after 16 s";
     e.durationNs = 0;
-    EXPECT_NEAR(static_cast<double>(boardLifeNs(e)), 16.12e9, 1e7);
+    EXPECT_NEAR(static_cast<double>(boardLifetimeNs(e)), 16.12e9, 1e7);
     e.decayPerSecond = 1e-12;
-    EXPECT_EQ(boardLifeNs(e), limits::maxTimeNs) << "not a number that overflows";
+    EXPECT_EQ(boardLifetimeNs(e), limits::maxTimeNs) << "not a number that overflows";
     EXPECT_FALSE(outlastsStrike(e)) << "without a duration a strike sounds until it has decayed";
 }
 
@@ -85,7 +85,7 @@ TEST(StrikeBacklog, WhatIsMoreThanTheLineCarriesIsThinnedNotLate) {
                 for (int i = 0; i < perSecond / 100; ++i, ++told)
                     backlog.push(strike(now + known + i * 1000 * ms / perSecond,
                                         told % 20 == 0 ? 4000 : 100 + static_cast<int>(told * 7919 % 100)));
-            backlog.keepTo({std::max(now, lineFree), each, transit});
+            backlog.dropLate({std::max(now, lineFree), each, transit});
             for (; !backlog.empty() && lineFree - now < 4 * ms; backlog.pop(), ++sent) {
                 lineFree = std::max(now, lineFree) + each;
                 late += lineFree + transit > backlog.first().onsetNs ? 1 : 0;
@@ -103,7 +103,7 @@ TEST(StrikeBacklog, WhatIsMoreThanTheLineCarriesIsThinnedNotLate) {
 TEST(StrikeBacklog, WhatIsLateAnywayIsNotThinned) {
     StrikeBacklog backlog;
     for (int i = 0; i < 10; ++i) backlog.push(strike(i, 100));
-    backlog.keepTo({1'000'000, 1'389'000, 0});
+    backlog.dropLate({1'000'000, 1'389'000, 0});
     EXPECT_EQ(backlog.size(), 10);
     EXPECT_EQ(backlog.thinned(), 0u);
 }
@@ -121,12 +121,12 @@ CollisionEvent fromAToD(double hz = 205.0) {
 
 std::vector<CollisionEvent> stepsOf(const CollisionEvent& moving) {
     std::vector<CollisionEvent> all;
-    for (BoardSteps steps{moving}; !steps.isOver();) all.push_back(steps.take());
+    for (BoardSteps steps{moving}; !steps.isOver();) all.push_back(steps.next());
     return all;
 }
 
 PhantomPanner square() {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
 }
@@ -154,7 +154,7 @@ TEST(BoardSteps, AStrikeThatDecaysEnds) {
     e.decayPerSecond = 20.0;
     const auto steps = stepsOf(e);
     EXPECT_LE(steps.size(), 41u) << "140 dB at 174 dB a second";
-    EXPECT_EQ(steps.back().course.sinceNs, steps.back().timeNs) << "as weak as it is by then";
+    EXPECT_EQ(steps.back().course.toneAgeNs, steps.back().timeNs) << "as weak as it is by then";
 }
 
 TEST(BoardSteps, OnTheBoardItIsEquallyStrongAllTheWay) {

@@ -74,10 +74,10 @@ TEST(LinkClock, GoesOnWhenTheBoardsCounterIsOver) {
         for (double t = 0; t < 60; t += clock.isReady() ? 0.1 : 0.02) {
             const double there = t + line.delay(), frames = line.boardSeconds(there) * 8000;
             const auto counted = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frames));
-            clock.add(
-                ns(t),
-                clock.unwrapped(counted, static_cast<std::uint8_t>((frames - std::floor(frames)) * 256.0)),
-                ns(there + line.delay()));
+            clock.add(ns(t),
+                      clock.unwrappedFrame(counted,
+                                           static_cast<std::uint8_t>((frames - std::floor(frames)) * 256.0)),
+                      ns(there + line.delay()));
             if (clock.isReady())
                 worst =
                     std::max(worst, std::abs(clock.frameAt(ns(t + 0.1)) / 8000 - line.boardSeconds(t + 0.1)));
@@ -91,7 +91,7 @@ TEST(LinkClock, GoesOnWhenTheBoardsCounterIsOver) {
 TEST(LinkClock, IsNotReadyBeforeItKnows) {
     LinkClock clock;
     Line line;
-    for (int i = 0; i < LinkClock::needed; ++i) {
+    for (int i = 0; i < LinkClock::minPings; ++i) {
         EXPECT_FALSE(clock.isReady());
         ping(clock, line, i * 0.1);
     }
@@ -153,7 +153,7 @@ TEST(Cobs, GarbageNeverWritesPastTheEnd) {
 // What comes again is not played again; what was lost is counted, and what comes after is played.
 
 struct Stream {
-    wire::StrikeOrder order;
+    wire::DuplicateFilter order;
     std::uint32_t frame = 4'294'960'000u; // the counter is over soon
     std::uint8_t sequence = 0xFF;
     /// The next strike, 60 ms before its onset.
@@ -182,7 +182,7 @@ TEST(StrikeOrder, NothingIsPlayedTwice) {
 }
 
 TEST(StrikeOrder, AnOnsetBeforeTheLastOneIsNoRepetition) {
-    wire::StrikeOrder order;
+    wire::DuplicateFilter order;
     EXPECT_TRUE(order.isNew(0, 1000, 500));
     EXPECT_TRUE(order.isNew(1, 900, 500));
     EXPECT_TRUE(order.isNew(2, 900, 500)) << "a chord";

@@ -75,7 +75,7 @@ TEST(Messages, TelemetryOfAnImageWithoutAGuardIsRead) {
     std::array<std::uint8_t, wire::maxPayload> payload{static_cast<std::uint8_t>(wire::Type::telemetry)};
     wire::Writer write{std::span(payload).subspan(1)};
     sent.visit(write);
-    const std::size_t older = 1 + write.size() - wire::Telemetry::addedLater;
+    const std::size_t older = 1 + write.size() - wire::Telemetry::optionalBytes;
     ASSERT_TRUE(wire::decode(std::span(payload).first(older), got));
     EXPECT_EQ(got.silenced, 1);
     EXPECT_EQ(got.guarded, 0);
@@ -171,7 +171,7 @@ TEST(FrameDecoder, AMillionFramesThroughNoise) {
     RecordProperty("touched", touched);
     RecordProperty("wrong", wrong);
     std::cout << "frames " << frames << ", touched by noise " << touched << ", arrived " << arrived
-              << ", wrong " << wrong << ", bad " << decoder.bad() << '\n';
+              << ", wrong " << wrong << ", bad " << decoder.badFrames() << '\n';
 }
 
 TEST(FrameDecoder, ALineWithoutAZeroIsOneBadFrame) {
@@ -179,7 +179,7 @@ TEST(FrameDecoder, ALineWithoutAZeroIsOneBadFrame) {
     for (int i = 0; i < 100000; ++i)
         EXPECT_TRUE(decoder.feed(static_cast<std::uint8_t>(1 + i % 255)).empty());
     decoder.feed(0);
-    EXPECT_EQ(decoder.bad(), 1u);
+    EXPECT_EQ(decoder.badFrames(), 1u);
     wire::Ping ping;
     for (const auto b : framed(wire::Ping{9})) wire::decode(decoder.feed(b), ping);
     EXPECT_EQ(ping.id, 9);

@@ -71,7 +71,7 @@ std::optional<Residuals> residualsOf(const std::vector<float>& recorded, double 
     const auto step = static_cast<std::size_t>(rateHz / (4.0 * highHz));
     const std::vector<float> samples = thinned(recorded, rateHz, step);
     const double rate = rateHz / static_cast<double>(step);
-    if (!recordingFault(samples, rate, 0.01).empty() || isSilent(samples)) return std::nullopt;
+    if (!recordingError(samples, rate, 0.01).empty() || isSilent(samples)) return std::nullopt;
     const HitExcerpt hit = strongestHit(samples, rate);
     const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rate));
     std::vector<double> all;
@@ -103,7 +103,7 @@ int main(int count, char** words) {
     for (int i = 1; i < count; ++i)
         if (const auto recording = readRecording(words[i]))
             if (const auto found =
-                    residualsOf(loudestOf(recording.value.channels), recording.value.sampleRateHz))
+                    residualsOf(loudestChannel(recording.value.channels), recording.value.sampleRateHz))
                 all.push_back(*found);
     if (all.empty()) return std::fprintf(stderr, "expected recordings of hits\n"), 1;
     std::printf("| residual of %zu recordings, dB (median) | 1 partial | 2 | 4 | 6 | 4 gain 3 dB or more "

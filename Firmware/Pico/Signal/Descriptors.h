@@ -47,11 +47,11 @@ struct AudioReply {
     }
 };
 
-/// Main loop only.
+/// Volume and mute of all channels and of each. Main loop only.
 template <int channels>
 class AudioControls {
     template <class T>
-    using Each = std::array<T, static_cast<std::size_t>(channels) + 1>; // [0]: all channels
+    using PerChannel = std::array<T, static_cast<std::size_t>(channels) + 1>; // [0]: all channels
 
 public:
     /// Answer to a request for the current value or the range of a control.
@@ -92,14 +92,14 @@ public:
 
     /// State as bytes, first that of all channels, then one per channel: steps below the highest volume, and
     /// mute in the highest bit. Steps are rounded towards silence.
-    Each<std::uint8_t> kept() const noexcept {
-        Each<std::uint8_t> bytes{};
+    PerChannel<std::uint8_t> toBytes() const noexcept {
+        PerChannel<std::uint8_t> bytes{};
         for (std::size_t j = 0; j < bytes.size(); ++j)
             bytes[j] = static_cast<std::uint8_t>((maxVolume - volume_[j] + volumeStep - 1) / volumeStep |
                                                  (isMuted_[j] ? 0x80 : 0));
         return bytes;
     }
-    void restore(const Each<std::uint8_t>& bytes) noexcept {
+    void setFromBytes(const PerChannel<std::uint8_t>& bytes) noexcept {
         for (std::size_t j = 0; j < bytes.size(); ++j) {
             volume_[j] = std::max(minVolume, maxVolume - (bytes[j] & 0x7f) * volumeStep);
             isMuted_[j] = (bytes[j] & 0x80) != 0;
@@ -108,43 +108,43 @@ public:
 
     /// Gain of a channel, 0 to unity. The lowest volume is silence.
     std::int32_t gain(int channel) const noexcept {
-        const auto own = static_cast<std::size_t>(channel) + 1;
-        if (isMuted_[0] || isMuted_[own] || volume_[0] == minVolume || volume_[own] == minVolume) return 0;
-        return gainOfVolume(volume_[0] + volume_[own]);
+        const auto slot = static_cast<std::size_t>(channel) + 1;
+        if (isMuted_[0] || isMuted_[slot] || volume_[0] == minVolume || volume_[slot] == minVolume) return 0;
+        return gainOfVolume(volume_[0] + volume_[slot]);
     }
 
 private:
-    static void addValues(AudioReply& reply, bool isRange, int value, int most, int resolution,
+    static void addValues(AudioReply& reply, bool isRange, int value, int maximum, int resolution,
                           int width) noexcept {
         if (isRange) reply.add(1, 2); // one range
         reply.add(static_cast<std::uint32_t>(value), width);
         if (!isRange) return;
-        reply.add(static_cast<std::uint32_t>(most), width);
+        reply.add(static_cast<std::uint32_t>(maximum), width);
         reply.add(static_cast<std::uint32_t>(resolution), width);
     }
 
-    Each<int> volume_{};
-    Each<bool> isMuted_{};
+    PerChannel<int> volume_{};
+    PerChannel<bool> isMuted_{};
 };
 
 /// Format of feedback that the host reads. At full speed macOS only accepts 10.14 in three bytes, and Windows
 /// only 16.16 in four; Linux detects it. After a reset of the bus, macOS asks for a string before it asks for
 /// the configuration, the others after it (found by TinyUSB's authors with Windows 10 and 11, Linux 3.16 to
 /// 6.8, macOS 13 and 14). isThreeBytes: any context; the others: interrupt of USB.
-class FeedbackForm {
+class FeedbackFormat {
 public:
-    void reset() noexcept { asked_.store(0, std::memory_order_relaxed); }
+    void reset() noexcept { firstRequest_.store(0, std::memory_order_relaxed); }
     /// `descriptorType`: what the host asks for.
-    void asks(std::uint8_t descriptorType) noexcept {
+    void onDescriptorRequest(std::uint8_t descriptorType) noexcept {
         if ((descriptorType == configuration || descriptorType == text) &&
-            asked_.load(std::memory_order_relaxed) == 0)
-            asked_.store(descriptorType, std::memory_order_relaxed);
+            firstRequest_.load(std::memory_order_relaxed) == 0)
+            firstRequest_.store(descriptorType, std::memory_order_relaxed);
     }
-    bool isThreeBytes() const noexcept { return asked_.load(std::memory_order_relaxed) == text; }
+    bool isThreeBytes() const noexcept { return firstRequest_.load(std::memory_order_relaxed) == text; }
 
 private:
     static constexpr std::uint8_t configuration = 2, text = 3;
-    std::atomic<std::uint8_t> asked_{0}; // type of the first request since the reset
+    std::atomic<std::uint8_t> firstRequest_{0}; // type of the first request since the reset
 };
 
 constexpr std::uint8_t audioControlInterface = 0, audioStreamInterface = 1, serialControlInterface = 2,
@@ -164,7 +164,7 @@ struct DescriptorBytes {
         for (const int value : values) data[count++] = static_cast<std::uint8_t>(value);
     }
     // Adds a descriptor with its length before it.
-    constexpr void put(std::initializer_list<int> values) noexcept {
+    constexpr void addDescriptor(std::initializer_list<int> values) noexcept {
         add({static_cast<int>(values.size()) + 1});
         add(values);
     }
@@ -184,49 +184,52 @@ constexpr int audio = 1, audioVersion = 0x20, serial = 2, serialData = 10;
 
 // Clock -> input terminal (the host's stream) -> volume -> output terminal.
 constexpr void addAudioControl(DescriptorBytes& d, int channels) noexcept {
-    d.put({association, audioControlInterface, 2, audio, 0, audioVersion, 0});
-    d.put({interface, audioControlInterface, 0, 0, audio, 1, audioVersion, 0});
+    d.addDescriptor({association, audioControlInterface, 2, audio, 0, audioVersion, 0});
+    d.addDescriptor({interface, audioControlInterface, 0, 0, audio, 1, audioVersion, 0});
     const auto header = d.count;
-    d.put({ofInterface, 1, 0x00, 0x02, 1, 0, 0, 0});    // version 2.0, a speaker; total length below
-    d.put({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity readable
-    d.put({ofInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
+    d.addDescriptor({ofInterface, 1, 0x00, 0x02, 1, 0, 0, 0}); // version 2.0, a speaker; total length below
+    d.addDescriptor({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity
+                                                                  // readable
+    d.addDescriptor({ofInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
     d.add({6 + 4 * (channels + 1), ofInterface, 6, unitVolume, unitInput});
     for (int channel = 0; channel <= channels; ++channel) d.add({0x0f, 0, 0, 0}); // mute and volume
     d.add({0});
-    d.put({ofInterface, 3, unitOutput, 0x01, 0x03, 0, unitVolume, unitClock, 0, 0, 0}); // a speaker
+    d.addDescriptor({ofInterface, 3, unitOutput, 0x01, 0x03, 0, unitVolume, unitClock, 0, 0, 0}); // a speaker
     d.setWord(header + 6u, d.count - header);
 }
 
 // Alternate setting 0 takes no bandwidth; 1 has the stream and its feedback.
 constexpr void addAudioStream(DescriptorBytes& d, int channels, int feedbackBytes) noexcept {
-    const int most = packetBytes(channels);
-    d.put({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
-    d.put({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
-    d.put({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
-    d.put({ofInterface, 2, 1, 2, 16});                                             // two bytes, 16 bits
-    d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, 1 ms
-    d.put({ofEndpoint, 1, 0, 0, 0, 0, 0});
-    d.put({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
+    const int maxBytes = packetBytes(channels);
+    d.addDescriptor({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
+    d.addDescriptor({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
+    d.addDescriptor({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
+    d.addDescriptor({ofInterface, 2, 1, 2, 16}); // two bytes, 16 bits
+    d.addDescriptor(
+        {endpoint, audioEndpoint, 0x05, lowByte(maxBytes), highByte(maxBytes), 1}); // asynchronous,
+                                                                                    // 1 ms
+    d.addDescriptor({ofEndpoint, 1, 0, 0, 0, 0, 0});
+    d.addDescriptor({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
 }
 
 constexpr void addSerial(DescriptorBytes& d) noexcept {
-    d.put({association, serialControlInterface, 2, serial, 2, 0, 0});
-    d.put({interface, serialControlInterface, 0, 1, serial, 2, 0, 0});
-    d.put({ofInterface, 0, 0x20, 0x01});
-    d.put({ofInterface, 1, 0, serialDataInterface});
-    d.put({ofInterface, 2, 2});
-    d.put({ofInterface, 6, serialControlInterface, serialDataInterface});
-    d.put({endpoint, serialNotifyEndpoint, 3, 8, 0, 16});
-    d.put({interface, serialDataInterface, 0, 2, serialData, 0, 0, 0});
-    d.put({endpoint, serialOutEndpoint, 2, 64, 0, 0});
-    d.put({endpoint, serialInEndpoint, 2, 64, 0, 0});
+    d.addDescriptor({association, serialControlInterface, 2, serial, 2, 0, 0});
+    d.addDescriptor({interface, serialControlInterface, 0, 1, serial, 2, 0, 0});
+    d.addDescriptor({ofInterface, 0, 0x20, 0x01});
+    d.addDescriptor({ofInterface, 1, 0, serialDataInterface});
+    d.addDescriptor({ofInterface, 2, 2});
+    d.addDescriptor({ofInterface, 6, serialControlInterface, serialDataInterface});
+    d.addDescriptor({endpoint, serialNotifyEndpoint, 3, 8, 0, 16});
+    d.addDescriptor({interface, serialDataInterface, 0, 2, serialData, 0, 0, 0});
+    d.addDescriptor({endpoint, serialOutEndpoint, 2, 64, 0, 0});
+    d.addDescriptor({endpoint, serialInEndpoint, 2, 64, 0, 0});
 }
 } // namespace descriptor
 
 /// The configuration descriptor, whole. Compile time.
 constexpr DescriptorBytes configurationDescriptor(int channels, int feedbackBytes = 4) noexcept {
     DescriptorBytes d;
-    d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // bus power, max 100 mA
+    d.addDescriptor({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // bus power, max 100 mA
     descriptor::addAudioControl(d, channels);
     descriptor::addAudioStream(d, channels, feedbackBytes);
     descriptor::addSerial(d);

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Inputs and outputs for people: the LED, and the jumper of the ceiling. LED while waiting: a short flash
-// every two seconds; playing: on; limiting (guard or ceiling): eight flashes a second; fault: three flashes,
-// then a pause, for five seconds.
+// What the LED shows, and the jumper that sets the ceiling. The LED flashes briefly every two seconds while
+// waiting, is on while playing, flashes eight times a second while guard or ceiling limit, and for five
+// seconds after an error in groups of three.
 #pragma once
 #include "FixedGuard.h"
 
 namespace physvib::pico {
-enum class Light { waiting, playing, limiting, fault };
+enum class Light { waiting, playing, limiting, error };
 
 /// Main loop only. Times are counts of tiles since power-on.
 class Indicator {
 public:
-    /// Returns what to show. `limited`, `faults`: totals since power-on.
-    Light see(std::uint32_t tiles, bool isPlaying, std::uint32_t limited, std::uint32_t faults) noexcept {
-        if (limited != limited_) limitedAt_ = tiles, wasLimited_ = true;
-        if (faults != faults_) faultAt_ = tiles, wasFault_ = true;
-        limited_ = limited;
-        faults_ = faults;
-        wasLimited_ = wasLimited_ && tiles - limitedAt_ < tilesPerSecond / 2;
-        wasFault_ = wasFault_ && tiles - faultAt_ < 5 * tilesPerSecond;
-        if (wasFault_) return Light::fault;
-        return !isPlaying ? Light::waiting : wasLimited_ ? Light::limiting : Light::playing;
+    /// Returns what to show. `limited`, `errors`: totals since power-on.
+    Light update(std::uint32_t tiles, bool isPlaying, std::uint32_t limited, std::uint32_t errors) noexcept {
+        if (limited != lastLimited_) limitedTile_ = tiles, isLimiting_ = true;
+        if (errors != lastErrors_) errorTile_ = tiles, hasError_ = true;
+        lastLimited_ = limited;
+        lastErrors_ = errors;
+        isLimiting_ = isLimiting_ && tiles - limitedTile_ < tilesPerSecond / 2;
+        hasError_ = hasError_ && tiles - errorTile_ < 5 * tilesPerSecond;
+        if (hasError_) return Light::error;
+        return !isPlaying ? Light::waiting : isLimiting_ ? Light::limiting : Light::playing;
     }
 
     static bool isOn(Light light, std::uint32_t tiles) noexcept {
@@ -29,35 +29,35 @@ public:
         case Light::waiting: return tiles % (2 * second) < second / 20;
         case Light::playing: return true;
         case Light::limiting: return tiles % (second / 8) < second / 16;
-        case Light::fault: break;
+        case Light::error: break;
         }
-        const auto at = tiles % (3 * second / 2);
-        return at < 3 * second / 4 && at % (second / 4) < second / 8;
+        const auto phase = tiles % (3 * second / 2);
+        return phase < 3 * second / 4 && phase % (second / 4) < second / 8;
     }
 
 private:
-    std::uint32_t limited_ = 0, faults_ = 0, limitedAt_ = 0, faultAt_ = 0;
-    bool wasLimited_ = false, wasFault_ = false;
+    std::uint32_t lastLimited_ = 0, lastErrors_ = 0, limitedTile_ = 0, errorTile_ = 0;
+    bool isLimiting_ = false, hasError_ = false;
 };
 
-/// The wire from GP9 to ground, which allows full scale; without it the ceiling is a quarter. It counts after
-/// a contact of stillTiles, until the first interruption. Main loop only. Times are counts of tiles.
+/// The wire from GP9 to ground, which allows full scale; without it the ceiling is a quarter. It is effective
+/// after debounceTiles of contact, until the contact first opens. Main loop only. Times are counts of tiles.
 class CeilingJumper {
 public:
-    static constexpr std::uint32_t stillTiles = tilesPerSecond / 10; // a contact bounces for some 10 ms
+    static constexpr std::uint32_t debounceTiles = tilesPerSecond / 10; // a contact bounces for some 10 ms
 
     /// True: full scale is allowed.
-    bool see(std::uint32_t tiles, bool isTied) noexcept {
-        if (!isTied || !wasTied_) tiedAt_ = tiles;
-        if (!isTied) isFull_ = false;
-        wasTied_ = isTied;
-        isFull_ = isFull_ || (isTied && tiles - tiedAt_ >= stillTiles);
-        return isFull_;
+    bool update(std::uint32_t tiles, bool isGrounded) noexcept {
+        if (!isGrounded || !wasGrounded_) groundedTile_ = tiles;
+        if (!isGrounded) isFullScale_ = false;
+        wasGrounded_ = isGrounded;
+        isFullScale_ = isFullScale_ || (isGrounded && tiles - groundedTile_ >= debounceTiles);
+        return isFullScale_;
     }
 
 private:
-    std::uint32_t tiedAt_ = 0;
-    bool wasTied_ = false, isFull_ = false;
+    std::uint32_t groundedTile_ = 0;
+    bool wasGrounded_ = false, isFullScale_ = false;
 };
 
 } // namespace physvib::pico

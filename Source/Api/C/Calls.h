@@ -18,50 +18,50 @@
 #include <vector>
 
 namespace physvib::api {
-/// Error text of this thread; see physvib_error().
-inline std::array<char, 640>& lastError() noexcept {
-    thread_local std::array<char, 640> line{};
-    return line;
+/// Buffer of this thread's error text, which physvib_error() returns.
+inline std::array<char, 640>& errorBuffer() noexcept {
+    thread_local std::array<char, 640> message{};
+    return message;
 }
 
-/// Any thread but R.
-inline int fail(int code, std::string_view line) noexcept {
-    auto& kept = lastError();
-    const std::size_t length = std::min(line.size(), kept.size() - 1);
-    std::copy_n(line.data(), length, kept.data());
-    kept[length] = '\0';
+/// Sets the error text of this thread and returns `code`. Any thread but R.
+inline int fail(int code, std::string_view message) noexcept {
+    auto& buffer = errorBuffer();
+    const std::size_t length = std::min(message.size(), buffer.size() - 1);
+    std::copy_n(message.data(), length, buffer.data());
+    buffer[length] = '\0';
     return code;
 }
 
-inline int unknownHandle() noexcept {
+inline int unknownHandleError() noexcept {
     return fail(PHYSVIB_ERROR_HANDLE, "handle: expected one of this kind that has not been freed");
 }
-inline int nothingThere(std::string_view line) noexcept { return fail(PHYSVIB_ERROR_ARGUMENT, line); }
+inline int argumentError(std::string_view message) noexcept { return fail(PHYSVIB_ERROR_ARGUMENT, message); }
 
-/// PHYSVIB_OK for an empty `fault`, otherwise an error with that text.
-inline int resultOf(std::string_view fault, int code = PHYSVIB_ERROR_ARGUMENT) noexcept {
-    return fault.empty() ? PHYSVIB_OK : fail(code, fault);
+/// PHYSVIB_OK for an empty `error`, otherwise an error with that text.
+inline int codeFromError(std::string_view error, int code = PHYSVIB_ERROR_ARGUMENT) noexcept {
+    return error.empty() ? PHYSVIB_OK : fail(code, error);
 }
 
 /// Returns the result of `call`, a code or a count; an exception becomes an error code.
 template <class Call>
-auto guarded(Call call) noexcept -> decltype(call()) {
+auto catchExceptions(Call call) noexcept -> decltype(call()) {
     try {
         return call();
     } catch (const std::bad_alloc&) {
         return fail(PHYSVIB_ERROR_MEMORY, "memory: expected more of it");
     } catch (const std::length_error&) {
         return fail(PHYSVIB_ERROR_MEMORY, "memory: expected more of it");
-    } catch (const std::invalid_argument& wrong) {
-        return fail(PHYSVIB_ERROR_ARGUMENT, wrong.what());
-    } catch (const std::exception& wrong) {
-        return fail(PHYSVIB_ERROR_INTERNAL, wrong.what());
+    } catch (const std::invalid_argument& error) {
+        return fail(PHYSVIB_ERROR_ARGUMENT, error.what());
+    } catch (const std::exception& error) {
+        return fail(PHYSVIB_ERROR_INTERNAL, error.what());
     } catch (...) {
         return fail(PHYSVIB_ERROR_INTERNAL, "unknown");
     }
 }
 
-/// A structure whose padding is zero too, because other languages may read it.
+/// A structure of zeros, with zero padding because other languages may read it.
 template <class Struct>
 Struct zeroed() noexcept {
     Struct values;
@@ -70,50 +70,49 @@ Struct zeroed() noexcept {
 }
 
 /// An event with the values of physvib_event_init.
-inline physvib_event noEvent() noexcept {
+inline physvib_event defaultEvent() noexcept {
     auto event = zeroed<physvib_event>();
     event.size = sizeof event;
     event.fixture = event.other = -1;
     return event;
 }
 
-/// Copies `values` as far as the caller's version of the structure extends.
+/// Copies as much of `values` as the caller's version of the structure holds; returns PHYSVIB_OK or an error.
 template <class Struct>
-int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
-    if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
+int writeStruct(Struct* to, std::size_t size, const Struct& values) noexcept {
+    if (to == nullptr) return argumentError("structure: expected one, found NULL");
     if (size < sizeof size || size > sizeof values)
-        return nothingThere("structure: expected its size, and a library that is as new as the header");
-    std::memcpy(filled, &values, size);
-    filled->size = size;
+        return argumentError("structure: expected its size, and a library that is as new as the header");
+    std::memcpy(to, &values, size);
+    to->size = size;
     return PHYSVIB_OK;
 }
 
 /// Reads the caller's structure. Members that an older version lacks keep the values of its init function.
 /// Sets the error and returns false if the size is invalid.
 template <class Struct>
-bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
+bool readStruct(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
     init(&to, sizeof to);
-    if (from == nullptr) return nothingThere("structure: expected one, found NULL"), false;
+    if (from == nullptr) return argumentError("structure: expected one, found NULL"), false;
     std::size_t size = 0;
     std::memcpy(&size, from, sizeof size);
     if (size < sizeof size || size > sizeof to)
-        return nothingThere("structure: expected one that its _init has filled"), false;
+        return argumentError("structure: expected one that its _init has filled"), false;
     std::memcpy(&to, from, size);
     to.size = sizeof to;
     return true;
 }
 
-/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
-/// know. A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a
-/// later, longer header.
+/// The size in bytes that a caller's event or layout states, or 0 if this library does not know it. A stated
+/// size of 0 is refused: it does not say how far the events of a list are apart.
 template <class Struct>
-std::size_t bytesOf(const void* given) noexcept {
+std::size_t validSize(const void* from) noexcept {
     std::size_t size = 0;
-    std::memcpy(&size, given, sizeof size);
+    std::memcpy(&size, from, sizeof size);
     return size >= sizeof size && size <= sizeof(Struct) ? size : 0;
 }
 
-inline CollisionEvent eventOf(const physvib_event& e) noexcept {
+inline CollisionEvent toCollisionEvent(const physvib_event& e) noexcept {
     const ContactKind kind = e.kind == PHYSVIB_ROLL    ? ContactKind::roll
                              : e.kind == PHYSVIB_SLIDE ? ContactKind::slide
                                                        : ContactKind::hit;
@@ -134,8 +133,8 @@ static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) &&
               PHYSVIB_ROLL == static_cast<int>(ContactKind::roll) &&
               PHYSVIB_SLIDE == static_cast<int>(ContactKind::slide));
 
-inline physvib_event eventOf(const CollisionEvent& e) noexcept {
-    physvib_event to = noEvent();
+inline physvib_event toPhysvibEvent(const CollisionEvent& e) noexcept {
+    physvib_event to = defaultEvent();
     to.time_ns = e.timeNs;
     to.duration_ns = e.durationNs;
     to.frequency_hz = e.frequencyHz;
@@ -154,24 +153,24 @@ inline physvib_event eventOf(const CollisionEvent& e) noexcept {
     return to;
 }
 
-inline std::optional<double> optional(double value) noexcept {
+inline std::optional<double> optionalOf(double value) noexcept {
     return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value};
 }
 
 /// Converts and checks settings; returns empty, or what is wrong and what was expected.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
-std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept;
+std::string_view convert(const physvib_layout& from, ActuatorLayout& to) noexcept;
 
 /// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
-int writeLayout(const EnchanterLayout& from, physvib_layout& to) noexcept;
+int writeLayout(const ActuatorLayout& from, physvib_layout& to) noexcept;
 
-// Only the functions below read and write a caller's events, because their size is the caller's.
+// Only these functions access lists of events: the caller's header decides how large its events are.
 
 /// Converts an event; returns empty, or why it cannot be played.
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept;
-/// Converts a list; returns empty, or why an event cannot be played, and then leaves `to` as it is.
+/// Converts a list; returns empty, or why an event cannot be played and `to` is unchanged.
 std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
-/// As readEvents(), and refuses a list that is not sorted by time.
+/// As readEvents(), but also refuses a list that is not sorted by time.
 std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
 
 /// Writes the first `capacity` events of a list; returns how many, or sets the error and returns it.

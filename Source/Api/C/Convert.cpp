@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks C structures and converts them to the engine's types.
+// Checks the structures of physvib.h, and converts them to and from the types of the engine (see Calls.h).
 #include "Api/C/Calls.h"
 #include <algorithm>
 
@@ -10,8 +10,8 @@ namespace {
 constexpr std::string_view wrongSize =
     "size: expected that of the structure, as its _init sets it, and a library that is as new as the header";
 
-std::string_view faultOf(const physvib_event& event) noexcept {
-    if (!isPlayable(eventOf(event)))
+std::string_view eventError(const physvib_event& event) noexcept {
+    if (!isPlayable(toCollisionEvent(event)))
         return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a "
                "decay of at least 1 per second, numbers, a time from 0 on";
     if (event.kind < PHYSVIB_HIT || event.kind > PHYSVIB_SLIDE)
@@ -21,13 +21,13 @@ std::string_view faultOf(const physvib_event& event) noexcept {
 
 } // namespace
 
-std::string_view convert(const physvib_layout& given, EnchanterLayout& to) noexcept {
-    const std::size_t bytes = bytesOf<physvib_layout>(&given);
+std::string_view convert(const physvib_layout& callerLayout, ActuatorLayout& to) noexcept {
+    const std::size_t bytes = validSize<physvib_layout>(&callerLayout);
     if (bytes == 0) return wrongSize;
     auto from = zeroed<physvib_layout>();
-    std::memcpy(&from, &given, bytes);
-    if (from.count < 1 || from.count > limits::maxEnchanters) return "layout: expected 1 to 64 enchanters";
-    EnchanterLayout layout;
+    std::memcpy(&from, &callerLayout, bytes);
+    if (from.count < 1 || from.count > limits::maxActuators) return "layout: expected 1 to 64 enchanters";
+    ActuatorLayout layout;
     layout.extentWidthMetres = from.extent_width_m;
     layout.extentHeightMetres = from.extent_height_m;
     layout.count = from.count;
@@ -39,11 +39,11 @@ std::string_view convert(const physvib_layout& given, EnchanterLayout& to) noexc
     return {};
 }
 
-int writeLayout(const EnchanterLayout& from, physvib_layout& given) noexcept {
-    const std::size_t bytes = bytesOf<physvib_layout>(&given);
-    if (bytes == 0) return nothingThere(wrongSize);
+int writeLayout(const ActuatorLayout& from, physvib_layout& callerLayout) noexcept {
+    const std::size_t bytes = validSize<physvib_layout>(&callerLayout);
+    if (bytes == 0) return argumentError(wrongSize);
     auto to = zeroed<physvib_layout>();
-    to.size = given.size;
+    to.size = callerLayout.size;
     to.extent_width_m = from.extentWidthMetres;
     to.extent_height_m = from.extentHeightMetres;
     to.count = from.count;
@@ -53,16 +53,16 @@ int writeLayout(const EnchanterLayout& from, physvib_layout& given) noexcept {
         to.z_m[j] = from.places[static_cast<std::size_t>(j)].zMetres;
         to.part[j] = from.places[static_cast<std::size_t>(j)].part;
     }
-    std::memcpy(&given, &to, bytes);
+    std::memcpy(&callerLayout, &to, bytes);
     return PHYSVIB_OK;
 }
 
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept {
     constexpr auto isSize = [](double metres) { return metres >= 0.0 && metres <= 1.0e9; }; // not NaN
-    EnchanterLayout layout;
-    if (const std::string_view fault = convert(from.layout, layout); !fault.empty()) return fault;
+    ActuatorLayout layout;
+    if (const std::string_view error = convert(from.layout, layout); !error.empty()) return error;
     if (!isSampleRate(from.rate_hz)) return "rate: expected 5000 to 192000 Hz";
-    if (from.channels != 0 && (from.channels < layout.count || from.channels > limits::maxEnchanters))
+    if (from.channels != 0 && (from.channels < layout.count || from.channels > limits::maxActuators))
         return "channels: expected 0, or as many as the layout has enchanters to 64";
     if (from.law < 0 || from.law >= static_cast<int>(panningLaws.size()))
         return "law: expected one of PHYSVIB_LAW_...";
@@ -74,56 +74,56 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     to.channels = from.channels;
     to.limiterEnabled = from.limiter != 0;
     to.panner = {layout, panningLaws[static_cast<std::size_t>(from.law)].law, from.exponent, width, height};
-    // This was the default law before 0.2; grains are panned by energy there.
+    // Linear was the default law before 0.2, and panned grains by energy.
     if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread);
     return {};
 }
 
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {
-    const std::size_t bytes = bytesOf<physvib_event>(&from);
+    const std::size_t bytes = validSize<physvib_event>(&from);
     if (bytes == 0) return wrongSize;
-    physvib_event whole = noEvent(); // members that an older program's event lacks keep their defaults
-    std::memcpy(&whole, &from, bytes);
-    const std::string_view fault = faultOf(whole);
-    if (fault.empty()) to = eventOf(whole);
-    return fault;
+    physvib_event filled = defaultEvent(); // members that an older program's event lacks keep their defaults
+    std::memcpy(&filled, &from, bytes);
+    const std::string_view error = eventError(filled);
+    if (error.empty()) to = toCollisionEvent(filled);
+    return error;
 }
 
 std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to) {
-    std::vector<CollisionEvent> all(static_cast<std::size_t>(count));
-    const std::size_t bytes = count > 0 ? bytesOf<physvib_event>(from) : 0;
-    const auto* at = reinterpret_cast<const std::byte*>(from);
-    for (CollisionEvent& event : all) {
-        if (bytesOf<physvib_event>(at) != bytes) return "events: expected all of one size";
-        if (const auto fault = readEvent(*reinterpret_cast<const physvib_event*>(at), event); !fault.empty())
-            return fault;
-        at += bytes;
+    std::vector<CollisionEvent> events(static_cast<std::size_t>(count));
+    const std::size_t bytes = count > 0 ? validSize<physvib_event>(from) : 0;
+    const auto* raw = reinterpret_cast<const std::byte*>(from);
+    for (CollisionEvent& event : events) {
+        if (validSize<physvib_event>(raw) != bytes) return "events: expected all of one size";
+        if (const auto error = readEvent(*reinterpret_cast<const physvib_event*>(raw), event); !error.empty())
+            return error;
+        raw += bytes;
     }
-    to = std::move(all);
+    to = std::move(events);
     return {};
 }
 
 std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to) {
-    std::vector<CollisionEvent> all;
-    if (const auto fault = readEvents(from, count, all); !fault.empty()) return fault;
-    if (!std::ranges::is_sorted(all, {}, &CollisionEvent::timeNs))
+    std::vector<CollisionEvent> events;
+    if (const auto error = readEvents(from, count, events); !error.empty()) return error;
+    if (!std::ranges::is_sorted(events, {}, &CollisionEvent::timeNs))
         return "events: expected in the order of their times";
-    to = std::move(all);
+    to = std::move(events);
     return {};
 }
 
 std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to,
                          std::int64_t capacity) noexcept {
     if (capacity == 0) return 0;
-    const std::size_t bytes = bytesOf<physvib_event>(to);
-    if (bytes == 0) return nothingThere(wrongSize);
+    const std::size_t bytes = validSize<physvib_event>(to);
+    if (bytes == 0) return argumentError(wrongSize);
     const auto count = std::min<std::int64_t>(capacity, std::ssize(from));
-    auto* at = reinterpret_cast<std::byte*>(to);
+    auto* raw = reinterpret_cast<std::byte*>(to);
     for (const CollisionEvent& event : from.first(static_cast<std::size_t>(count))) {
-        physvib_event whole = eventOf(event);
-        whole.size = bytes;
-        std::memcpy(at, &whole, bytes);
-        at += bytes;
+        physvib_event filled = toPhysvibEvent(event);
+        filled.size = bytes;
+        std::memcpy(raw, &filled, bytes);
+        raw += bytes;
     }
     return count;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// C functions that say why nothing is felt.
+// C functions that explain, in one sentence, why a world or an output produces no vibration.
 #include "Api/C/Calls.h"
-#include "Api/C/Objects.h"
+#include "Api/C/HandleObjects.h"
 #include "Contacts/ContactCounts.h"
 #include <algorithm>
 #include <string>
@@ -12,41 +12,42 @@ using namespace physvib::api;
 
 namespace {
 
-int write(const std::string& sentence, char* text, size_t size) noexcept {
+int copyText(const std::string& sentence, char* text, size_t size) noexcept {
     const std::size_t length = std::min(sentence.size(), size - 1);
     std::copy_n(sentence.data(), length, text);
     text[length] = '\0';
     return static_cast<int>(sentence.size());
 }
 
-// Outputs count since they were opened; of another output than last time, all counts.
-std::uint64_t since(std::uint64_t& last, std::uint64_t now) noexcept {
-    const std::uint64_t before = std::exchange(last, now);
-    return now >= before ? now - before : now;
+// Increase of a counter since the last call. A total below the last one comes from another output, so all of
+// it counts.
+std::uint64_t countSince(std::uint64_t& lastTotal, std::uint64_t total) noexcept {
+    const std::uint64_t previous = std::exchange(lastTotal, total);
+    return total >= previous ? total - previous : total;
 }
 
-int explain(physvib_world name, OutputFacts* output, char* text, size_t size) noexcept {
-    return in(name, [&](World& world) {
-        if (text == nullptr || size == 0) return nothingThere("text: expected a place for it");
+int writeExplanation(physvib_world handle, OutputFacts* output, char* text, size_t size) noexcept {
+    return with(handle, [&](World& world) {
+        if (text == nullptr || size == 0) return argumentError("text: expected a place for it");
         if (output != nullptr) {
-            output->late = since(world.late, output->late);
-            output->dropped = since(world.dropped, output->dropped);
-            output->rejected = since(world.rejected, output->rejected);
-            output->withoutPart = since(world.withoutPart, output->withoutPart);
+            output->late = countSince(world.late, output->late);
+            output->dropped = countSince(world.dropped, output->dropped);
+            output->rejected = countSince(world.rejected, output->rejected);
+            output->withoutPart = countSince(world.withoutPart, output->withoutPart);
         }
         const ContactCounts recent = world.feed.takeRecent();
-        return write(physvib::explain(recent, world.feed.counts(), output), text, size);
+        return copyText(physvib::explain(recent, world.feed.counts(), output), text, size);
     });
 }
 
-OutputFacts outputOf(Renderer& renderer, const LastChanges& changes) {
-    const std::lock_guard lock{renderer.readers};
+OutputFacts outputFactsOf(Renderer& renderer, const LastChanges& changes) {
+    const std::lock_guard lock{renderer.readerMutex};
     const RenderStatus status = renderer.status.read();
-    const double now = static_cast<double>(status.framesRendered) / renderer.rateHz * 1.0e9;
+    const double nowNs = static_cast<double>(status.framesRendered) / renderer.rateHz * 1.0e9;
     OutputFacts output;
     output.isMissing = status.framesRendered == 0;
-    if (output.isMissing) output.trouble = "no samples have been pulled from the renderer";
-    output.isSilent = now < static_cast<double>(changes.silentUntilNs);
+    if (output.isMissing) output.error = "no samples have been pulled from the renderer";
+    output.isSilent = nowNs < static_cast<double>(changes.silentUntilNs);
     output.silentBy = "physvib_renderer_silence";
     output.channels = renderer.channels;
     output.levelGain = changes.level;
@@ -59,70 +60,71 @@ OutputFacts outputOf(Renderer& renderer, const LastChanges& changes) {
     return output;
 }
 
-std::string_view viewOf(const char* text) noexcept { return text == nullptr ? "" : text; }
+std::string_view viewOrEmpty(const char* text) noexcept { return text == nullptr ? "" : text; }
 
 } // namespace
 
 int physvib_output_facts_init(physvib_output_facts* facts, size_t size) {
-    auto usual = zeroed<physvib_output_facts>();
-    usual.level = 1.0;
-    return begin(facts, size, usual);
+    auto defaults = zeroed<physvib_output_facts>();
+    defaults.level = 1.0;
+    return writeStruct(facts, size, defaults);
 }
 
-int physvib_world_note(physvib_world name, int body, int note) {
-    return in(name, [&](World& world) {
+int physvib_world_note(physvib_world handle, int body, int note) {
+    return with(handle, [&](World& world) {
         if (note < PHYSVIB_NOTE_SENSOR || note > PHYSVIB_NOTE_ASLEEP)
-            return nothingThere("note: expected one of PHYSVIB_NOTE_...");
-        return resultOf(world.feed.note(body, static_cast<EngineNote>(note)));
+            return argumentError("note: expected one of PHYSVIB_NOTE_...");
+        return codeFromError(world.feed.note(body, static_cast<EngineNote>(note)));
     });
 }
 static_assert(PHYSVIB_NOTE_SENSOR == static_cast<int>(EngineNote::sensor) &&
               PHYSVIB_NOTE_ASLEEP == static_cast<int>(EngineNote::asleep));
 
 int physvib_world_explain(physvib_world world, char* text, size_t size) {
-    return explain(world, nullptr, text, size);
+    return writeExplanation(world, nullptr, text, size);
 }
 
 int physvib_world_explain_output(physvib_world world, const physvib_output_facts* facts, char* text,
                                  size_t size) {
-    physvib_output_facts taken;
-    if (!take(facts, taken, physvib_output_facts_init)) return PHYSVIB_ERROR_ARGUMENT;
-    if (!(taken.level >= 0.0)) return nothingThere("level: expected a gain of 0 or more");
+    physvib_output_facts callerFacts;
+    if (!readStruct(facts, callerFacts, physvib_output_facts_init)) return PHYSVIB_ERROR_ARGUMENT;
+    if (!(callerFacts.level >= 0.0)) return argumentError("level: expected a gain of 0 or more");
     physvib_renderer_settings settings;
     RendererSettings renderer;
-    if (taken.renderer != nullptr) {
-        if (!take(taken.renderer, settings, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto fault = convert(settings, renderer); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    if (callerFacts.renderer != nullptr) {
+        if (!readStruct(callerFacts.renderer, settings, physvib_renderer_settings_init))
+            return PHYSVIB_ERROR_ARGUMENT;
+        if (const auto error = convert(settings, renderer); !error.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, error);
     }
-    const auto count = [](physvib_int64 told) {
-        return static_cast<std::uint64_t>(std::max<physvib_int64>(told, 0));
+    const auto nonNegative = [](physvib_int64 value) {
+        return static_cast<std::uint64_t>(std::max<physvib_int64>(value, 0));
     };
-    OutputFacts output{taken.is_missing != 0,
-                       taken.is_silent != 0,
-                       viewOf(taken.silent_by),
-                       viewOf(taken.trouble),
-                       std::max(0, taken.channels),
-                       taken.level,
-                       static_cast<std::uint64_t>(taken.muted_channels),
-                       count(taken.late),
-                       count(taken.dropped),
-                       count(taken.rejected),
-                       taken.renderer != nullptr ? &renderer.panner : nullptr,
-                       count(taken.without_part)};
-    return explain(world, &output, text, size);
+    OutputFacts output{callerFacts.is_missing != 0,
+                       callerFacts.is_silent != 0,
+                       viewOrEmpty(callerFacts.silent_by),
+                       viewOrEmpty(callerFacts.trouble),
+                       std::max(0, callerFacts.channels),
+                       callerFacts.level,
+                       static_cast<std::uint64_t>(callerFacts.muted_channels),
+                       nonNegative(callerFacts.late),
+                       nonNegative(callerFacts.dropped),
+                       nonNegative(callerFacts.rejected),
+                       callerFacts.renderer != nullptr ? &renderer.panner : nullptr,
+                       nonNegative(callerFacts.without_part)};
+    return writeExplanation(world, &output, text, size);
 }
 
-int physvib_renderer_explain(physvib_renderer name, physvib_world world, char* text, size_t size) {
-    return guarded([&] {
-        const auto renderer = use(name);
-        if (!renderer) return unknownHandle();
+int physvib_renderer_explain(physvib_renderer handle, physvib_world world, char* text, size_t size) {
+    return catchExceptions([&] {
+        const auto renderer = borrow(handle);
+        if (!renderer) return unknownHandleError();
         LastChanges changes;
         {
-            const std::lock_guard lock{renderer->producers};
+            const std::lock_guard lock{renderer->producerMutex};
             changes = renderer->changes;
         }
-        OutputFacts output = outputOf(*renderer, changes);
-        return explain(world, &output, text, size);
+        OutputFacts output = outputFactsOf(*renderer, changes);
+        return writeExplanation(world, &output, text, size);
     });
 }

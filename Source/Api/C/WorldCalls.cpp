@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// C functions of a world: report contacts, take events.
+// C functions of a world: settings, bodies, steps, contacts, and the events that result.
 #include "Api/C/Calls.h"
-#include "Api/C/Objects.h"
+#include "Api/C/HandleObjects.h"
 #include <cmath>
 
 using namespace physvib;
@@ -9,36 +9,36 @@ using namespace physvib::api;
 
 namespace {
 
-constexpr double longestStepSeconds = 3600.0;
+constexpr double maxStepSeconds = 3600.0;
 
-int inOrder(std::string_view fault) noexcept {
-    return resultOf(fault,
-                    fault.starts_with("step:") || fault.starts_with("contact:") || fault.starts_with("time:")
-                        ? PHYSVIB_ERROR_ORDER
-                        : PHYSVIB_ERROR_ARGUMENT);
+int codeFromFeedError(std::string_view error) noexcept {
+    return codeFromError(error, error.starts_with("step:") || error.starts_with("contact:") ||
+                                        error.starts_with("time:")
+                                    ? PHYSVIB_ERROR_ORDER
+                                    : PHYSVIB_ERROR_ARGUMENT);
 }
 
-bool convert(const physvib_world_settings* from, ImpactSettings& to) {
-    physvib_world_settings taken;
+bool readWorldSettings(const physvib_world_settings* from, ImpactSettings& to) {
+    physvib_world_settings copy;
     if (from == nullptr)
-        physvib_world_settings_init(&taken, sizeof taken);
-    else if (!take(from, taken, physvib_world_settings_init))
+        physvib_world_settings_init(&copy, sizeof copy);
+    else if (!readStruct(from, copy, physvib_world_settings_init))
         return false;
-    for (const double number : {taken.field_x_m, taken.field_y_m, taken.field_radians})
-        if (!(std::abs(number) <= 1.0e9)) return nothingThere("field: expected numbers"), false;
-    to.fieldWidthMetres = taken.field_width_m;
-    to.normalisation = optional(taken.normalisation_s_per_m);
-    to.handMassKg = optional(taken.hand_mass_kg);
-    to.driveGain = taken.drive_gain;
-    to.location = taken.at_body != 0 ? ImpactLocation::fixture : ImpactLocation::contact;
-    to.thresholdMetresPerSecond = taken.threshold_m_per_s;
-    to.keepsHitsOfDestroyed = taken.drops_hits_of_removed == 0;
-    to.isMuted = taken.is_muted != 0;
-    if (taken.hits_per_step != -1) to.hitsPerStep = taken.hits_per_step;
-    to.fieldOrigin = {static_cast<float>(taken.field_x_m), static_cast<float>(taken.field_y_m)};
-    to.fieldRadians = static_cast<float>(taken.field_radians);
-    to.fullScaleNewtonSeconds = taken.full_scale_impulse_n_s;
-    to.settlingSeconds = taken.settling_s;
+    for (const double number : {copy.field_x_m, copy.field_y_m, copy.field_radians})
+        if (!(std::abs(number) <= 1.0e9)) return argumentError("field: expected numbers"), false;
+    to.fieldWidthMetres = copy.field_width_m;
+    to.normalisation = optionalOf(copy.normalisation_s_per_m);
+    to.handMassKg = optionalOf(copy.hand_mass_kg);
+    to.driveGain = copy.drive_gain;
+    to.location = copy.at_body != 0 ? ImpactLocation::fixture : ImpactLocation::contact;
+    to.thresholdMetresPerSecond = copy.threshold_m_per_s;
+    to.keepsHitsOfDestroyed = copy.drops_hits_of_removed == 0;
+    to.isMuted = copy.is_muted != 0;
+    if (copy.hits_per_step != -1) to.hitsPerStep = copy.hits_per_step;
+    to.fieldOrigin = {static_cast<float>(copy.field_x_m), static_cast<float>(copy.field_y_m)};
+    to.fieldRadians = static_cast<float>(copy.field_radians);
+    to.fullScaleNewtonSeconds = copy.full_scale_impulse_n_s;
+    to.settlingSeconds = copy.settling_s;
     return true;
 }
 
@@ -51,7 +51,7 @@ HapticFixture fixtureOf(const physvib_body& body) {
     values.voice = static_cast<Voice>(body.voice);
     values.surface = body.surface;
     values.gain = body.gain;
-    values.handMassKg = optional(body.hand_mass_kg);
+    values.handMassKg = optionalOf(body.hand_mass_kg);
     values.part = body.part;
     values.texture = {body.grain_m, body.roughness,
                       body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
@@ -64,7 +64,7 @@ Vector2 vectorOf(double x, double y) { return {static_cast<float>(x), static_cas
 Vector3 vectorOf(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
-Vector3 vectorOf(const double* of) { return vectorOf(of[0], of[1], of[2]); }
+Vector3 vectorOf(const double* xyz) { return vectorOf(xyz[0], xyz[1], xyz[2]); }
 
 FedContact contactOf(const physvib_contact& from) {
     FedContact contact;
@@ -72,17 +72,17 @@ FedContact contactOf(const physvib_contact& from) {
     contact.b = from.b;
     contact.point = vectorOf(from.x_m, from.y_m, from.z_m);
     contact.normal = vectorOf(from.normal_x, from.normal_y, from.normal_z);
-    contact.impulseNewtonSeconds = optional(from.impulse_n_s);
+    contact.impulseNewtonSeconds = optionalOf(from.impulse_n_s);
     contact.tangentialNewtonSeconds = from.tangential_n_s;
     contact.frictionNewtonSeconds = vectorOf(from.friction_x_n_s, from.friction_y_n_s, from.friction_z_n_s);
-    contact.approachMetresPerSecond = optional(from.approach_m_per_s);
+    contact.approachMetresPerSecond = optionalOf(from.approach_m_per_s);
     contact.restitution = from.restitution;
-    contact.effectiveMassKg = optional(from.effective_mass_kg);
-    contact.fraction = optional(from.fraction);
+    contact.effectiveMassKg = optionalOf(from.effective_mass_kg);
+    contact.fraction = optionalOf(from.fraction);
     contact.gapMetres = from.gap_m;
     contact.gapFraction = from.gap_fraction;
-    contact.alongAMetresPerSecond = optional(from.along_a_m_per_s);
-    contact.alongBMetresPerSecond = optional(from.along_b_m_per_s);
+    contact.alongAMetresPerSecond = optionalOf(from.along_a_m_per_s);
+    contact.alongBMetresPerSecond = optionalOf(from.along_b_m_per_s);
     contact.isSoft = from.is_soft != 0;
     contact.isPushWhole = from.is_soft == PHYSVIB_SOFT_WHOLE;
     contact.pointId = from.point_id;
@@ -90,218 +90,224 @@ FedContact contactOf(const physvib_contact& from) {
     return contact;
 }
 
-int tell(physvib_world name, const physvib_contact* contact,
-         std::string_view (ContactFeed::*call)(const FedContact&)) noexcept {
-    return in(name, [&](World& world) {
-        physvib_contact taken;
-        if (!take(contact, taken, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
-        const std::string_view fault = (world.feed.*call)(contactOf(taken));
-        const int unknown = world.feed.counts().unknownBody;
-        if (fault.starts_with("body:") && (unknown == taken.a || unknown == taken.b))
+int reportContact(physvib_world handle, const physvib_contact* contact,
+                  std::string_view (ContactFeed::*report)(const FedContact&)) noexcept {
+    return with(handle, [&](World& world) {
+        physvib_contact copy;
+        if (!readStruct(contact, copy, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
+        const std::string_view error = (world.feed.*report)(contactOf(copy));
+        const int unknownBody = world.feed.counts().unknownBody;
+        if (error.starts_with("body:") && (unknownBody == copy.a || unknownBody == copy.b))
             return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "body " + std::to_string(unknown) +
+                        "body " + std::to_string(unknownBody) +
                             ": expected one that was set before its contacts (set_body)");
-        return inOrder(fault);
+        return codeFromFeedError(error);
     });
 }
 
-void collect(World& world, bool atOnce) {
+void moveReadyEvents(World& world, bool atOnce) {
     if (atOnce)
-        world.feed.flush(world.taken);
+        world.feed.flush(world.pendingEvents);
     else
-        world.feed.take(world.taken);
+        world.feed.take(world.pendingEvents);
 }
 
 } // namespace
 
 int physvib_world_create(const physvib_world_settings* settings, physvib_world* world) {
-    return guarded([&] {
-        if (world == nullptr) return nothingThere("world: expected a place for it, found NULL");
+    return catchExceptions([&] {
+        if (world == nullptr) return argumentError("world: expected a place for it, found NULL");
         *world = nullptr;
-        ImpactSettings wanted;
-        if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const std::string_view fault = faultOf(wanted); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
-        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
-        *world = reinterpret_cast<physvib_world>(name);
+        ImpactSettings checked;
+        if (!readWorldSettings(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const std::string_view error = errorOf(checked); !error.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+        const std::uintptr_t handle = worlds().add(std::make_unique<World>(checked));
+        if (handle == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
+        *world = reinterpret_cast<physvib_world>(handle);
         return PHYSVIB_OK;
     });
 }
 
 int physvib_world_free(physvib_world world) {
-    return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle();
+    return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandleError();
 }
 
-int physvib_world_configure(physvib_world name, const physvib_world_settings* settings) {
-    return in(name, [&](World& world) {
-        ImpactSettings wanted;
-        if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+int physvib_world_configure(physvib_world handle, const physvib_world_settings* settings) {
+    return with(handle, [&](World& world) {
+        ImpactSettings checked;
+        if (!readWorldSettings(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
         // checked here, because without exceptions configure() could not release the lock
-        if (const std::string_view fault = faultOf(wanted); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        world.feed.configure(wanted);
+        if (const std::string_view error = errorOf(checked); !error.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+        world.feed.configure(checked);
         return PHYSVIB_OK;
     });
 }
 
-int physvib_world_set_body(physvib_world name, int body, const physvib_body* values) {
-    return in(name, [&](World& world) {
-        physvib_body taken;
-        if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH)
+int physvib_world_set_body(physvib_world handle, int body, const physvib_body* values) {
+    return with(handle, [&](World& world) {
+        physvib_body copy;
+        if (!readStruct(values, copy, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (copy.voice < PHYSVIB_VOICE_OWN || copy.voice > PHYSVIB_VOICE_BOTH)
             return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
-        if (taken.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
-        const std::string_view fault =
-            world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken));
-        if (fault.empty() && taken.device != 0)
-            world.devices[body] = taken.device;
-        else if (fault.empty())
+        if (copy.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
+        const std::string_view error =
+            world.feed.set(body, {copy.mass_kg, copy.inertia_kg_m2, copy.gravity_scale}, fixtureOf(copy));
+        if (error.empty() && copy.device != 0)
+            world.devices[body] = copy.device;
+        else if (error.empty())
             world.devices.erase(body);
-        return resultOf(fault);
+        return codeFromError(error);
     });
 }
 
-int physvib_world_set_mass(physvib_world name, int body, double massKg) {
-    return in(name, [&](World& world) { return resultOf(world.feed.setMass(body, massKg)); });
+int physvib_world_set_mass(physvib_world handle, int body, double massKg) {
+    return with(handle, [&](World& world) { return codeFromError(world.feed.setMass(body, massKg)); });
 }
 
-int physvib_world_device(physvib_world name, int body) {
-    return in(name, [&](World& world) {
-        const auto known = world.devices.find(body);
-        return known == world.devices.end() ? 0 : known->second;
+int physvib_world_device(physvib_world handle, int body) {
+    return with(handle, [&](World& world) {
+        const auto found = world.devices.find(body);
+        return found == world.devices.end() ? 0 : found->second;
     });
 }
 
-int physvib_world_remove_body(physvib_world name, int body) {
-    return in(name, [&](World& world) { return inOrder(world.feed.remove(body)); });
+int physvib_world_remove_body(physvib_world handle, int body) {
+    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.remove(body)); });
 }
 
-int physvib_world_move(physvib_world name, int body, double x, double y, double vx, double vy, double spin) {
-    return in(name, [&](World& world) {
-        return resultOf(world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)}));
+int physvib_world_move(physvib_world handle, int body, double x, double y, double vx, double vy,
+                       double spin) {
+    return with(handle, [&](World& world) {
+        return codeFromError(
+            world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)}));
     });
 }
 
-int physvib_world_moved(physvib_world name, int body, double vx, double vy, double spin) {
-    return in(name, [&](World& world) {
-        return inOrder(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)}));
+int physvib_world_moved(physvib_world handle, int body, double vx, double vy, double spin) {
+    return with(handle, [&](World& world) {
+        return codeFromFeedError(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)}));
     });
 }
 
-int physvib_world_move_in_space(physvib_world name, int body, const double centre[3],
+int physvib_world_move_in_space(physvib_world handle, int body, const double centre[3],
                                 const double velocity[3], const double spin[3], const double inverse[6]) {
-    return in(name, [&](World& world) {
+    return with(handle, [&](World& world) {
         if (!centre || !velocity || !spin)
-            return nothingThere("motion: expected centre, velocity and spin, found NULL");
-        std::optional<InverseInertia> turning;
-        if (inverse) turning = {inverse[0], inverse[1], inverse[2], inverse[3], inverse[4], inverse[5]};
-        return resultOf(
-            world.feed.moveInSpace(body, vectorOf(centre), {vectorOf(velocity), vectorOf(spin)}, turning));
+            return argumentError("motion: expected centre, velocity and spin, found NULL");
+        std::optional<InverseInertia> inertia;
+        if (inverse) inertia = {inverse[0], inverse[1], inverse[2], inverse[3], inverse[4], inverse[5]};
+        return codeFromError(
+            world.feed.moveInSpace(body, vectorOf(centre), {vectorOf(velocity), vectorOf(spin)}, inertia));
     });
 }
 
-int physvib_world_moved_in_space(physvib_world name, int body, const double velocity[3],
+int physvib_world_moved_in_space(physvib_world handle, int body, const double velocity[3],
                                  const double spin[3]) {
-    return in(name, [&](World& world) {
-        if (!velocity || !spin) return nothingThere("motion: expected velocity and spin, found NULL");
-        return inOrder(world.feed.movedInSpace(body, {vectorOf(velocity), vectorOf(spin)}));
+    return with(handle, [&](World& world) {
+        if (!velocity || !spin) return argumentError("motion: expected velocity and spin, found NULL");
+        return codeFromFeedError(world.feed.movedInSpace(body, {vectorOf(velocity), vectorOf(spin)}));
     });
 }
 
-int physvib_world_pair(physvib_world name, int surface, int other, double frequencyHz, double decayPerSecond,
-                       double gain) {
-    return in(name, [&](World& world) {
-        return resultOf(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain}));
+int physvib_world_pair(physvib_world handle, int surface, int other, double frequencyHz,
+                       double decayPerSecond, double gain) {
+    return with(handle, [&](World& world) {
+        return codeFromError(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain}));
     });
 }
 
-int physvib_world_begin_step(physvib_world name, double seconds, double gravity) {
-    return in(name, [&](World& world) {
-        if (!(seconds >= 0.0 && seconds <= longestStepSeconds))
+int physvib_world_begin_step(physvib_world handle, double seconds, double gravity) {
+    return with(handle, [&](World& world) {
+        if (!(seconds >= 0.0 && seconds <= maxStepSeconds))
             return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
-        return inOrder(world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
+        return codeFromFeedError(
+            world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
     });
 }
 
 int physvib_world_touch(physvib_world world, const physvib_contact* contact) {
-    return tell(world, contact, &ContactFeed::touch);
+    return reportContact(world, contact, &ContactFeed::touch);
 }
 int physvib_world_begin(physvib_world world, const physvib_contact* contact) {
-    return tell(world, contact, &ContactFeed::begin);
+    return reportContact(world, contact, &ContactFeed::begin);
 }
 int physvib_world_push(physvib_world world, const physvib_contact* contact) {
-    return tell(world, contact, &ContactFeed::push);
+    return reportContact(world, contact, &ContactFeed::push);
 }
 
-int physvib_world_end(physvib_world name, int a, int b) {
-    return in(name, [&](World& world) { return inOrder(world.feed.end(a, b)); });
+int physvib_world_end(physvib_world handle, int a, int b) {
+    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.end(a, b)); });
 }
 
-int physvib_world_end_step(physvib_world name) {
-    return in(name, [&](World& world) { return inOrder(world.feed.endStep()); });
+int physvib_world_end_step(physvib_world handle) {
+    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.endStep()); });
 }
 
-physvib_int64 physvib_world_time_ns(physvib_world name) {
-    return in(name, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
+physvib_int64 physvib_world_time_ns(physvib_world handle) {
+    return with(handle, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
 }
 
-physvib_int64 physvib_world_take(physvib_world name, physvib_event* events, physvib_int64 capacity,
+physvib_int64 physvib_world_take(physvib_world handle, physvib_event* events, physvib_int64 capacity,
                                  int atOnce) {
-    return in(name, [&](World& world) -> physvib_int64 {
+    return with(handle, [&](World& world) -> physvib_int64 {
         if (capacity < 0 || (capacity > 0 && events == nullptr))
-            return nothingThere("events: expected a place for them");
-        collect(world, atOnce != 0);
-        const std::int64_t count = writeEvents(world.taken, events, capacity);
-        if (count > 0) world.taken.erase(world.taken.begin(), world.taken.begin() + count);
+            return argumentError("events: expected a place for them");
+        moveReadyEvents(world, atOnce != 0);
+        const std::int64_t count = writeEvents(world.pendingEvents, events, capacity);
+        if (count > 0)
+            world.pendingEvents.erase(world.pendingEvents.begin(), world.pendingEvents.begin() + count);
         return count;
     });
 }
 
-physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvib_int64 laterNs, int atOnce) {
-    return in(name, [&](World& world) -> physvib_int64 {
-        const auto renderer = use(to);
-        if (!renderer) return unknownHandle();
+physvib_int64 physvib_world_send(physvib_world handle, physvib_renderer to, physvib_int64 laterNs,
+                                 int atOnce) {
+    return with(handle, [&](World& world) -> physvib_int64 {
+        const auto renderer = borrow(to);
+        if (!renderer) return unknownHandleError();
         if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
             return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
-        collect(world, atOnce != 0);
+        moveReadyEvents(world, atOnce != 0);
         physvib_int64 sent = 0;
-        const std::lock_guard lock{renderer->producers};
-        for (CollisionEvent event : world.taken) {
+        const std::lock_guard lock{renderer->producerMutex};
+        for (CollisionEvent event : world.pendingEvents) {
             event.timeNs += laterNs;
             sent += renderer->source.events.push(event) ? 1 : 0;
         }
-        world.taken.clear();
+        world.pendingEvents.clear();
         return sent;
     });
 }
 
-physvib_int64 physvib_world_thinned(physvib_world name) {
-    return in(name, [&](World& world) -> physvib_int64 {
+physvib_int64 physvib_world_thinned(physvib_world handle) {
+    return with(handle, [&](World& world) -> physvib_int64 {
         return static_cast<physvib_int64>(world.feed.thinned());
     });
 }
 
-physvib_int64 physvib_world_drops(physvib_world name) {
-    return in(name,
-              [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.drops()); });
+physvib_int64 physvib_world_drops(physvib_world handle) {
+    return with(handle, [&](World& world) -> physvib_int64 {
+        return static_cast<physvib_int64>(world.feed.drops());
+    });
 }
 
-int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
-    return in(name, [&](World& world) {
-        const ContactCounts now = world.feed.counts();
-        physvib_world_counts taken;
-        if (!take(counts, taken, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
+int physvib_world_get_counts(physvib_world handle, physvib_world_counts* counts) {
+    return with(handle, [&](World& world) {
+        const ContactCounts total = world.feed.counts();
+        physvib_world_counts copy;
+        if (!readStruct(counts, copy, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
         const std::size_t size = counts->size; // of the caller's version
-        const auto number = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
-        taken.contacts = number(now.contacts);
-        taken.below_threshold = number(now.belowThreshold);
-        taken.no_source = number(now.withoutSource);
-        taken.unplayable = number(now.unplayable);
-        taken.muted = number(now.muted + now.settling);
-        taken.dropped = number(now.dropped);
-        taken.events = number(now.events);
-        taken.threshold_m_per_s = now.thresholdMetresPerSecond;
-        return begin(counts, size, taken);
+        const auto toInt64 = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
+        copy.contacts = toInt64(total.contacts);
+        copy.below_threshold = toInt64(total.belowThreshold);
+        copy.no_source = toInt64(total.withoutSource);
+        copy.unplayable = toInt64(total.unplayable);
+        copy.muted = toInt64(total.muted + total.settling);
+        copy.dropped = toInt64(total.dropped);
+        copy.events = toInt64(total.events);
+        copy.threshold_m_per_s = total.thresholdMetresPerSecond;
+        return writeStruct(counts, size, copy);
     });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // HapticBody and HapticMaterial, which describe a body of Godot to PhysVib. For Godot's main thread.
 #pragma once
-
 #include "Api/Godot/Classes.h"
 
 #include <physvib/physvib.h>
@@ -15,18 +14,18 @@ class HapticBody final : public Instance {
 public:
     explicit HapticBody(GDExtensionObjectPtr object);
     ~HapticBody() override;
-    void notified(int what) override;
-    void changed() override;
+    void onNotification(int what) override;
+    void onPropertyChanged() override;
     std::vector<std::string> warnings() const override;
 
     /// Instance id of Godot's physics body; 0: there is none.
-    std::uint64_t bodyId() const { return parentId; }
+    std::uint64_t parentBodyId() const { return parentId; }
     /// RID of the physics server's space that contains the body.
-    std::uint64_t spaceId() const { return space; }
+    std::uint64_t spaceRid() const { return space; }
     bool isFelt() const;
-    /// Sets vibration, gain and part, not the mass. `standard`: the HapticMaterial if it has none of its own;
-    /// nil: the built-in one. Reports an unknown preset, with the body's path.
-    void describe(physvib_body& body, const Value& standard) const;
+    /// Sets vibration, gain and part, not the mass. `defaultMaterial`: the HapticMaterial if it has none of
+    /// its own; nil: the built-in one. Reports an unknown preset, with the body's path.
+    void applyTo(physvib_body& body, const Variant& defaultMaterial) const;
 
 private:
     std::uint64_t parentId = 0, space = 0;
@@ -34,15 +33,15 @@ private:
 
 /// Sets vibration and grains from a HapticMaterial of `node`; nil: sets nothing. An unknown preset is
 /// reported, and then frequency and decay of the material apply.
-void describeMaterial(physvib_body& body, const Value& material, const Value& node);
+void applyMaterial(physvib_body& body, const Variant& material, const Variant& node);
 /// RID of the physics space of a 2D or 3D node that is in a scene tree.
-std::uint64_t spaceOf(const Value& node, bool isSpace);
+std::uint64_t spaceRidOf(const Variant& node, bool is3d);
 
 /// Nodes of a class in a scene, which may be its root.
-std::vector<Value> nodesIn(const Value& scene, const char* kind);
-/// The nodes that are in a scene tree now.
+std::vector<Variant> findNodes(const Variant& scene, const char* kind);
+/// All HapticBody nodes that are in a scene tree now.
 const std::vector<HapticBody*>& hapticBodies();
 
-extern const Class hapticBodyClass, hapticMaterialClass;
+extern const ClassTable hapticBodyClass, hapticMaterialClass;
 
 } // namespace physvib::godot

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A class for Godot as tables of properties and methods, and an instance of it. For Godot's main thread.
+// Describes a class to Godot by tables of properties and methods (ClassTable), and holds the properties of an
+// object of it (Instance). For Godot's main thread.
 #pragma once
-
 #include "Api/Godot/Binding.h"
 
 #include <cstddef>
@@ -14,10 +14,10 @@ namespace physvib::godot {
 struct Property {
     const char* name;
     GDExtensionVariantType type;
-    Value (*standard)();      ///< its default
-    double smallest, largest; ///< of a number, or each part of a vector; both 0: any that is finite
-    const char* group;        ///< heading in the inspector; "": none
-    int hint = 0;             ///< Godot's PropertyHint
+    Variant (*defaultValue)();
+    double minimum, maximum; ///< of a number or of each vector part; both 0: any finite number
+    const char* group;       ///< heading in the inspector; "": none
+    int hint = 0;            ///< Godot's PropertyHint
     const char* hintText = "";
 };
 
@@ -29,33 +29,33 @@ public:
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
 
-    virtual void notified(int /*what*/) {}
-    virtual void changed() {} ///< called after a property has got another value
+    virtual void onNotification(int /*what*/) {}
+    virtual void onPropertyChanged() {} ///< called after a property has changed
     virtual std::vector<std::string> warnings() const { return {}; }
 
     /// Sets a property. If the value cannot be used, reports what was expected and keeps the old one.
-    void set(std::size_t property, const Value& value);
-    const Value& get(std::size_t property) const { return values[property]; }
-    Value self() const { return Value(object); }
-    /// Rises with each new value of any property of any instance.
-    static std::uint64_t revision();
+    void set(std::size_t property, const Variant& value);
+    const Variant& get(std::size_t property) const { return values[property]; }
+    Variant self() const { return Variant(object); }
+    /// Number of property changes so far, of all instances.
+    static std::uint64_t changeCount();
 
 protected:
     GDExtensionObjectPtr object;
 
 private:
     const std::vector<Property>& properties;
-    std::vector<Value> values;
+    std::vector<Variant> values;
 };
 
 struct Method {
     const char* name;
     GDExtensionVariantType result; ///< NIL: none
-    Value (*call)(Instance&, const Value& argument);
+    Variant (*call)(Instance&, const Variant& argument);
     const char* argumentClass = nullptr; ///< of its argument, an object; null: it has no argument
 };
 
-struct Class {
+struct ClassTable {
     const char* name;
     const char* parent;
     const std::vector<Property>* properties;
@@ -64,8 +64,8 @@ struct Class {
     Instance* (*create)(GDExtensionObjectPtr object);
 };
 
-/// `type` has to live as long as the extension.
-void registerClass(const Class& type);
+/// `table` has to live as long as the extension.
+void registerClass(const ClassTable& table);
 
 constexpr int notifiedCreated = 0, notifiedEnterTree = 10, notifiedExitTree = 11, notifiedPaused = 14,
               notifiedPhysicsProcess = 16, notifiedProcess = 17; ///< Node.NOTIFICATION_...

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // HapticWorld reads the contacts that Godot lists after the solver, and the slides of characters.
-#include "Api/Godot/Meeting.h"
+#include "Api/Godot/ImpactEstimate.h"
 #include "Api/Godot/Worlds.h"
 #include <algorithm>
 #include <cmath>
@@ -9,270 +9,277 @@
 namespace physvib::godot {
 namespace {
 // Velocity, before the solver, of a body's point at `place`, m/s.
-Vector velocityAt(const Watched& body, const Vector& place) {
-    const Vector turn = cross(body.spin, minus(place, body.centre));
-    return {body.before[0] + turn[0], body.before[1] + turn[1], body.before[2] + turn[2]};
+Vector velocityAt(const ObservedBody& body, const Vector& place) {
+    const Vector spinVelocity = cross(body.spin, minus(place, body.centre));
+    return {body.velocityBefore[0] + spinVelocity[0], body.velocityBefore[1] + spinVelocity[1],
+            body.velocityBefore[2] + spinVelocity[2]};
 }
-Vector across(const Vector& v, const Vector& normal) {
+Vector tangentialPart(const Vector& v, const Vector& normal) {
     const double along = dot(v, normal);
     return {v[0] - along * normal[0], v[1] - along * normal[1], v[2] - along * normal[2]};
 }
-// True if a normal points at the centre of mass, as in contacts of balls.
-bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& normal) {
-    const Vector arm = minus(at, body.centre), beside = across(arm, normal);
-    return body.isRigid && dot(beside, beside) < 4e-4 * dot(arm, arm);
+// True if the normal points at the centre of mass within 1.1 degrees, as in contacts of balls.
+bool goesThroughCentre(const ObservedBody& body, const Vector& place, const Vector& normal) {
+    const Vector arm = minus(place, body.centre), sideways = tangentialPart(arm, normal);
+    return body.isRigid && dot(sideways, sideways) < 4e-4 * dot(arm, arm);
 }
-// Index 0 to 5 of the axis direction nearest to the normal; tells floor and wall of one body apart.
-int sideOf(const Vector& normal) {
-    const auto longest = std::ranges::max_element(normal, {}, [](double x) { return std::abs(x); });
-    return 2 * static_cast<int>(longest - normal.begin()) + (*longest < 0.0 ? 1 : 0);
+// Index 0 to 5 of the axis direction nearest to the normal, which distinguishes floor and wall of one body.
+int sideIndex(const Vector& normal) {
+    const auto largest = std::ranges::max_element(normal, {}, [](double x) { return std::abs(x); });
+    return 2 * static_cast<int>(largest - normal.begin()) + (*largest < 0.0 ? 1 : 0);
 }
 } // namespace
 
 // A sleeping body keeps its list of contacts, even with bodies that were freed.
-bool HapticWorld::isOtherThere(const Watched& each, int i) {
-    const std::uint64_t id = each.state.contactObject(i);
-    return id == 0 ? !each.state.sleeps() : api.instanceFromId(id) != nullptr;
+bool HapticWorld::doesOtherExist(const ObservedBody& body, int i) {
+    const std::uint64_t id = body.state.contactOtherId(i);
+    return id == 0 ? !body.state.isSleeping() : api.objectFromId(id) != nullptr;
 }
 
-double HapticWorld::bounceOf(std::uint64_t rid) {
-    const auto [found, isNew] = bounces.try_emplace(rid, 0.0);
+double HapticWorld::restitutionOf(std::uint64_t rid) {
+    const auto [found, isNew] = restitutions.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
-    if (isNew) found->second = server().call("body_get_param", Value(type::rid, &rid), bounce).real();
+    if (isNew) found->second = server().call("body_get_param", Variant(type::rid, &rid), bounce).real();
     return found->second;
 }
 
-void HapticWorld::touchAll(Watched& each) {
-    Surface under{};
+void HapticWorld::reportTouches(ObservedBody& body) {
+    Surface support{};
     double slowest = HUGE_VAL;
-    for (int i = 0; i < each.state.contacts(); ++i) {
-        if (isOfInterest(each, i) && isOtherThere(each, i)) touch(each, i);
-        const Surface its = surfaceOf(each, i);
-        if (const double speed = std::abs(approach(each, its, i)); speed < slowest)
-            under = its, slowest = speed;
+    for (int i = 0; i < body.state.contacts(); ++i) {
+        if (involvesHapticBody(body, i) && doesOtherExist(body, i)) reportTouch(body, i);
+        const Surface surface = surfaceOf(body, i);
+        if (const double speed = std::abs(approachSpeed(body, surface, i)); speed < slowest)
+            support = surface, slowest = speed;
     }
-    each.under = under;
+    body.support = support;
 }
 
 // Approach speed without the gravity of this tick, m/s.
-double HapticWorld::approach(const Watched& each, const Surface& surface, int i) const {
-    const Vector its = direction(each.state.contactOtherVelocity(i));
-    return dot(minus(velocityAt(each, surface.at), its), surface.normal) -
-           seconds * dot(each.pull, surface.normal);
+double HapticWorld::approachSpeed(const ObservedBody& body, const Surface& surface, int i) const {
+    const Vector otherVelocity = toFieldVector(body.state.contactOtherVelocity(i));
+    return dot(minus(velocityAt(body, surface.place), otherVelocity), surface.normal) -
+           stepSeconds * dot(body.acceleration, surface.normal);
 }
 
-// Contacts count only if one body has a HapticBody: others may be thousands.
-bool HapticWorld::isOfInterest(const Watched& each, int i) const {
-    if (each.values != nullptr) return true;
-    const auto known = watched.find(each.state.contactObject(i));
-    return known != watched.end() && known->second.values != nullptr;
+// Contacts of bodies without a HapticBody are ignored, because there may be thousands.
+bool HapticWorld::involvesHapticBody(const ObservedBody& body, int i) const {
+    if (body.hapticBody != nullptr) return true;
+    const auto found = bodies.find(body.state.contactOtherId(i));
+    return found != bodies.end() && found->second.hapticBody != nullptr;
 }
 
 // The other body of contact i; null if that body lists the pair too. If it is not rigid or is new, it moves
 // with the velocity that Godot gives for the contact point.
-Watched* HapticWorld::other(const Watched& each, int i, const Vector& place) {
-    const std::uint64_t id = each.state.contactObject(i);
-    const auto known = watched.find(id);
-    if (known != watched.end() && known->second.state && id < each.id && known->second.state.contacts() > 0)
+ObservedBody* HapticWorld::otherBody(const ObservedBody& body, int i, const Vector& place) {
+    const std::uint64_t id = body.state.contactOtherId(i);
+    const auto found = bodies.find(id);
+    if (found != bodies.end() && found->second.state && id < body.id && found->second.state.contacts() > 0)
         return nullptr;
-    return moving(id, each.state.contactBody(i), direction(each.state.contactOtherVelocity(i)), place);
+    return addOther(id, body.state.contactRid(i), toFieldVector(body.state.contactOtherVelocity(i)), place);
 }
 
-Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity,
-                             const Vector& place) {
-    const std::size_t before = watched.size();
-    Watched* found = watch(id, rid, nullptr);
-    const bool isNew = watched.size() != before;
+ObservedBody* HapticWorld::addOther(std::uint64_t id, std::uint64_t rid, const Vector& velocity,
+                                    const Vector& place) {
+    const std::size_t oldCount = bodies.size();
+    ObservedBody* found = findOrAdd(id, rid, nullptr);
+    const bool isNew = bodies.size() != oldCount;
     if (found == nullptr || (!isNew && found->isRigid)) return found;
     const Vector none{};
-    found->before = velocity;
+    found->velocityBefore = velocity;
     found->centre = place;
-    checkWorld(physvib_world_move_in_space(world, found->number, place.data(), found->before.data(),
-                                           none.data(), nullptr));
+    reportIfError(physvib_world_move_in_space(world, found->number, place.data(),
+                                              found->velocityBefore.data(), none.data(), nullptr));
     if (found->isRigid)
-        moveAfter(*found);
+        reportSolvedVelocity(*found);
     else
-        checkWorld(physvib_world_moved_in_space(world, found->number, found->before.data(), none.data()));
+        reportIfError(
+            physvib_world_moved_in_space(world, found->number, found->velocityBefore.data(), none.data()));
     return found;
 }
 
 // Jolt also lists near contacts. They count if reached in this tick and if the solver has slowed the bodies.
-bool HapticWorld::getsThere(const Watched& each, const Watched& met, const Surface& surface) const {
-    if (!(surface.gap > 0.0)) return true;
-    const Vector own = velocityAt(each, surface.at), its = velocityAt(met, surface.at);
-    return surface.gap <= seconds * dot(minus(own, its), surface.normal);
+bool HapticWorld::reachesSurface(const ObservedBody& body, const ObservedBody& other,
+                                 const Surface& surface) const {
+    if (!(surface.gapMetres > 0.0)) return true;
+    const Vector velocity = velocityAt(body, surface.place), otherVelocity = velocityAt(other, surface.place);
+    return surface.gapMetres <= stepSeconds * dot(minus(velocity, otherVelocity), surface.normal);
 }
 
-Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
-    const Vector at = place(each.state.contactPlace(i)), there = place(each.state.contactOtherPlace(i));
-    Vector normal = direction(each.state.contactNormal(i));
+Surface HapticWorld::surfaceOf(const ObservedBody& body, int i) const {
+    const Vector place = toField(body.state.contactPosition(i)),
+                 otherPlace = toField(body.state.contactOtherPosition(i));
+    Vector normal = toFieldVector(body.state.contactNormal(i));
     const double length = std::sqrt(dot(normal, normal));
     for (double& part : normal) part /= -length;
-    return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
+    return {place, otherPlace, normal, dot(minus(otherPlace, place), normal), length > 0.0};
 }
 
 // The surface of contact i, or the plane on which the body rolls or lands: an edge that does not rise above
 // the plane, as between tiles, is no obstacle although Jolt's normal points at it, unless the solver stops
-// the body, as at the foot of a ramp. If that is not sure, sets `doubt` to a ball's speed there.
-Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
-                               std::optional<double>& doubt) const {
-    constexpr double outstanding = 0.005; // m
-    const Surface own = surfaceOf(each, i);
-    if (goesThroughCentre(met, own.at, own.normal)) return own;
-    const bool isRound = goesThroughCentre(each, own.at, own.normal);
-    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch walls at floor height
-    Surface found = own;
-    double slowest = approach(each, own, i);
-    // It rolls, or the solver stops it there.
-    const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest;
-    for (int j = isRound ? -1 : 0; !isPlain && j < each.state.contacts(); ++j) { // -1: of the last tick
-        Surface under = j < 0 ? each.under : surfaceOf(each, j);
-        const double height = dot(minus(own.there, under.there), under.normal),
-                     alike = dot(own.normal, under.normal);
-        const bool isNear = std::abs(height) < outstanding || (isRound && alike > 0.9);
-        if (!under.isOne || !isNear || !(alike > least) || alike > 0.9999) continue;
-        if (j < 0) { // the ball rolls on over it
-            const Vector arm = minus(own.at, each.centre);
+// the body, as at the foot of a ramp. For a ball this is uncertain: `supportSpeed` is its speed to the plane.
+Surface HapticWorld::surfaceAcrossSeams(const ObservedBody& body, const ObservedBody& other, int i,
+                                        std::optional<double>& supportSpeed) const {
+    constexpr double maxEdgeMetres = 0.005;
+    const Surface listed = surfaceOf(body, i);
+    if (goesThroughCentre(other, listed.place, listed.normal)) return listed;
+    const bool isRound = goesThroughCentre(body, listed.place, listed.normal);
+    const double minAlignment = isRound ? 0.0 : 0.5; // a box's lower corners touch walls at floor height
+    Surface found = listed;
+    double slowest = approachSpeed(body, listed, i);
+    // The body rolls, or the solver stops it at this contact.
+    const bool isListed = isRound ? slowest < 0.05 : lostSpeed(body, listed.normal) > 0.5 * slowest;
+    for (int j = isRound ? -1 : 0; !isListed && j < body.state.contacts(); ++j) { // -1: of the last tick
+        Surface support = j < 0 ? body.support : surfaceOf(body, j);
+        const double height = dot(minus(listed.otherPlace, support.otherPlace), support.normal),
+                     alignment = dot(listed.normal, support.normal);
+        const bool isNear = std::abs(height) < maxEdgeMetres || (isRound && alignment > 0.9);
+        if (!support.hasNormal || !isNear || !(alignment > minAlignment) || alignment > 0.9999) continue;
+        if (j < 0) { // the ball rolls over the edge
+            const Vector arm = minus(listed.place, body.centre);
             for (std::size_t k = 0; k < 3; ++k)
-                under.at[k] = each.centre[k] + std::sqrt(dot(arm, arm)) * under.normal[k];
-            under.there = own.there, under.gap = own.gap;
+                support.place[k] = body.centre[k] + std::sqrt(dot(arm, arm)) * support.normal[k];
+            support.otherPlace = listed.otherPlace, support.gapMetres = listed.gapMetres;
         }
         // Contacts at two places of the same body are solved together.
-        const bool isAlone = j < 0 || each.state.contactBody(j) != each.state.contactBody(i);
-        const double most = !isRound ? 0.5 : isAlone ? 0.9 : 0.1;
-        if (const double its = approach(each, under, std::max(0, j)); its < most * slowest) {
-            found = under, slowest = its;
-            if (isRound) doubt = j < 0 ? 0.0 : std::max(0.0, its);
+        const bool isSeparate = j < 0 || body.state.contactRid(j) != body.state.contactRid(i);
+        const double maxShare = !isRound ? 0.5 : isSeparate ? 0.9 : 0.1;
+        if (const double speed = approachSpeed(body, support, std::max(0, j)); speed < maxShare * slowest) {
+            found = support, slowest = speed;
+            if (isRound) supportSpeed = j < 0 ? 0.0 : std::max(0.0, speed);
         }
     }
-    return doubt ? own : found;
+    return supportSpeed ? listed : found;
 }
 
 // Speed along a normal that the solver has removed, without the gravity of this tick, m/s.
-double HapticWorld::pushOf(const Watched& each, const Vector& normal) const {
-    return -dot(each.change, normal) - seconds * dot(each.pull, normal);
+double HapticWorld::lostSpeed(const ObservedBody& body, const Vector& normal) const {
+    return -dot(body.velocityChange, normal) - stepSeconds * dot(body.acceleration, normal);
 }
 
-// At an edge or a flat ramp, the impact of a ball is the speed that the solver removes beyond the `known`
-// one. If approach speed remains, since Jolt brakes early, the contact is deferred to the next tick.
-void HapticWorld::strikeDoubtful(const Watched& each, const Watched& met, physvib_contact contact,
-                                 const Vector& normal, double known) {
-    const auto isSame = [&](const Doubt& of) { return of.a == each.id && of.b == met.id; };
-    const double came = contact.approach_m_per_s, pushed = pushOf(each, normal) - pushOf(met, normal) - known;
-    if (std::ranges::any_of(decided, isSame) || pushed < 0.1 * std::abs(came)) return;
-    const double its = met.described.mass_kg, own = each.described.mass_kg;
-    contact.effective_mass_kg = its > 0.0 ? own * its / (own + its) : own;
+// At an edge or a flat ramp, the impact of a ball is the speed that the solver removes beyond `supportSpeed`
+// (m/s). If approach speed remains, because Jolt brakes early, the contact is deferred to the next tick.
+void HapticWorld::reportOrDefer(const ObservedBody& body, const ObservedBody& other, physvib_contact contact,
+                                const Vector& normal, double supportSpeed) {
+    const auto isSame = [&](const PendingContact& p) { return p.a == body.id && p.b == other.id; };
+    const double approach = contact.approach_m_per_s,
+                 pushed = lostSpeed(body, normal) - lostSpeed(other, normal) - supportSpeed;
+    if (std::ranges::any_of(previousContacts, isSame) || pushed < 0.1 * std::abs(approach)) return;
+    const double otherMassKg = other.description.mass_kg, massKg = body.description.mass_kg;
+    contact.effective_mass_kg = otherMassKg > 0.0 ? massKg * otherMassKg / (massKg + otherMassKg) : massKg;
     contact.restitution = 0.0, contact.point_id = 6, contact.approach_m_per_s = pushed;
-    const Doubt doubt{each.id, met.id, normal, contact, came - pushed};
-    if (const auto same = std::ranges::find_if(doubts, isSame); same != doubts.end()) {
-        if (same->contact.approach_m_per_s < pushed) *same = doubt;
-    } else if (came > 1.1 * pushed) {
-        doubts.push_back(doubt);
+    const PendingContact pending{body.id, other.id, normal, contact, approach - pushed};
+    if (const auto same = std::ranges::find_if(pendingContacts, isSame); same != pendingContacts.end()) {
+        if (same->contact.approach_m_per_s < pushed) *same = pending;
+    } else if (approach > 1.1 * pushed) {
+        pendingContacts.push_back(pending);
     } else {
-        checkWorld(physvib_world_touch(world, &contact));
+        reportIfError(physvib_world_touch(world, &contact));
     }
 }
 
-void HapticWorld::decide() {
-    constexpr int longest = 3; // ticks
-    decided.swap(doubts);
-    doubts.clear();
-    for (Doubt& of : decided) {
-        const auto each = watched.find(of.a), met = watched.find(of.b);
-        if (each == watched.end() || met == watched.end()) continue;
-        double& speed = of.contact.approach_m_per_s;
-        const double pushed = pushOf(each->second, of.normal) - pushOf(met->second, of.normal);
+void HapticWorld::resolvePending() {
+    constexpr int maxTicks = 3;
+    previousContacts.swap(pendingContacts);
+    pendingContacts.clear();
+    for (PendingContact& pending : previousContacts) {
+        const auto a = bodies.find(pending.a), b = bodies.find(pending.b);
+        if (a == bodies.end() || b == bodies.end()) continue;
+        double& speed = pending.contact.approach_m_per_s;
+        const double pushed = lostSpeed(a->second, pending.normal) - lostSpeed(b->second, pending.normal);
         speed += std::max(0.0, pushed);
-        of.contact.fraction = std::max(-1.0, of.contact.fraction - 1.0); // the impact was a tick earlier
-        of.left -= pushed;
-        if (pushed > 0.1 * speed && of.left > 0.1 * speed && ++of.ticks < longest)
-            doubts.push_back(of);
+        pending.contact.fraction = std::max(-1.0, pending.contact.fraction - 1.0); // it was a tick earlier
+        pending.remainingSpeed -= pushed;
+        if (pushed > 0.1 * speed && pending.remainingSpeed > 0.1 * speed && ++pending.ticks < maxTicks)
+            pendingContacts.push_back(pending);
         else
-            checkWorld(physvib_world_touch(world, &of.contact));
+            reportIfError(physvib_world_touch(world, &pending.contact));
     }
 }
 
-void HapticWorld::touch(const Watched& each, int i) {
-    const BodyState& state = each.state;
-    const Watched* met = other(each, i, place(state.contactOtherPlace(i)));
-    if (met == nullptr) return;
-    std::optional<double> doubt;
-    const Surface surface = overSeams(each, *met, i, doubt);
-    const auto& [at, there, normal, gap, isOne] = surface;
-    const double before = dot(each.before, normal);
-    const bool isPushed = std::abs(dot(each.change, normal)) > 1e-3 * std::abs(before) + 1e-4;
-    if (!isOne || (gap > 0.0 && !isPushed)) return;
-    bool isThere = getsThere(each, *met, surface);
-    for (int j = 0; !isThere && j < state.contacts(); ++j) // a box that lands turns, and its other corners
-                                                           // follow
-        isThere =
-            state.contactObject(j) == state.contactObject(i) && getsThere(each, *met, surfaceOf(each, j));
-    if (!isThere) return;
-    const Vector own = velocityAt(each, at), its = velocityAt(*met, at);
-    const Meeting meeting =
-        meetingOf(dot(minus(own, its), normal), gap, dot(minus(each.pull, met->pull), normal), seconds);
-    const double bounce = bounceOf(each.rid) + bounceOf(state.contactBody(i));
-    physvib_contact contact = contactOf(each, *met, at, normal);
+void HapticWorld::reportTouch(const ObservedBody& body, int i) {
+    const BodyState& state = body.state;
+    const ObservedBody* other = otherBody(body, i, toField(state.contactOtherPosition(i)));
+    if (other == nullptr) return;
+    std::optional<double> supportSpeed;
+    const Surface surface = surfaceAcrossSeams(body, *other, i, supportSpeed);
+    const auto& [place, otherPlace, normal, gapMetres, hasNormal] = surface;
+    const double speedBefore = dot(body.velocityBefore, normal);
+    const bool isPushed = std::abs(dot(body.velocityChange, normal)) > 1e-3 * std::abs(speedBefore) + 1e-4;
+    if (!hasNormal || (gapMetres > 0.0 && !isPushed)) return;
+    bool doesReach = reachesSurface(body, *other, surface);
+    for (int j = 0; !doesReach && j < state.contacts(); ++j) // other corners of a box that lands
+        doesReach = state.contactOtherId(j) == state.contactOtherId(i) &&
+                    reachesSurface(body, *other, surfaceOf(body, j));
+    if (!doesReach) return;
+    const Vector velocity = velocityAt(body, place), otherVelocity = velocityAt(*other, place);
+    const ImpactEstimate impact =
+        estimateImpact(dot(minus(velocity, otherVelocity), normal), gapMetres,
+                       dot(minus(body.acceleration, other->acceleration), normal), stepSeconds);
+    const double bounce = restitutionOf(body.rid) + restitutionOf(state.contactRid(i));
+    physvib_contact contact = contactOf(body, *other, place, normal);
     contact.restitution = std::clamp(bounce, 0.0, 1.0);
-    contact.approach_m_per_s = meeting.approachMetresPerSecond, contact.fraction = meeting.fraction;
-    contact.gap_m = gap;
+    contact.approach_m_per_s = impact.approachMetresPerSecond, contact.fraction = impact.fraction;
+    contact.gap_m = gapMetres;
     // The contact point moves with the centre of a round body, otherwise with the corner of this body.
-    const bool isRound = goesThroughCentre(each, at, normal),
-               isOtherRound = goesThroughCentre(*met, at, normal);
-    const Vector point = isRound ? each.before : isOtherRound ? met->before : own;
-    const Vector overOwn = across(minus(point, own), normal), overIts = across(minus(point, its), normal);
-    const Vector way = dot(overOwn, overOwn) > dot(overIts, overIts) ? overOwn : overIts; // of the grains
-    const double speed = std::max(1e-9, std::sqrt(dot(way, way)));
-    contact.along_a_m_per_s = dot(overOwn, way) / speed, contact.along_b_m_per_s = dot(overIts, way) / speed;
+    const bool isRound = goesThroughCentre(body, place, normal),
+               isOtherRound = goesThroughCentre(*other, place, normal);
+    const Vector point = isRound ? body.velocityBefore : isOtherRound ? other->velocityBefore : velocity;
+    const Vector slipA = tangentialPart(minus(point, velocity), normal),
+                 slipB = tangentialPart(minus(point, otherVelocity), normal);
+    const Vector slip = dot(slipA, slipA) > dot(slipB, slipB) ? slipA : slipB; // of the grains
+    const double speed = std::max(1e-9, std::sqrt(dot(slip, slip)));
+    contact.along_a_m_per_s = dot(slipA, slip) / speed, contact.along_b_m_per_s = dot(slipB, slip) / speed;
     contact.is_soft = PHYSVIB_SOFT; // speed gives the impact; the solver's push is a load
-    if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // Godot does not push it
-    contact.point_id = isRound || isOtherRound ? sideOf(normal) : PHYSVIB_POINT_BY_PLACE;
-    if (doubt) return strikeDoubtful(each, *met, contact, normal, *doubt);
-    checkWorld(physvib_world_touch(world, &contact));
+    if (other->isCharacter) contact.effective_mass_kg = body.description.mass_kg; // Godot does not push it
+    contact.point_id = isRound || isOtherRound ? sideIndex(normal) : PHYSVIB_POINT_BY_PLACE;
+    if (supportSpeed) return reportOrDefer(body, *other, contact, normal, *supportSpeed);
+    reportIfError(physvib_world_touch(world, &contact));
 }
 
 // Reports what a CharacterBody hit in its last move_and_slide(), at the velocity that its script wants.
-void HapticWorld::slideAll(Watched& each) {
-    const Vector now = place(each.body.call("get_global_position").vector());
-    const Vector step = each.wasAt ? minus(now, each.at) : Vector{}; // a new body has no travel
-    each.wasAt = true;
-    const int count = static_cast<int>(each.body.call("get_slide_collision_count").whole());
-    double moved = 0.0; // share of the tick
+void HapticWorld::reportSlides(ObservedBody& body) {
+    const Vector position = toField(body.object.call("get_global_position").vector());
+    const Vector tickTravel = body.hasLastPosition ? minus(position, body.lastPosition) : Vector{};
+    body.hasLastPosition = true;
+    const int count = static_cast<int>(body.object.call("get_slide_collision_count").integer());
+    double elapsedShare = 0.0; // of the tick
     for (int i = 0; i < count; ++i) {
-        const Value hit = each.body.call("get_slide_collision", i);
-        const Vector travel = direction(hit.call("get_travel").vector());
-        const Vector rest = direction(hit.call("get_remainder").vector());
-        const double gone = std::sqrt(dot(travel, travel)), left = std::sqrt(dot(rest, rest));
-        moved += (1.0 - moved) * (gone > 0.0 ? gone / (gone + left) : 0.0);
+        const Variant hit = body.object.call("get_slide_collision", i);
+        const Vector travel = toFieldVector(hit.call("get_travel").vector());
+        const Vector ahead = toFieldVector(hit.call("get_remainder").vector());
+        const double travelled = std::sqrt(dot(travel, travel)), remaining = std::sqrt(dot(ahead, ahead));
+        elapsedShare += (1.0 - elapsedShare) * (travelled > 0.0 ? travelled / (travelled + remaining) : 0.0);
         if (i == 0)
-            for (std::size_t k = 0; k < 3; ++k) each.before[k] = (travel[k] + rest[k]) / seconds;
-        const Vector at = place(hit.call("get_position").vector());
-        const Vector along = direction(hit.call("get_normal").vector()); // towards the character
-        const double length = std::sqrt(dot(along, along));
-        const auto id = static_cast<std::uint64_t>(hit.call("get_collider_id").whole());
+            for (std::size_t k = 0; k < 3; ++k) body.velocityBefore[k] = (travel[k] + ahead[k]) / stepSeconds;
+        const Vector place = toField(hit.call("get_position").vector());
+        const Vector hitNormal = toFieldVector(hit.call("get_normal").vector()); // towards the character
+        const double length = std::sqrt(dot(hitNormal, hitNormal));
+        const auto id = static_cast<std::uint64_t>(hit.call("get_collider_id").integer());
         const std::uint64_t rid = hit.call("get_collider_rid").rid();
-        const Watched* met = length > 0.0
-                                 ? moving(id, rid, direction(hit.call("get_collider_velocity").vector()), at)
-                                 : nullptr;
-        if (met == nullptr) continue;
-        const Vector normal{-along[0] / length, -along[1] / length, -along[2] / length}, none{};
-        checkWorld(physvib_world_move_in_space(world, each.number, at.data(), each.before.data(), none.data(),
-                                               nullptr));
-        physvib_contact contact = contactOf(each, *met, at, normal);
-        const double approach = dot(minus(each.before, met->before), normal);
-        const double came =
-            dot(step, normal) + dot(each.step, normal) - 2.0 * seconds * dot(met->before, normal);
+        const ObservedBody* other =
+            length > 0.0 ? addOther(id, rid, toFieldVector(hit.call("get_collider_velocity").vector()), place)
+                         : nullptr;
+        if (other == nullptr) continue;
+        const Vector normal{-hitNormal[0] / length, -hitNormal[1] / length, -hitNormal[2] / length}, none{};
+        reportIfError(physvib_world_move_in_space(world, body.number, place.data(),
+                                                  body.velocityBefore.data(), none.data(), nullptr));
+        physvib_contact contact = contactOf(body, *other, place, normal);
+        const double approach = dot(minus(body.velocityBefore, other->velocityBefore), normal);
+        const double twoTickTravel = dot(tickTravel, normal) + dot(body.lastTravel, normal) -
+                                     2.0 * stepSeconds * dot(other->velocityBefore, normal);
         // A body that only presses came no nearer in two ticks, whatever velocity its script sets.
-        contact.approach_m_per_s = came > 0.25 * seconds * approach ? approach : 0.0;
-        contact.fraction = moved, contact.point_id = PHYSVIB_POINT_NONE;
+        contact.approach_m_per_s = twoTickTravel > 0.25 * stepSeconds * approach ? approach : 0.0;
+        contact.fraction = elapsedShare, contact.point_id = PHYSVIB_POINT_NONE;
         contact.is_soft = PHYSVIB_SOFT;
-        contact.effective_mass_kg =
-            met->isRigid && met->described.mass_kg > 0.0 ? met->described.mass_kg : each.described.mass_kg;
-        checkWorld(physvib_world_touch(world, &contact));
-        for (std::size_t k = 0; k < 3; ++k) // it slides on along the surface
-            each.before[k] -= std::max(0.0, approach) * normal[k];
+        contact.effective_mass_kg = other->isRigid && other->description.mass_kg > 0.0
+                                        ? other->description.mass_kg
+                                        : body.description.mass_kg;
+        reportIfError(physvib_world_touch(world, &contact));
+        for (std::size_t k = 0; k < 3; ++k) // the character slides along the surface
+            body.velocityBefore[k] -= std::max(0.0, approach) * normal[k];
     }
-    each.at = now, each.step = step;
+    body.lastPosition = position, body.lastTravel = tickTravel;
 }
 
 } // namespace physvib::godot

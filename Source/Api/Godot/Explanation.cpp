@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The table of phrases that are translated, and the search for them.
 #include "Api/Godot/Explanation.h"
 
 #include <algorithm>
@@ -7,14 +8,14 @@
 namespace physvib::godot {
 namespace {
 struct Phrase {
-    std::string_view inC, inGodot;
+    std::string_view cPhrase, godotPhrase;
 };
 
-constexpr std::string_view ours = "please report this as an error of the addon"; // no scene is to blame
+constexpr std::string_view addonError = "please report this as an error of the addon"; // not of the scene
 
-// Where a phrase is the beginning of another, the longer one comes first.
+// If a phrase begins another one, the longer one comes first.
 constexpr std::array phrases{
-    Phrase{"report them within a step (physvib_world_begin_step and physvib_world_end_step)", ours},
+    Phrase{"report them within a step (physvib_world_begin_step and physvib_world_end_step)", addonError},
     Phrase{"make one for each step of the engine (physvib_world_begin_step and physvib_world_end_step)",
            "wait for a physics tick; a paused scene has none"},
     Phrase{"give physvib_world_begin_step the seconds since the last step", "set Engine.time_scale above 0"},
@@ -26,12 +27,12 @@ constexpr std::array phrases{
     Phrase{"set mass_kg of the one that moves", "set static_mass_kg of the HapticBody"},
     Phrase{"set approach_m_per_s or impulse_n_s, or call physvib_world_move with each body's motion before "
            "its contacts",
-           ours},
+           addonError},
     Phrase{"it must point from a to b (turn it round), and speeds be those before the engine's solver",
            "scripts must set velocities in _physics_process"},
     Phrase{"report metres: divide lengths by the pixels of a metre (100, say)",
            "set metres_per_unit of the world (0.01, say)"},
-    Phrase{"call physvib_world_set_body for every body that touches, floors too", ours},
+    Phrase{"call physvib_world_set_body for every body that touches, floors too", addonError},
     Phrase{"is a haptic source: set is_camera of the bodies that are to be felt",
            "is felt: add a HapticBody child to each that is to be, with felt on"},
     Phrase{"set is_muted of the world to false", "set silent of the world to false"},
@@ -56,16 +57,16 @@ constexpr std::array phrases{
 };
 } // namespace
 
-std::string inGodotsWords(std::string_view sentence) {
-    std::string made;
+std::string translateForGodot(std::string_view sentence) {
+    std::string translated;
     while (!sentence.empty()) {
-        const auto known = std::ranges::find_if(
-            phrases, [&](const Phrase& phrase) { return sentence.starts_with(phrase.inC); });
-        const bool isPhrase = known != phrases.end();
-        made += isPhrase ? known->inGodot : sentence.substr(0, 1);
-        sentence.remove_prefix(isPhrase ? known->inC.size() : 1);
+        const auto found = std::ranges::find_if(
+            phrases, [&](const Phrase& phrase) { return sentence.starts_with(phrase.cPhrase); });
+        const bool isPhrase = found != phrases.end();
+        translated += isPhrase ? found->godotPhrase : sentence.substr(0, 1);
+        sentence.remove_prefix(isPhrase ? found->cPhrase.size() : 1);
     }
-    return made;
+    return translated;
 }
 
 } // namespace physvib::godot

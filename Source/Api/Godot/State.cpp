@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+// The methods of Godot that BodyState reads, found by name and hash, and called by pointer.
 #include "Api/Godot/State.h"
 
 namespace physvib::godot {
 namespace {
-using Triple = std::array<float, 3>; // a Vector2, or a Vector3
-using Whole = std::int64_t;
+using FloatVector = std::array<float, 3>; // a Vector2, or a Vector3
+using Int64 = std::int64_t;
 
-enum Which {
+enum StateMethod {
     transform,
     centreOfMass,
     sleeping,
@@ -15,8 +16,8 @@ enum Which {
     totalGravity,
     totalLinearDamp,
     totalAngularDamp,
-    inverseOfInertia,
-    inverseOfMass,
+    inverseInertiaMethod,
+    inverseMassMethod,
     contactCount,
     contactLocalPosition,
     contactColliderPosition,
@@ -24,14 +25,14 @@ enum Which {
     contactColliderVelocity,
     contactColliderId,
     contactCollider,
-    countOfMethods
+    methodCount
 };
-struct Described {
+struct MethodHashes {
     const char* name;
-    Whole planeHash, spaceHash;
+    Int64 hash2d, hash3d;
 };
-// In the order of Which; hashes from extension_api.json, of types unchanged since Godot 4.4.
-const std::array<Described, countOfMethods> methods{{
+// In the order of StateMethod; hashes from extension_api.json, of types unchanged since Godot 4.4.
+const std::array<MethodHashes, methodCount> methods{{
     {"get_transform", 3'814'499'831, 3'229'777'777},
     {"get_center_of_mass", 3'341'600'327, 3'360'562'783},
     {"is_sleeping", 36'873'697, 36'873'697},
@@ -51,99 +52,100 @@ const std::array<Described, countOfMethods> methods{{
     {"get_contact_collider", 495'598'643, 495'598'643},
 }};
 
-struct Space {
-    std::array<Direct, countOfMethods> state;
-    Direct stateOfBody, listedContacts, listContacts;
+struct PhysicsMethods {
+    std::array<MethodBind, methodCount> state;
+    MethodBind getDirectState, getMaxContacts, setMaxContacts;
     GDExtensionObjectPtr server = nullptr;
 };
-std::array<Space, 2> spaces; // the plane, space
+std::array<PhysicsMethods, 2> physicsMethods; // the plane, space
 
-Direct inTree;
+MethodBind isInsideTree;
 
-Space& spaceOf(bool isSpace) { return spaces[isSpace ? 1 : 0]; }
-GDExtensionObjectPtr serverOf(bool isSpace) {
-    GDExtensionObjectPtr& server = spaceOf(isSpace).server;
-    if (server == nullptr) server = singleton(isSpace ? "PhysicsServer3D" : "PhysicsServer2D").object();
+PhysicsMethods& methodsOf(bool is3d) { return physicsMethods[is3d ? 1 : 0]; }
+GDExtensionObjectPtr serverOf(bool is3d) {
+    GDExtensionObjectPtr& server = methodsOf(is3d).server;
+    if (server == nullptr) server = singleton(is3d ? "PhysicsServer3D" : "PhysicsServer2D").object();
     return server;
 }
-Vector vectorOf(const Triple& t) { return {t[0], t[1], t[2]}; }
+Vector vectorOf(const FloatVector& t) { return {t[0], t[1], t[2]}; }
 
 template <class Result, class... Arguments>
-Result get(Which which, bool isSpace, GDExtensionObjectPtr object, const Arguments&... arguments) {
-    return spaceOf(isSpace).state[which].call<Result>(object, arguments...);
+Result get(StateMethod method, bool is3d, GDExtensionObjectPtr object, const Arguments&... arguments) {
+    return methodsOf(is3d).state[method].call<Result>(object, arguments...);
 }
 } // namespace
 
 bool findStateMethods() {
-    bool all = inTree.find("Node", "is_inside_tree", 36'873'697);
-    for (const bool isSpace : {false, true}) {
-        Space& its = spaceOf(isSpace);
-        const char* const state = isSpace ? "PhysicsDirectBodyState3D" : "PhysicsDirectBodyState2D";
-        const char* const server = isSpace ? "PhysicsServer3D" : "PhysicsServer2D";
-        for (std::size_t i = 0; i < countOfMethods; ++i)
-            all &= its.state[i].find(
-                state, isSpace && i == inverseOfInertia ? "get_inverse_inertia_tensor" : methods[i].name,
-                isSpace ? methods[i].spaceHash : methods[i].planeHash);
-        all &= its.stateOfBody.find(server, "body_get_direct_state", isSpace ? 3'029'727'957 : 1'191'931'871);
-        all &= its.listedContacts.find(server, "body_get_max_contacts_reported", 2'198'884'583);
-        all &= its.listContacts.find(server, "body_set_max_contacts_reported", 3'411'492'887);
+    bool isComplete = isInsideTree.find("Node", "is_inside_tree", 36'873'697);
+    for (const bool is3d : {false, true}) {
+        PhysicsMethods& found = methodsOf(is3d);
+        const char* const state = is3d ? "PhysicsDirectBodyState3D" : "PhysicsDirectBodyState2D";
+        const char* const server = is3d ? "PhysicsServer3D" : "PhysicsServer2D";
+        for (std::size_t i = 0; i < methodCount; ++i)
+            isComplete &= found.state[i].find(
+                state, is3d && i == inverseInertiaMethod ? "get_inverse_inertia_tensor" : methods[i].name,
+                is3d ? methods[i].hash3d : methods[i].hash2d);
+        isComplete &=
+            found.getDirectState.find(server, "body_get_direct_state", is3d ? 3'029'727'957 : 1'191'931'871);
+        isComplete &= found.getMaxContacts.find(server, "body_get_max_contacts_reported", 2'198'884'583);
+        isComplete &= found.setMaxContacts.find(server, "body_set_max_contacts_reported", 3'411'492'887);
     }
-    return all;
+    return isComplete;
 }
 
-BodyState BodyState::of(std::uint64_t rid, bool isSpace) {
+BodyState BodyState::ofBody(std::uint64_t rid, bool is3d) {
     BodyState state;
-    state.object = spaceOf(isSpace).stateOfBody.call<GDExtensionObjectPtr>(serverOf(isSpace), rid);
-    state.isSpace = isSpace;
+    state.object = methodsOf(is3d).getDirectState.call<GDExtensionObjectPtr>(serverOf(is3d), rid);
+    state.is3d = is3d;
     return state;
 }
 
-void reportContacts(std::uint64_t rid, bool isSpace, int count) {
-    const Space& its = spaceOf(isSpace);
-    if (its.listedContacts.call<Whole>(serverOf(isSpace), rid) < count)
-        its.listContacts.call<Whole>(serverOf(isSpace), rid, Whole{count});
+void requestContactReports(std::uint64_t rid, bool is3d, int count) {
+    const PhysicsMethods& found = methodsOf(is3d);
+    if (found.getMaxContacts.call<Int64>(serverOf(is3d), rid) < count)
+        found.setMaxContacts.call<Int64>(serverOf(is3d), rid, Int64{count});
 }
 
-bool isInTree(GDExtensionObjectPtr node) { return inTree.call<unsigned char>(node) != 0; }
+bool isInTree(GDExtensionObjectPtr node) { return isInsideTree.call<unsigned char>(node) != 0; }
 
-double BodyState::inverseMass() const { return get<double>(inverseOfMass, isSpace, object); }
-bool BodyState::sleeps() const { return get<unsigned char>(sleeping, isSpace, object) != 0; }
-Vector BodyState::velocity() const { return vectorOf(get<Triple>(linearVelocity, isSpace, object)); }
-Vector BodyState::gravity() const { return vectorOf(get<Triple>(totalGravity, isSpace, object)); }
-double BodyState::linearDamp() const { return get<double>(totalLinearDamp, isSpace, object); }
-double BodyState::angularDamp() const { return get<double>(totalAngularDamp, isSpace, object); }
+double BodyState::inverseMass() const { return get<double>(inverseMassMethod, is3d, object); }
+bool BodyState::isSleeping() const { return get<unsigned char>(sleeping, is3d, object) != 0; }
+Vector BodyState::velocity() const { return vectorOf(get<FloatVector>(linearVelocity, is3d, object)); }
+Vector BodyState::gravity() const { return vectorOf(get<FloatVector>(totalGravity, is3d, object)); }
+double BodyState::linearDamp() const { return get<double>(totalLinearDamp, is3d, object); }
+double BodyState::angularDamp() const { return get<double>(totalAngularDamp, is3d, object); }
 
 Vector BodyState::centre() const {
-    const auto t = get<std::array<float, 12>>(transform, isSpace, object); // its origin is last
-    const Vector offset = vectorOf(get<Triple>(centreOfMass, isSpace, object));
-    const std::size_t origin = isSpace ? 9 : 4;
-    return {t[origin] + offset[0], t[origin + 1] + offset[1], isSpace ? t[11] + offset[2] : 0.0};
+    const auto t = get<std::array<float, 12>>(transform, is3d, object); // its origin is last
+    const Vector offset = vectorOf(get<FloatVector>(centreOfMass, is3d, object));
+    const std::size_t origin = is3d ? 9 : 4;
+    return {t[origin] + offset[0], t[origin + 1] + offset[1], is3d ? t[11] + offset[2] : 0.0};
 }
 
 Vector BodyState::spin() const {
-    if (isSpace) return vectorOf(get<Triple>(angularVelocity, isSpace, object));
-    return {0.0, 0.0, get<double>(angularVelocity, isSpace, object)};
+    if (is3d) return vectorOf(get<FloatVector>(angularVelocity, is3d, object));
+    return {0.0, 0.0, get<double>(angularVelocity, is3d, object)};
 }
 
 std::array<double, 6> BodyState::inverseInertia() const {
-    if (!isSpace) return {0.0, 0.0, get<double>(inverseOfInertia, isSpace, object), 0.0, 0.0, 0.0};
-    const auto m = get<std::array<float, 9>>(inverseOfInertia, isSpace, object); // by rows
+    if (!is3d) return {0.0, 0.0, get<double>(inverseInertiaMethod, is3d, object), 0.0, 0.0, 0.0};
+    const auto m = get<std::array<float, 9>>(inverseInertiaMethod, is3d, object); // by rows
     return {m[0], m[4], m[8], m[1], m[2], m[5]};
 }
 
-int BodyState::contacts() const { return static_cast<int>(get<Whole>(contactCount, isSpace, object)); }
-Vector BodyState::ofContact(int which, int i) const {
-    return vectorOf(get<Triple>(static_cast<Which>(which), isSpace, object, Whole{i}));
+int BodyState::contacts() const { return static_cast<int>(get<Int64>(contactCount, is3d, object)); }
+Vector BodyState::contactVector(int method, int i) const {
+    return vectorOf(get<FloatVector>(static_cast<StateMethod>(method), is3d, object, Int64{i}));
 }
-Vector BodyState::contactPlace(int i) const { return ofContact(contactLocalPosition, i); }
-Vector BodyState::contactOtherPlace(int i) const { return ofContact(contactColliderPosition, i); }
-Vector BodyState::contactNormal(int i) const { return ofContact(contactLocalNormal, i); }
-Vector BodyState::contactOtherVelocity(int i) const { return ofContact(contactColliderVelocity, i); }
-std::uint64_t BodyState::contactObject(int i) const {
-    return static_cast<std::uint64_t>(get<Whole>(contactColliderId, isSpace, object, Whole{i}));
+Vector BodyState::contactPosition(int i) const { return contactVector(contactLocalPosition, i); }
+Vector BodyState::contactOtherPosition(int i) const { return contactVector(contactColliderPosition, i); }
+Vector BodyState::contactNormal(int i) const { return contactVector(contactLocalNormal, i); }
+Vector BodyState::contactOtherVelocity(int i) const { return contactVector(contactColliderVelocity, i); }
+std::uint64_t BodyState::contactOtherId(int i) const {
+    return static_cast<std::uint64_t>(get<Int64>(contactColliderId, is3d, object, Int64{i}));
 }
-std::uint64_t BodyState::contactBody(int i) const {
-    return get<std::uint64_t>(contactCollider, isSpace, object, Whole{i});
+std::uint64_t BodyState::contactRid(int i) const {
+    return get<std::uint64_t>(contactCollider, is3d, object, Int64{i});
 }
 
 } // namespace physvib::godot

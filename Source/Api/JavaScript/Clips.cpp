@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// JavaScript exports for haptic clips: read a file to samples, write events as a file.
+// JavaScript exports for files: haptic clips (read as samples, write from events), event lists, WAV heads.
 #include "Api/C/Calls.h"
 #include "Api/JavaScript/Exports.h"
 #include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
 #include "Formats/StrikeClip.h"
 #include "Io/Text/NameList.h"
-#include "Io/Wav/WavHead.h"
+#include "Io/Wav/WavHeader.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
 #include <physvib/Version.h>
@@ -20,13 +20,12 @@ SampledSound sound;
 
 ClipFormat formatOf(const char* name) {
     const auto format = clipFormatOf(name);
-    if (!format) refuse("expected a file " + listed(clipEndings, " or "));
+    if (!format) throwError("expected a file " + listed(clipEndings, " or "));
     return *format;
 }
 
-/// A clip with only channel `channel`, for formats with one channel.
-Clip oneOf(const Clip& all, int channel) {
-    return {all.title, 0.0, 0.0, {all.channels[static_cast<std::size_t>(channel)]}};
+Clip singleChannelClip(const Clip& source, int channel) {
+    return {source.title, 0.0, 0.0, {source.channels[static_cast<std::size_t>(channel)]}};
 }
 
 } // namespace
@@ -36,12 +35,12 @@ extern "C" {
 /// Reads a file of that name to samples at that rate; returns the channels. Errors throw in JavaScript.
 int PHYSVIB_JS(clip_read)(const char* bytes, int count, const char* name, int rateHz) {
     auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, formatOf(name));
-    if (!read) refuse(read.error);
-    if (const std::string fault = clipFault(read.value); !fault.empty())
-        refuse(std::string{name} + ": " + fault);
+    if (!read) throwError(read.error);
+    if (const std::string error = clipError(read.value); !error.empty())
+        throwError(std::string{name} + ": " + error);
     clip = std::move(read.value);
     sound = clipSound(clip, rateHz);
-    text() = clip.leftOut;
+    textBuffer() = clip.leftOut;
     return static_cast<int>(clip.channels.size());
 }
 
@@ -60,35 +59,35 @@ double PHYSVIB_JS(clip_place)(int channel, int axis) {
 
 /// Converts events to a clip with one channel per actuator; returns their number. Errors throw in JavaScript.
 int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings,
-                        double error) {
-    std::vector<CollisionEvent> own;
-    RendererSettings wanted;
-    if (const auto fault = api::convert(*settings, wanted); !fault.empty()) refuse(fault);
-    if (const auto fault = api::readSorted(events, count, own); !fault.empty()) refuse(fault);
-    if (own.size() > limits::maxClipStrikes)
-        refuse("events: expected at most " + std::to_string(limits::maxClipStrikes));
-    if (!(error > 0.0 && error <= 0.5)) refuse("error: expected more than 0, to 0.5");
-    const PhantomPanner& panner = wanted.panner;
-    clip = clipOfStrikes(
-        own, {error, static_cast<std::size_t>(panner.channels()),
-              [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { panner.gainsAt(e, gains); }});
+                        double maxError) {
+    std::vector<CollisionEvent> converted;
+    RendererSettings renderer;
+    if (const auto error = api::convert(*settings, renderer); !error.empty()) throwError(error);
+    if (const auto error = api::readSorted(events, count, converted); !error.empty()) throwError(error);
+    if (converted.size() > limits::maxClipEvents)
+        throwError("events: expected at most " + std::to_string(limits::maxClipEvents));
+    if (!(maxError > 0.0 && maxError <= 0.5)) throwError("error: expected more than 0, to 0.5");
+    const PhantomPanner& panner = renderer.panner;
+    clip = clipFromEvents(
+        converted, {maxError, static_cast<std::size_t>(panner.channels()),
+                    [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { panner.gainsAt(e, gains); }});
     const LayoutDescription layout = describeLayout("layout", panner.layout());
     clip.extentWidthMetres = layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = layout.geometry.extentHeightMetres;
     for (std::size_t j = 0; j < clip.channels.size(); ++j) {
-        clip.channels[j].label = layout.enchanters[j].label;
+        clip.channels[j].label = layout.actuators[j].label;
         clip.channels[j].place = layout.geometry.places[j];
     }
-    if (const std::string fault = clipFault(clip); !fault.empty()) refuse(fault);
+    if (const std::string error = clipError(clip); !error.empty()) throwError(error);
     return static_cast<int>(clip.channels.size());
 }
 
-/// Writes one channel of the clip (-1: all) to text(), in the file name's format. Returns 0 if silent.
+/// Writes one channel of the clip (-1: all) to textBuffer(), in the file name's format. Returns 0 if silent.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
-    const Clip one = channel < 0 ? clip : oneOf(clip, channel);
-    if (!(one.seconds() > 0.0)) return 0;
-    text() = clipBytes(one, format);
+    const Clip selected = channel < 0 ? clip : singleChannelClip(clip, channel);
+    if (!(selected.seconds() > 0.0)) return 0;
+    textBuffer() = clipBytes(selected, format);
     return 1;
 }
 
@@ -97,18 +96,18 @@ const char* PHYSVIB_JS(clip_label)(int channel) {
     return clip.channels[static_cast<std::size_t>(channel)].label.c_str();
 }
 
-/// Writes an event list with its field, if given, to text(); errors as in physvib.h.
+/// Writes an event list with its field, if given, to textBuffer(); errors as in physvib.h.
 int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
-    std::vector<CollisionEvent> own;
-    if (const auto fault = api::readSorted(events, count, own); !fault.empty())
-        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
-    text() = eventsCsv(own, {width, height}, {PHYSVIB_VERSION, {}});
+    std::vector<CollisionEvent> converted;
+    if (const auto error = api::readSorted(events, count, converted); !error.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, error);
+    textBuffer() = eventsCsv(converted, {width, height}, {PHYSVIB_VERSION, {}});
     return PHYSVIB_OK;
 }
 
-/// Writes the bytes before the samples of a WAV file to text().
+/// Writes the bytes before the samples of a WAV file to textBuffer().
 void PHYSVIB_JS(wav_head)(int channels, int rateHz, double frames) {
-    text() = wavHead(channels, rateHz, static_cast<std::int64_t>(frames) * channels * 4, {});
+    textBuffer() = wavHeader(channels, rateHz, static_cast<std::int64_t>(frames) * channels * 4, {});
 }
 }
 

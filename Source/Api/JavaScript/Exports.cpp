@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exports of the WebAssembly module besides physvib.h: error handling, and the layout of its structures.
+// Exports of the WebAssembly module besides physvib.h: errors (JavaScript throws them), the text buffer, and
+// the layout of the structures of physvib.h, which JavaScript writes into memory.
 #include "Api/JavaScript/Exports.h"
 #include "Api/C/physvib.h"
 #include <cstddef>
@@ -10,24 +11,24 @@
 namespace physvib::js {
 
 extern "C" {
-[[noreturn]] void fail(const char* line) __attribute__((import_module("physvib"), import_name("fail")));
+[[noreturn]] void fail(const char* message) __attribute__((import_module("physvib"), import_name("fail")));
 
 // Throwing calls fail() instead, because this C++ library has no unwinder. All exceptions of this project are
 // std::exceptions.
 void* __cxa_allocate_exception(std::size_t bytes) noexcept { return std::malloc(bytes); }
-[[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) {
-    fail(static_cast<std::exception*>(thrown)->what());
+[[noreturn]] void __cxa_throw(void* exception, std::type_info*, void (*)(void*)) {
+    fail(static_cast<std::exception*>(exception)->what());
 }
 }
 
-std::string& text() noexcept {
-    static std::string all;
-    return all;
+std::string& textBuffer() noexcept {
+    static std::string buffer;
+    return buffer;
 }
 
-void refuse(std::string_view line) {
-    text() = line;
-    fail(text().c_str());
+void throwError(std::string_view message) {
+    textBuffer() = message;
+    fail(textBuffer().c_str());
 }
 
 namespace {
@@ -55,9 +56,9 @@ template <>
 constexpr char kind<physvib_int64> = 'l';
 
 /// Four 32-bit numbers per member, as JavaScript reads them. The last entry describes the structure.
-struct Member {
+struct StructMember {
     const char* name; // in the last entry: the structure's name
-    int at;           // in the last entry: the structure's size
+    int offset;       // in the last entry: the structure's size
     int kind;         // in the last entry: 0
     int count;
 };
@@ -66,7 +67,7 @@ struct Member {
     {#member, offsetof(structure, member), kind<Element<decltype(structure::member)>::Type>,                 \
      Element<decltype(structure::member)>::count},
 #define END(structure) {#structure, sizeof(structure), 0, 0},
-constexpr Member members[]{
+constexpr StructMember members[]{
 #include "Members.inc"
     {nullptr, 0, 0, 0}};
 
@@ -74,10 +75,10 @@ constexpr Member members[]{
 
 extern "C" {
 
-const Member* PHYSVIB_JS(members)() { return members; }
+const StructMember* PHYSVIB_JS(members)() { return members; }
 
-const char* PHYSVIB_JS(text)() { return text().data(); }
-int PHYSVIB_JS(text_bytes)() { return static_cast<int>(text().size()); }
+const char* PHYSVIB_JS(text)() { return textBuffer().data(); }
+int PHYSVIB_JS(text_bytes)() { return static_cast<int>(textBuffer().size()); }
 }
 
 } // namespace physvib::js

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Export names and text buffer shared with JavaScript. One thread.
+// What the exports to JavaScript share: the prefix of their names, the text buffer, and errors. One thread.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,10 +9,10 @@
 namespace physvib::js {
 
 /// Buffer that JavaScript reads with js_text and js_text_bytes; it may contain zeros.
-std::string& text() noexcept;
+std::string& textBuffer() noexcept;
 
 /// Aborts the current call: JavaScript throws, and discards this instance. Texts are therefore parsed in an
 /// instance of their own.
-[[noreturn]] void refuse(std::string_view line);
+[[noreturn]] void throwError(std::string_view message);
 
 } // namespace physvib::js

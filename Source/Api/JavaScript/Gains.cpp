@@ -11,14 +11,14 @@ extern "C" {
 /// Writes the gains for a place in the field, in m, to `gains` (PHYSVIB_MAX_ENCHANTERS entries); returns
 /// their number, or an error.
 int PHYSVIB_JS(gains)(const physvib_renderer_settings* settings, double x, double y, double* gains) {
-    RendererSettings wanted;
-    if (const auto fault = api::convert(*settings, wanted); !fault.empty())
-        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
-    if (!std::isfinite(x) || !std::isfinite(y)) return api::nothingThere("place: expected numbers");
-    PhantomPanner::Gains all{};
-    wanted.panner.gainsAt(x, y, all);
-    std::copy_n(all.data(), wanted.panner.channels(), gains);
-    return wanted.panner.channels();
+    RendererSettings renderer;
+    if (const auto error = api::convert(*settings, renderer); !error.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, error);
+    if (!std::isfinite(x) || !std::isfinite(y)) return api::argumentError("place: expected numbers");
+    PhantomPanner::Gains channelGains{};
+    renderer.panner.gainsAt(x, y, channelGains);
+    std::copy_n(channelGains.data(), renderer.panner.channels(), gains);
+    return renderer.panner.channels();
 }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes numbers for std::to_chars with printf, which is exact too: the C++ library's tables would add 100 KB
-// to the module. The linker substitutes these functions (--wrap).
+// std::to_chars for floating-point numbers by printf, which is exact too: the tables of the C++ library would
+// add 100 KB to the module. The linker substitutes these functions (--wrap).
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <cstring>
 
-static std::to_chars_result printed(char* first, char* last, const char* form, double number,
-                                    std::uint32_t precision) {
+static std::to_chars_result printNumber(char* first, char* last, const char* format, double number,
+                                        std::uint32_t precision) {
     char text[1500]; // 309 digits, a point, and the 1,074 decimals of an exact double
-    const int length = std::snprintf(text, sizeof text, form, static_cast<int>(precision), number);
+    const int length = std::snprintf(text, sizeof text, format, static_cast<int>(precision), number);
     if (length < 0 || length >= static_cast<int>(sizeof text) || length > last - first)
         return {last, std::errc::value_too_large};
     return {std::copy_n(text, length, first), std::errc{}};
@@ -19,23 +19,23 @@ static std::to_chars_result printed(char* first, char* last, const char* form, d
 
 namespace {
 
-constexpr int mostDigits = 17; // enough to restore any double
+constexpr int maxDigits = 17; // enough to restore any double
 
-/// The fewest digits that restore the number, as d.ddd with an exponent; for powers of two far from 1
-/// possibly one more.
-struct Shortest {
+/// The fewest digits that restore a number, and its decimal exponent in the format d.ddd; powers of two far
+/// from 1 may get one digit more.
+struct ShortestDecimal {
     int digits, exponent;
 };
-Shortest shortestOf(double number) {
+ShortestDecimal findShortestDecimal(double number) {
     char text[32];
-    int digits = mostDigits;
-    for (int least = 1, most = mostDigits; least <= most;) { // binary search: more digits restore it too
-        const int some = (least + most) / 2;
-        std::snprintf(text, sizeof text, "%.*e", some - 1, number);
+    int digits = maxDigits;
+    for (int low = 1, high = maxDigits; low <= high;) { // binary search: more digits restore it too
+        const int middle = (low + high) / 2;
+        std::snprintf(text, sizeof text, "%.*e", middle - 1, number);
         if (std::strtod(text, nullptr) == number)
-            most = some - 1, digits = some;
+            high = middle - 1, digits = middle;
         else
-            least = some + 1;
+            low = middle + 1;
     }
     std::snprintf(text, sizeof text, "%.*e", digits - 1, number);
     return {digits, std::atoi(std::strchr(text, 'e') + 1)};
@@ -48,22 +48,22 @@ extern "C" {
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
 std::to_chars_result __wrap__ZNSt3__216__d2s_buffered_nEPcS0_dNS_12chars_formatE(char* first, char* last,
                                                                                  double number,
-                                                                                 std::chars_format form) {
-    const auto [digits, exponent] = shortestOf(number);
-    const int last10 = exponent - digits + 1; // power of ten of the last digit
-    const bool isFixed = digits == 1 ? last10 >= -3 && last10 <= 4 : last10 >= -digits - 3 && last10 <= 5;
-    if (form == std::chars_format::fixed || (form == std::chars_format{} && isFixed))
-        return printed(first, last, "%.*f", number, static_cast<std::uint32_t>(std::max(0, -last10)));
-    return printed(first, last, "%.*e", number, static_cast<std::uint32_t>(digits - 1));
+                                                                                 std::chars_format format) {
+    const auto [digits, exponent] = findShortestDecimal(number);
+    const int power = exponent - digits + 1; // power of ten of the last digit
+    const bool isFixed = digits == 1 ? power >= -3 && power <= 4 : power >= -digits - 3 && power <= 5;
+    if (format == std::chars_format::fixed || (format == std::chars_format{} && isFixed))
+        return printNumber(first, last, "%.*f", number, static_cast<std::uint32_t>(std::max(0, -power)));
+    return printNumber(first, last, "%.*e", number, static_cast<std::uint32_t>(digits - 1));
 }
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
 std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number,
                                                                     std::uint32_t precision) {
-    return printed(first, last, "%.*f", number, precision);
+    return printNumber(first, last, "%.*f", number, precision);
 }
 // NOLINTNEXTLINE(bugprone-reserved-identifier)
 std::to_chars_result __wrap__ZNSt3__218__d2exp_buffered_nEPcS0_dj(char* first, char* last, double number,
                                                                   std::uint32_t precision) {
-    return printed(first, last, "%.*e", number, precision);
+    return printNumber(first, last, "%.*e", number, precision);
 }
 }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace std { // this library has none
+namespace std { // replaces what the library lacks
 
 // Uses strtod, which rounds correctly and has a single locale here; rejects what from_chars does not accept.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {

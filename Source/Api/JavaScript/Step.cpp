@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Passes the motions and contacts of a step, which package/journal.js lists, to the feed in one call.
-// Thousands per step are usual, so the structures of the C functions are not used.
+// Passes all motions and contacts of a step to the world in one call, as the list of numbers that
+// package/journal.js writes. A step may have thousands, so the structures of physvib.h would be too slow.
 #include "Api/C/Calls.h"
-#include "Api/C/Objects.h"
+#include "Api/C/HandleObjects.h"
 #include "Api/JavaScript/Exports.h"
 #include <optional>
 
@@ -10,82 +10,85 @@ namespace physvib::js {
 
 namespace {
 
-constexpr double leftOut = -2.0e300; // leftOut of journal.js: the member has its default
+constexpr double absentValue = -2.0e300; // written by journal.js for a member with its default
 
-Vector3 vectorOf(const double* at) noexcept {
-    return {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+Vector3 vectorOf(const double* xyz) noexcept {
+    return {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2])};
 }
-double orElse(double value, double other) noexcept { return value == leftOut ? other : value; }
-std::optional<double> known(double value) noexcept { return api::optional(orElse(value, PHYSVIB_UNKNOWN)); }
+double valueOr(double value, double fallback) noexcept { return value == absentValue ? fallback : value; }
+std::optional<double> toOptional(double value) noexcept {
+    return api::optionalOf(valueOr(value, PHYSVIB_UNKNOWN));
+}
 
 /// Reads an entry from the numbers of both bodies on, in the order of journal.js.
-FedContact contactOf(const double* at) noexcept {
+FedContact contactOf(const double* data) noexcept {
     FedContact contact;
-    contact.a = static_cast<int>(at[0]);
-    contact.b = static_cast<int>(at[1]);
-    contact.point = {static_cast<float>(orElse(at[2], 0.0)), static_cast<float>(orElse(at[3], 0.0)),
-                     static_cast<float>(orElse(at[4], 0.0))};
-    contact.normal = {static_cast<float>(orElse(at[5], 0.0)), static_cast<float>(orElse(at[6], 1.0)),
-                      static_cast<float>(orElse(at[7], 0.0))};
-    contact.impulseNewtonSeconds = known(at[8]);
-    contact.approachMetresPerSecond = known(at[9]);
-    contact.restitution = orElse(at[10], 0.0);
-    contact.fraction = known(at[11]);
-    contact.gapMetres = orElse(at[12], 0.0);
-    contact.gapFraction = orElse(at[13], 0.0);
-    contact.alongAMetresPerSecond = known(at[14]);
-    contact.alongBMetresPerSecond = known(at[15]);
-    const int soft = static_cast<int>(orElse(at[16], 0.0));
-    contact.isSoft = soft != 0;
-    contact.isPushWhole = soft == PHYSVIB_SOFT_WHOLE;
-    contact.pointId = static_cast<int>(orElse(at[17], PHYSVIB_POINT_NONE));
+    contact.a = static_cast<int>(data[0]);
+    contact.b = static_cast<int>(data[1]);
+    contact.point = {static_cast<float>(valueOr(data[2], 0.0)), static_cast<float>(valueOr(data[3], 0.0)),
+                     static_cast<float>(valueOr(data[4], 0.0))};
+    contact.normal = {static_cast<float>(valueOr(data[5], 0.0)), static_cast<float>(valueOr(data[6], 1.0)),
+                      static_cast<float>(valueOr(data[7], 0.0))};
+    contact.impulseNewtonSeconds = toOptional(data[8]);
+    contact.approachMetresPerSecond = toOptional(data[9]);
+    contact.restitution = valueOr(data[10], 0.0);
+    contact.fraction = toOptional(data[11]);
+    contact.gapMetres = valueOr(data[12], 0.0);
+    contact.gapFraction = valueOr(data[13], 0.0);
+    contact.alongAMetresPerSecond = toOptional(data[14]);
+    contact.alongBMetresPerSecond = toOptional(data[15]);
+    const int softness = static_cast<int>(valueOr(data[16], 0.0));
+    contact.isSoft = softness != 0;
+    contact.isPushWhole = softness == PHYSVIB_SOFT_WHOLE;
+    contact.pointId = static_cast<int>(valueOr(data[17], PHYSVIB_POINT_NONE));
     return contact;
 }
 
-/// An entry by its kind in journal.js. Returns how many numbers it has; `fault`: what is wrong with it.
-int tell(ContactFeed& feed, const double* entry, std::string_view& fault) {
+/// Reports an entry, whose kind is its first number, to the feed. Returns how many numbers it has, and sets
+/// `error` (empty: none).
+int reportEntry(ContactFeed& feed, const double* entry, std::string_view& error) {
     const int body = static_cast<int>(entry[1]);
-    const double* at = entry + 2;
+    const double* data = entry + 2;
     switch (static_cast<int>(entry[0])) {
-    case 0:
-        fault =
-            feed.move(body, {static_cast<float>(at[0]), static_cast<float>(at[1])},
-                      {{static_cast<float>(at[2]), static_cast<float>(at[3])}, static_cast<float>(at[4])});
+    case 0: // motion in the plane before the solver
+        error = feed.move(
+            body, {static_cast<float>(data[0]), static_cast<float>(data[1])},
+            {{static_cast<float>(data[2]), static_cast<float>(data[3])}, static_cast<float>(data[4])});
         return 7;
-    case 1:
-        fault = feed.moved(
-            body, {{static_cast<float>(at[0]), static_cast<float>(at[1])}, static_cast<float>(at[2])});
+    case 1: // velocities in the plane after it
+        error = feed.moved(
+            body, {{static_cast<float>(data[0]), static_cast<float>(data[1])}, static_cast<float>(data[2])});
         return 5;
-    case 2: fault = feed.touch(contactOf(entry + 1)); return 19;
-    case 3: {
-        const bool hasInertia = at[9] != 0.0;
-        std::optional<InverseInertia> inverse;
-        if (hasInertia) inverse = {at[10], at[11], at[12], at[13], at[14], at[15]};
-        fault = feed.moveInSpace(body, vectorOf(at), {vectorOf(at + 3), vectorOf(at + 6)}, inverse);
+    case 2: error = feed.touch(contactOf(entry + 1)); return 19;
+    case 3: { // motion in space before the solver
+        const bool hasInertia = data[9] != 0.0;
+        std::optional<InverseInertia> inertia;
+        if (hasInertia) inertia = {data[10], data[11], data[12], data[13], data[14], data[15]};
+        error = feed.moveInSpace(body, vectorOf(data), {vectorOf(data + 3), vectorOf(data + 6)}, inertia);
         return hasInertia ? 18 : 12;
     }
-    default: fault = feed.movedInSpace(body, {vectorOf(at), vectorOf(at + 3)}); return 8;
+    default: error = feed.movedInSpace(body, {vectorOf(data), vectorOf(data + 3)}); return 8;
     }
 }
 
 } // namespace
 
 /// Skips entries with invalid numbers, so that one body does not end the haptics of all. Returns 0, or the
-/// number + 1 of the first body skipped, with the error in text(), or a negative error code.
+/// number + 1 of the first body skipped, with the error in textBuffer(), or a negative error code.
 extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int count) {
-    return api::in(world, [&](api::World& of) -> int {
-        int refused = 0;
-        std::string_view fault;
+    return api::with(world, [&](api::World& object) -> int {
+        int firstRejected = 0;
+        std::string_view error;
         for (const double *entry = first, *end = first + count; entry < end;) {
-            const int length = tell(of.feed, entry, fault);
-            if (fault.starts_with("step:")) return api::fail(PHYSVIB_ERROR_ORDER, fault);
-            if (!fault.empty() && refused == 0) {
-                refused = static_cast<int>(entry[1]) + 1; // of a contact, its body a
-                text() = fault;
+            const int length = reportEntry(object.feed, entry, error);
+            if (error.starts_with("step:")) return api::fail(PHYSVIB_ERROR_ORDER, error);
+            if (!error.empty() && firstRejected == 0) {
+                firstRejected = static_cast<int>(entry[1]) + 1; // of a contact, its body a
+                textBuffer() = error;
             }
             entry += length;
         }
-        return refused;
+        return firstRejected;
     });
 }
 

@@ -22,37 +22,37 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
     if (!actuator.isKnown() || band.highHz >= 0.5 * sampleRateHz_) return;
     const double lowHz = edgeRatio * band.lowHz, highHz = band.highHz / edgeRatio;
     const auto poles = [this](double hz, double q) { return RootPair::of(hz, q, sampleRateHz_); };
-    section_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};
+    sections_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};
     // the other two zeros at 0 Hz cancel those of H
-    section_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])};
-    section_[2] = {1.0, atZero, poles(lowHz, butterworthQ[2])};
-    sections_ = 3;
+    sections_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])};
+    sections_[2] = {1.0, atZero, poles(lowHz, butterworthQ[2])};
+    sectionCount_ = 3;
     if (highHz < highestShare * sampleRateHz_)
         for (const double q : butterworthQ)
-            section_[static_cast<std::size_t>(sections_++)] = {1.0, atTop,
-                                                               RootPair::bilinear(highHz, q, sampleRateHz_)};
+            sections_[static_cast<std::size_t>(sectionCount_++)] = {
+                1.0, atTop, RootPair::bilinear(highHz, q, sampleRateHz_)};
     const double middleHz = std::sqrt(band.lowHz * band.highHz);
-    section_[0].scale(1.0 / portable::abs(at(middleHz) * resonator.at(middleHz)));
+    sections_[0].scale(1.0 / portable::abs(at(middleHz) * resonator.at(middleHz)));
 }
 
 bool ActuatorEqualiser::process(float* io, int frames, bool isSilent) noexcept {
     if (!isOn() || (isSilent && isAtRest())) return isSilent;
     for (int n = 0; n < frames; ++n) {
         double x = static_cast<double>(io[n]);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(sections_); ++k) x = section_[k].process(x);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(sectionCount_); ++k) x = sections_[k].process(x);
         io[n] = static_cast<float>(x);
     }
     return false;
 }
 
 bool ActuatorEqualiser::isAtRest() const noexcept {
-    return std::ranges::all_of(section_, [](const Biquad& section) { return section.isAtRest(); });
+    return std::ranges::all_of(sections_, [](const Biquad& section) { return section.isAtRest(); });
 }
 
 std::complex<double> ActuatorEqualiser::at(double frequencyHz) const noexcept {
     std::complex<double> all = 1.0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(sections_); ++k)
-        all *= section_[k].at(frequencyHz, sampleRateHz_);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(sectionCount_); ++k)
+        all *= sections_[k].at(frequencyHz, sampleRateHz_);
     return all;
 }
 

@@ -33,8 +33,8 @@ struct RootPair {
     /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes to 0 at half the rate.
     static RootPair bilinear(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double k = portable::tan(std::numbers::pi * frequencyHz / sampleRateHz),
-                     whole = 1.0 + k / q + k * k;
-        return {2.0 * (k * k - 1.0) / whole, (1.0 - k / q + k * k) / whole};
+                     scale = 1.0 + k / q + k * k;
+        return {2.0 * (k * k - 1.0) / scale, (1.0 - k / q + k * k) / scale};
     }
 
     std::complex<double> at(std::complex<double> zInverse) const noexcept {
@@ -53,14 +53,14 @@ public:
 
     double process(double x) noexcept {
         x *= gain_;
-        const double y = x + past_;
-        past_ = older_ + zeros_.first * x - poles_.first * y;
-        older_ = zeros_.second * x - poles_.second * y;
+        const double y = x + state1_;
+        state1_ = state2_ + zeros_.first * x - poles_.first * y;
+        state2_ = zeros_.second * x - poles_.second * y;
         return y;
     }
 
-    void clear() noexcept { past_ = older_ = 0.0; }
-    bool isAtRest() const noexcept { return past_ == 0.0 && older_ == 0.0; }
+    void clear() noexcept { state1_ = state2_ = 0.0; }
+    bool isAtRest() const noexcept { return state1_ == 0.0 && state2_ == 0.0; }
     void scale(double factor) noexcept { gain_ *= factor; }
 
     std::complex<double> at(double frequencyHz, double sampleRateHz) const noexcept {
@@ -72,7 +72,7 @@ public:
 private:
     double gain_ = 1.0;
     RootPair zeros_, poles_;
-    double past_ = 0.0, older_ = 0.0;
+    double state1_ = 0.0, state2_ = 0.0;
 };
 
 /// Linear model of a resonant actuator: a mass on a spring, driven by a force. The output is its case's
@@ -111,18 +111,17 @@ struct EqualisedActuator {
     bool isKnown() const noexcept { return resonator.isKnown() && band.isKnown(); }
     bool operator==(const EqualisedActuator&) const = default;
 };
-using EqualisedActuators = std::array<EqualisedActuator, limits::maxEnchanters>;
+using EqualisedActuators = std::array<EqualisedActuator, limits::maxActuators>;
 
 /// One channel. Render thread (R) only; construction and figures: any thread.
 class ActuatorEqualiser {
 public:
-    /// Passes everything unchanged.
-    ActuatorEqualiser() = default;
+    ActuatorEqualiser() = default; ///< Passes everything unchanged.
 
     /// Without figures, or with a band that does not lie below half the rate, it passes everything unchanged.
     ActuatorEqualiser(const EqualisedActuator& actuator, int sampleRateHz) noexcept;
 
-    bool isOn() const noexcept { return sections_ > 0; }
+    bool isOn() const noexcept { return sectionCount_ > 0; }
 
     /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept;
@@ -135,10 +134,10 @@ public:
     double flatLevel(double driveLimit = 1.0) const noexcept;
 
 private:
-    static constexpr std::size_t most = 6;
+    static constexpr std::size_t maxSections = 6;
     bool isAtRest() const noexcept;
-    std::array<Biquad, most> section_{};
-    int sections_ = 0;
+    std::array<Biquad, maxSections> sections_{};
+    int sectionCount_ = 0;
     double sampleRateHz_ = 0.0;
     FrequencyBand band_;
 };

@@ -19,47 +19,47 @@ namespace physvib {
 template <int Capacity>
 class ChannelDelay {
 public:
-    /// Delay of `frames`, filled with silence; `most`, at most Capacity, is the longest delay. False: no
+    /// Delay of `frames`, filled with silence; `maxFrames`, at most Capacity, is the longest delay. False: no
     /// memory. M, not while rendering.
-    bool prepare(int fadeFrames, int frames, int most = Capacity) noexcept {
-        size_ = static_cast<std::size_t>(most) + 1;
+    bool prepare(int fadeFrames, int frames, int maxFrames = Capacity) noexcept {
+        size_ = static_cast<std::size_t>(maxFrames) + 1;
         if (!ring_.resize(size_)) return false;
         fadeFrames_ = std::max(1, fadeFrames);
-        most_ = most;
-        delay_ = before_ = std::clamp(frames, 0, most);
-        faded_ = fadeFrames_;
-        next_ = none;
+        maxFrames_ = maxFrames;
+        delay_ = previousDelay_ = std::clamp(frames, 0, maxFrames);
+        fadedFrames_ = fadeFrames_;
+        pendingDelay_ = none;
         write_ = 0;
         std::fill_n(ring_.data(), size_, 0.0f);
-        silentFrames_ = most;
+        silentFrames_ = maxFrames;
         return true;
     }
 
     void moveTo(int frames) noexcept {
-        frames = std::clamp(frames, 0, most_);
-        if (faded_ < fadeFrames_) { // a fade that is under way is finished first
-            next_ = frames;
+        frames = std::clamp(frames, 0, maxFrames_);
+        if (fadedFrames_ < fadeFrames_) { // a fade that is under way is finished first
+            pendingDelay_ = frames;
             return;
         }
         if (frames == delay_) return;
-        before_ = delay_;
+        previousDelay_ = delay_;
         delay_ = frames;
-        faded_ = 0;
+        fadedFrames_ = 0;
     }
 
     /// True if the output equals the input.
-    bool isOut() const noexcept { return delay_ == 0 && faded_ == fadeFrames_; }
+    bool isBypassed() const noexcept { return delay_ == 0 && fadedFrames_ == fadeFrames_; }
 
     /// True if the line holds only silence and no fade is under way.
-    bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
+    bool isResting() const noexcept { return silentFrames_ >= maxFrames_ && fadedFrames_ == fadeFrames_; }
 
-    /// While isOut: the memory for the next `frames` inputs. Null if it is not contiguous.
-    float* placeFor(int frames) noexcept {
+    /// While isBypassed(): the memory for the next `frames` inputs. Null if it is not contiguous.
+    float* inputsFor(int frames) noexcept {
         const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1;
         return next + static_cast<std::size_t>(frames) <= size_ ? ring_.data() + next : nullptr;
     }
-    /// Replaces process: the inputs have been written to placeFor, and are not silent.
-    void pass(int frames) noexcept {
+    /// Replaces process: the inputs have been written to inputsFor, and are not silent.
+    void bypass(int frames) noexcept {
         write_ += static_cast<std::size_t>(frames);
         if (write_ >= size_) write_ -= size_;
         silentFrames_ = 0;
@@ -67,18 +67,18 @@ public:
 
     /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept {
-        if (isSilent && silentFrames_ >= most_) {
-            faded_ = std::min(fadeFrames_, faded_ + frames);
-            goOn();
+        if (isSilent && silentFrames_ >= maxFrames_) {
+            fadedFrames_ = std::min(fadeFrames_, fadedFrames_ + frames);
+            startPendingMove();
             return true;
         }
-        const bool passes = isOut();
-        if (passes)
-            keep(io, static_cast<std::size_t>(frames));
+        const bool isCopied = isBypassed();
+        if (isCopied)
+            store(io, static_cast<std::size_t>(frames));
         else
             std::transform(io, io + frames, io, [this](float x) { return step(x); });
-        silentFrames_ = isSilent ? std::min(most_, silentFrames_ + frames) : 0;
-        return passes && isSilent;
+        silentFrames_ = isSilent ? std::min(maxFrames_, silentFrames_ + frames) : 0;
+        return isCopied && isSilent;
     }
 
 private:
@@ -88,19 +88,19 @@ private:
         const auto back = static_cast<std::size_t>(delay);
         return ring_[write_ >= back ? write_ - back : write_ + size_ - back];
     }
-    void keep(float x) noexcept {
+    void store(float x) noexcept {
         write_ = write_ + 1 == size_ ? 0 : write_ + 1;
         ring_[write_] = x;
     }
     // Blocks are short: copies of constant size need no library call.
     static void copy(const float* from, std::size_t count, float* to) noexcept {
-        constexpr std::size_t whole = 16;
+        constexpr std::size_t chunk = 16;
         std::size_t k = 0;
-        for (; k + whole <= count; k += whole) std::memcpy(to + k, from + k, whole * sizeof(float));
+        for (; k + chunk <= count; k += chunk) std::memcpy(to + k, from + k, chunk * sizeof(float));
         std::copy_n(from + k, count - k, to + k);
     }
     // Inputs are stored even without a delay: a delay that is set later starts with them.
-    void keep(const float* x, std::size_t frames) noexcept {
+    void store(const float* x, std::size_t frames) noexcept {
         while (frames > 0) {
             const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1,
                               part = std::min(frames, size_ - next);
@@ -111,21 +111,21 @@ private:
         }
     }
     float step(float x) noexcept {
-        keep(x);
-        if (faded_ == fadeFrames_) return at(delay_);
-        const float share = static_cast<float>(++faded_) / static_cast<float>(fadeFrames_);
-        const float y = at(before_) + share * (at(delay_) - at(before_));
-        goOn();
+        store(x);
+        if (fadedFrames_ == fadeFrames_) return at(delay_);
+        const float share = static_cast<float>(++fadedFrames_) / static_cast<float>(fadeFrames_);
+        const float y = at(previousDelay_) + share * (at(delay_) - at(previousDelay_));
+        startPendingMove();
         return y;
     }
-    void goOn() noexcept {
-        if (faded_ == fadeFrames_ && next_ != none) moveTo(std::exchange(next_, none));
+    void startPendingMove() noexcept {
+        if (fadedFrames_ == fadeFrames_ && pendingDelay_ != none) moveTo(std::exchange(pendingDelay_, none));
     }
 
     Storage<float, static_cast<std::size_t>(Capacity) + 1, true> ring_;
     std::size_t write_ = 0, size_ = 0;
-    int delay_ = 0, before_ = 0, faded_ = 1, fadeFrames_ = 1, next_ = none;
-    int most_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most most_
+    int delay_ = 0, previousDelay_ = 0, fadedFrames_ = 1, fadeFrames_ = 1, pendingDelay_ = none;
+    int maxFrames_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most maxFrames_
 };
 
 /// Per channel: out = gain * delayed, equalised in. Every change is a ramp of limits::channelRampSeconds,
@@ -149,26 +149,26 @@ public:
     /// no memory. M, not while rendering.
     bool changeRate(int sampleRateHz) noexcept {
         for (int j = 0; j < channels_; ++j)
-            ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
+            ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, targetGain(j));
         return prepareEqualisers(sampleRateHz) && prepareDelays(sampleRateHz);
     }
 
     /// Negative gains invert the polarity.
     void setGain(int channel, float gain) noexcept {
         gains_[index(channel)] = gain;
-        aim(channel);
+        updateTarget(channel);
     }
 
     /// Gain of all channels, multiplied with their own.
     void setLevel(float level) noexcept {
         level_ = level;
-        for (int j = 0; j < channels_; ++j) aim(j);
+        for (int j = 0; j < channels_; ++j) updateTarget(j);
     }
 
     /// After the ramp a muted channel is exactly silent, so it does not affect the limiter.
     void setMuted(int channel, bool muted) noexcept {
         muted_[index(channel)] = muted;
-        aim(channel);
+        updateTarget(channel);
     }
 
     /// 0 to limits::maxChannelDelaySeconds.
@@ -178,22 +178,22 @@ public:
         isAsleep_ = false;
     }
 
-    /// True if no channel is changed. The caller still copies the samples to kept[j], for a delay that may be
-    /// set later.
-    bool passes(float** kept, int frames) noexcept {
+    /// True if no channel is changed. The caller still copies the samples to inputs[j], because a delay may
+    /// be set later.
+    bool canBypass(float** inputs, int frames) noexcept {
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
-            if (equalisers_[c].isOn() || !delays_[c].isOut() || !ramps_[c].isOne() ||
-                (kept[j] = delays_[c].placeFor(frames)) == nullptr)
+            if (equalisers_[c].isOn() || !delays_[c].isBypassed() || !ramps_[c].isUnity() ||
+                (inputs[j] = delays_[c].inputsFor(frames)) == nullptr)
                 return false;
         }
         return true;
     }
-    /// Replaces process if `passes` was true: the copies have been written, and are not silent.
-    void pass(int frames) noexcept {
+    /// Replaces process if canBypass was true: the copies have been written, and are not silent.
+    void bypass(int frames) noexcept {
         hasBegun_ = true;
         isAsleep_ = false;
-        for (int j = 0; j < channels_; ++j) delays_[index(j)].pass(frames);
+        for (int j = 0; j < channels_; ++j) delays_[index(j)].bypass(frames);
     }
 
     /// In place. `isSilent`: all input is 0. True if all output is 0: an equaliser may still decay.
@@ -206,13 +206,13 @@ public:
             const auto c = index(j);
             const bool isQuiet =
                 equalisers_[c].isOn() ? equalisers_[c].process(io[j], frames, isSilent) : isSilent;
-            const bool none = delays_[c].process(io[j], frames, isQuiet);
-            if (none)
-                ramps_[c].pass(frames);
+            const bool isOutputSilent = delays_[c].process(io[j], frames, isQuiet);
+            if (isOutputSilent)
+                ramps_[c].skip(frames);
             else
                 ramps_[c].apply(io + j, 1, frames);
-            allSilent = allSilent && none;
-            isAsleep_ = isAsleep_ && none && delays_[c].isResting() && ramps_[c].isResting();
+            allSilent = allSilent && isOutputSilent;
+            isAsleep_ = isAsleep_ && isOutputSilent && delays_[c].isResting() && ramps_[c].isResting();
         }
         return allSilent;
     }
@@ -224,15 +224,15 @@ private:
         return true;
     }
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    float aimOf(int channel) const noexcept {
+    float targetGain(int channel) const noexcept {
         return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)];
     }
-    void aim(int channel) noexcept {
+    void updateTarget(int channel) noexcept {
         isAsleep_ = false;
         if (hasBegun_)
-            ramps_[index(channel)].moveTo(aimOf(channel));
+            ramps_[index(channel)].moveTo(targetGain(channel));
         else
-            ramps_[index(channel)].jumpTo(aimOf(channel));
+            ramps_[index(channel)].jumpTo(targetGain(channel));
     }
 
     int framesOf(int channel) const noexcept {
@@ -242,18 +242,18 @@ private:
     bool prepareDelays(int sampleRateHz) noexcept {
         sampleRateHz_ = sampleRateHz;
         isAsleep_ = false;
-        const int most =
+        const int maxFrames =
             std::min(limits::maxDelayFrames,
                      static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
-        bool has = true;
+        bool hasMemory = true;
         for (int j = 0; j < channels_; ++j)
-            has = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz),
-                                            framesOf(j), most) &&
-                  has;
-        return has;
+            hasMemory = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz),
+                                                  framesOf(j), maxFrames) &&
+                        hasMemory;
+        return hasMemory;
     }
 
-    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxActuators);
     int channels_ = 0;
     bool hasBegun_ = false;
     bool isAsleep_ = false; // all channels are at rest, so that silence needs no processing

@@ -21,7 +21,7 @@ double gain(double frequencyHz) noexcept;
 } // namespace handWeighting
 
 // m/s^2, A(8) (directive 2002/44/EC)
-constexpr double exposureActionValue = 2.5, exposureLimitValue = 5.0;
+constexpr double exposureActionMetresPerSecond2 = 2.5, exposureLimitMetresPerSecond2 = 5.0;
 constexpr double exposureReferenceSeconds = 8.0 * 3600.0;
 
 /// A(8) in m/s^2 from the integral of squared weighted acceleration, in g^2 s; and the inverse. Any thread.
@@ -45,7 +45,7 @@ public:
     void clear() noexcept {
         for (Biquad& section : sections_) section.clear();
     }
-    double gainAt(double frequencyHz) const noexcept;
+    double gainAt(double frequencyHz) const noexcept; ///< Magnitude of the filter.
 
 private:
     double sampleRateHz_ = 1.0;
@@ -54,11 +54,11 @@ private:
 
 /// Weighted sums of the samples that were sent, for vibration exposure. Per channel; 1 = full scale.
 struct ExposureSums {
-    using Channels = std::array<double, static_cast<std::size_t>(limits::maxEnchanters)>;
+    using Channels = std::array<double, static_cast<std::size_t>(limits::maxActuators)>;
     Channels weighted{}; ///< integral of squared weighted samples over time, in s, since the meter was made
 };
 
-class ExposureMeter {
+class ExposureMeter { // sums weighted samples per channel, for one reader on another thread
 public:
     /// Keeps the sums. Message thread (M), not while the render thread (R) runs.
     void prepare(int sampleRateHz) noexcept {
@@ -68,7 +68,7 @@ public:
     }
 
     /// Adds the next samples of a channel, 1 to limits::maxBlockFrames. R, wait-free.
-    void take(int channel, const float* samples, int frames) noexcept PHYSVIB_NONBLOCKING {
+    void add(int channel, const float* samples, int frames) noexcept PHYSVIB_NONBLOCKING {
         const auto j = static_cast<std::size_t>(channel);
         const bool isSilent = std::all_of(samples, samples + frames, [](float x) { return x == 0.0f; });
         if (isSilent && isAtRest_[j]) return;
@@ -92,8 +92,8 @@ private:
     static constexpr double faded = 1e-24; // -240 dB
 
     double framesPerSecond_ = 1.0;
-    std::array<HandWeighting, static_cast<std::size_t>(limits::maxEnchanters)> weightings_;
-    std::array<bool, static_cast<std::size_t>(limits::maxEnchanters)> isAtRest_{};
+    std::array<HandWeighting, static_cast<std::size_t>(limits::maxActuators)> weightings_;
+    std::array<bool, static_cast<std::size_t>(limits::maxActuators)> isAtRest_{};
     ExposureSums sums_;
     LatestValue<ExposureSums> published_;
 };

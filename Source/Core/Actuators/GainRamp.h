@@ -12,7 +12,7 @@ public:
     /// Rests at `gain`; a change by 1 takes `secondsPerUnit`. M, not while rendering.
     void prepare(int sampleRateHz, double secondsPerUnit, float gain) noexcept {
         pace_ = step_ = static_cast<float>(1.0 / (secondsPerUnit * sampleRateHz));
-        now_ = target_ = gain;
+        gain_ = target_ = gain;
     }
 
     void moveTo(float gain) noexcept {
@@ -24,26 +24,26 @@ public:
     void moveTo(float gain, int frames) noexcept {
         target_ = gain;
         // the margin keeps rounding from adding a frame
-        pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames));
+        pace_ = std::max(step_, 1.001f * std::abs(gain - gain_) / static_cast<float>(frames));
     }
     /// Without a ramp: for a channel that is not audible yet.
-    void jumpTo(float gain) noexcept { now_ = target_ = gain; }
-    bool isResting() const noexcept { return now_ == target_; }
+    void jumpTo(float gain) noexcept { gain_ = target_ = gain; }
+    bool isResting() const noexcept { return gain_ == target_; }
     /// True if applying it changes nothing.
-    bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; }
+    bool isUnity() const noexcept { return gain_ == 1.0f && target_ == 1.0f; }
 
-    float now() const noexcept { return now_; }
+    float current() const noexcept { return gain_; }
     float target() const noexcept { return target_; }
     /// Lower bound of the gain from now on.
-    float leastAhead() const noexcept { return std::min(now_, target_); }
+    float minAhead() const noexcept { return std::min(gain_, target_); }
     /// The gain of the next frame.
     float next() noexcept {
         if (!isResting()) step();
-        return now_;
+        return gain_;
     }
 
     /// As apply, for silent samples.
-    void pass(int frames) noexcept {
+    void skip(int frames) noexcept {
         for (int n = 0; n < frames && !isResting(); ++n) step();
     }
 
@@ -52,19 +52,19 @@ public:
         int n = 0;
         for (; n < frames && !isResting(); ++n) {
             step();
-            for (int j = 0; j < channels; ++j) io[j][n] *= now_;
+            for (int j = 0; j < channels; ++j) io[j][n] *= gain_;
         }
-        if (now_ == 1.0f) return;
+        if (gain_ == 1.0f) return;
         for (int j = 0; j < channels; ++j)
-            std::transform(io[j] + n, io[j] + frames, io[j] + n, [this](float x) { return x * now_; });
+            std::transform(io[j] + n, io[j] + frames, io[j] + n, [this](float x) { return x * gain_; });
     }
 
 private:
     void step() noexcept {
-        now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_);
+        gain_ = gain_ < target_ ? std::min(gain_ + pace_, target_) : std::max(gain_ - pace_, target_);
     }
 
-    float now_ = 1.0f, target_ = 1.0f, step_ = 1.0f, pace_ = 1.0f;
+    float gain_ = 1.0f, target_ = 1.0f, step_ = 1.0f, pace_ = 1.0f;
 };
 
 } // namespace physvib

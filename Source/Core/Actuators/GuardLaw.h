@@ -38,17 +38,17 @@ constexpr float guardRestSeconds = 0.2f;    // time constant of the resting gain
 /// Position of a guard in the signal path. `rendered` has lower bounds than `last`, so `last` seldom acts.
 enum class GuardPlace { rendered, last };
 
-/// What a channel has had: how far its area was above and below what it is now, the state of the low-pass,
-/// the load and the resting gain.
+/// The guard's state of one channel: how far its area was above and below the present one, the state of the
+/// low-pass, the load and the resting gain.
 struct GuardSums {
     float high = 0.0f, low = 0.0f, slow = 0.0f, speed = 0.0f, load = 0.0f, rest = 1.0f;
 };
 
 /// Render thread (R) only; prepare: message thread (M).
-template <int Most>
+template <int MaxChannels>
 class GuardLaw {
 public:
-    using Row = std::array<float, static_cast<std::size_t>(Most)>; ///< of each channel
+    using Row = std::array<float, static_cast<std::size_t>(MaxChannels)>; ///< of each channel
 
     /// Resets the sums. M, not while rendering.
     void prepare(int channels, GuardPlace place) noexcept {
@@ -82,7 +82,7 @@ public:
                 rest_[j]};
     }
     /// Restores the sums of a channel, as if their extremes had just happened. Call it after prepare().
-    void recall(std::size_t j, const GuardSums& m) noexcept {
+    void restore(std::size_t j, const GuardSums& m) noexcept {
         const std::size_t newest = (part_ + parts - 1) % parts;
         oldHigh_[j] = highs_[newest][j] = m.high;
         oldLow_[j] = lows_[newest][j] = m.low;
@@ -92,10 +92,10 @@ public:
         silentSeconds_ = 0.0f;
     }
     /// Adds a channel, at rest. R.
-    void widen() noexcept { ++channels_; }
+    void addChannel() noexcept { ++channels_; }
 
     /// `areas` of the tile just sent, in seconds at full scale. False: the next tile is played unchanged.
-    bool take(const Row& areas) noexcept {
+    bool update(const Row& areas) noexcept {
         std::size_t silent = 0;
         while (silent < channels_ && areas[silent] == 0.0f) ++silent;
         const bool isSilent = silent == channels_;
@@ -105,25 +105,24 @@ public:
             clear();
             return false;
         }
-        const float least = follow(areas);
+        const float lowest = follow(areas);
         if (++partTile_ >= partTiles_) endPart();
-        episodes_ += least < 1.0f && gain_ == 1.0f ? 1 : 0;
-        const bool acts = least < 1.0f || gain_ < 1.0f;
-        gain_ = least;
+        episodes_ += lowest < 1.0f && gain_ == 1.0f ? 1 : 0;
+        const bool acts = lowest < 1.0f || gain_ < 1.0f;
+        gain_ = lowest;
         return acts;
     }
 
-    /// Gain at the start of the next tile; it changes linearly to to() at its end.
-    float from(std::size_t channel) const noexcept { return from_[channel]; }
-    float to(std::size_t channel) const noexcept { return to_[channel]; }
+    /// Gain at the start of the next tile; it changes linearly to endGain() at its end.
+    float startGain(std::size_t channel) const noexcept { return from_[channel]; }
+    float endGain(std::size_t channel) const noexcept { return to_[channel]; }
 
     bool isAtRest() const noexcept {
         return silentSeconds_ >= forgetSeconds;
     }                                             ///< no sum is left: silent for long
     float gain() const noexcept { return gain_; } ///< lowest of all channels; 1: no reduction
-    std::uint32_t episodes() const noexcept {
-        return episodes_;
-    } ///< how often it began to act, since prepare
+    /// How often it began to act, since prepare.
+    std::uint32_t episodes() const noexcept { return episodes_; }
 
 private:
     static constexpr int parts = 4; // complete ones, beside the current one
@@ -151,13 +150,13 @@ private:
     float follow(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
-        auto least = std::bit_cast<std::int32_t>(1.0f); // gains from +0 on are in order as their bits are
+        auto lowest = std::bit_cast<std::int32_t>(1.0f); // gains from +0 on are in order as their bits are
         for (std::size_t j = 0; j < channels_; ++j) {
             const float sum = sum_[j] + areas[j];
             sum_[j] = sum;
             high_[j] = greater(high_[j], sum);
             low_[j] = lesser(low_[j], sum);
-            const float most =
+            const float area =
                 greater(greater(high_[j], oldHigh_[j]) - sum, sum - lesser(low_[j], oldLow_[j]));
             speed_[j] += w * areas[j] - step * (slow_[j] + limits::guardDamping * speed_[j]);
             slow_[j] += step * speed_[j];
@@ -165,17 +164,17 @@ private:
             load_[j] += tile_ * (z * z - load_[j]);
             const float load =
                 load_[j] + (limits::guardOfSlow * z * z + z * v + limits::guardOfSpeed * v * v) * (0.5f / w);
-            const float room = lesser((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
+            const float room = lesser((maxArea_ - area) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
             from_[j] = to_[j];
             const float to = greater(0.0f, lesser(room, rest_[j]));
             to_[j] = to;
-            least = std::min(least, std::bit_cast<std::int32_t>(to));
+            lowest = std::min(lowest, std::bit_cast<std::int32_t>(to));
             // Above half of a bound it only falls: a reduced tone gets one gain and keeps its waveform.
             const float up = lesser(1.0f, rest_[j] + rise_), down = rest_[j] - fall_ * (rest_[j] - to_[j]);
-            const float half = most < 0.5f * maxArea_ ? up : down;
+            const float half = area < 0.5f * maxArea_ ? up : down;
             rest_[j] = load < 0.5f * maxLoad_ ? half : down;
         }
-        return std::bit_cast<float>(least);
+        return std::bit_cast<float>(lowest);
     }
 
     // Sums restart at 0, so that they stay exact.

@@ -24,7 +24,7 @@ bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, Instru
     silentFrames_ = 0;
     position_ = 0;
     frame_ = 0;
-    front_ = candidateCount_ = 0;
+    firstCandidate_ = candidateCount_ = 0;
     released_ = unit;
     averaged_.fill(unit);
     sum_ = unit * window_;
@@ -32,7 +32,7 @@ bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, Instru
     nonFinite_ = 0;
     rampFrames_ = static_cast<int>(limits::channelRampSeconds * sampleRateHz);
     isSettled_ = true;
-    for (int j = 0; j < limits::maxEnchanters; ++j) {
+    for (int j = 0; j < limits::maxActuators; ++j) {
         ceilings_[static_cast<std::size_t>(j)].prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         setCeiling(j, 1.0f);
     }
@@ -43,24 +43,24 @@ void LinkedLimiter::setCeiling(int channel, float ceiling) noexcept {
     const auto j = static_cast<std::size_t>(channel);
     if (frame_ == 0) { // before the first frame the ceiling needs no ramp
         ceilings_[j].jumpTo(ceiling);
-        return boundBy(j, ceiling);
+        return setBound(j, ceiling);
     }
     const float before = bounds_[j];
     ceilings_[j].moveTo(ceiling, rampFrames_);
-    boundBy(j, ceilings_[j].leastAhead());
+    setBound(j, ceilings_[j].minAhead());
     bounds_[j] = std::max({before, bounds_[j], enabled_ ? ceiling : 0.0f});
     settledFrame_ = frame_ + rampFrames_ + latencyFrames();
     isSettled_ = false;
 }
 
-void LinkedLimiter::boundBy(std::size_t channel, float ceiling) noexcept {
+void LinkedLimiter::setBound(std::size_t channel, float ceiling) noexcept {
     bounds_[channel] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
-    mostBits_[channel] = std::min(std::bit_cast<std::int32_t>(bounds_[channel]), infiniteBits - 1);
+    maxBits_[channel] = std::min(std::bit_cast<std::int32_t>(bounds_[channel]), infiniteBits - 1);
 }
 
 void LinkedLimiter::settle() noexcept {
     if (isSettled_ || frame_ < settledFrame_) return;
-    for (std::size_t j = 0; j < width; ++j) boundBy(j, ceilings_[j].now());
+    for (std::size_t j = 0; j < width; ++j) setBound(j, ceilings_[j].current());
     isSettled_ = true;
 }
 
@@ -71,7 +71,7 @@ int LinkedLimiter::windowAt(int sampleRateHz) noexcept {
 
 bool LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcept {
     if (isSilent && silentFrames_ >= window_ && isResting()) {
-        rest(static_cast<std::size_t>(frames));
+        skipFrames(static_cast<std::size_t>(frames));
         return true;
     }
     silentFrames_ = isSilent ? silentFrames_ + frames : 0;
@@ -79,71 +79,73 @@ bool LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcep
     return false;
 }
 
-void LinkedLimiter::pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
+void LinkedLimiter::processInto(const float* const* in, float* const* out, int frames,
+                                float* const* copy) noexcept {
     silentFrames_ = 0;
-    processAll(in, out, frames, kept);
+    processAll(in, out, frames, copy);
 }
 
 void LinkedLimiter::processAll(const float* const* in, float* const* out, int frames,
-                               float* const* kept) noexcept {
+                               float* const* copy) noexcept {
     const auto all = static_cast<std::size_t>(frames);
     for (std::size_t first = 0, part; first < all; first += part) {
         settle();
-        part = std::min(partMost, all - first);
+        part = std::min(maxPartFrames, all - first);
         if (!isSettled_) part = std::min(part, static_cast<std::size_t>(settledFrame_ - frame_));
-        processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), kept,
+        processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), copy,
                      floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
     }
 }
 
 // Processes channel by channel, so that the loops over frames are vectorised.
 void LinkedLimiter::processPart(const LimiterLines& lines) noexcept {
-    if (!takeIn(lines) && isResting()) {
-        rest(lines.frames);
-        return giveOut(lines, nullptr);
+    if (!storeInputs(lines) && isResting()) {
+        skipFrames(lines.frames);
+        return writeOutputs(lines, nullptr);
     }
     Gains gains;
     followGains(lines, gains);
-    giveOut(lines, gains.data());
+    writeOutputs(lines, gains.data());
 }
 
 // True if a sample exceeds its ceiling.
-bool LinkedLimiter::takeIn(const LimiterLines& lines) noexcept {
-    if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
+bool LinkedLimiter::storeInputs(const LimiterLines& lines) noexcept {
+    if (kernel_ != nullptr && !kernel_->storeInputs(lines, maxBits_.data())) return false;
     bool isOver = false;
     for (std::size_t j = 0; j < lines.channels; ++j)
-        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, mostBits_[j],
+        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, maxBits_[j],
                             lines.line(j) + lines.front))
             isOver = true;
     return isOver;
 }
 
-void LinkedLimiter::giveOut(const LimiterLines& lines, const float* gains) noexcept {
-    if (kernel_ != nullptr) return kernel_->give(lines, gains, bounds_.data());
+void LinkedLimiter::writeOutputs(const LimiterLines& lines, const float* gains) noexcept {
+    if (kernel_ != nullptr) return kernel_->writeOutputs(lines, gains, bounds_.data());
     for (std::size_t j = 0; j < lines.channels; ++j)
         delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
 }
 
 // Magnitudes are compared as integers, which order as the floats do (IEEE 754).
-bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits,
+bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t maxBits,
                                     float* line) noexcept {
-    constexpr std::int32_t least = 0x00800000;
-    std::int32_t most = 0, bad = 0;
+    constexpr std::int32_t minBits = 0x00800000;
+    std::int32_t maxMagnitude = 0, nonFinite = 0;
     for (std::size_t n = 0; n < frames; ++n) {
         const auto bits = std::bit_cast<std::int32_t>(samples[n]);
-        const std::int32_t size = bits & 0x7fffffff;
-        const std::int32_t isFinite = size < infiniteBits ? -1 : 0, isNormal = size >= least ? isFinite : 0;
-        bad += 1 + isFinite;
-        most = std::max(most, size & isNormal);
+        const std::int32_t magnitude = bits & 0x7fffffff;
+        const std::int32_t isFinite = magnitude < infiniteBits ? -1 : 0,
+                           isNormal = magnitude >= minBits ? isFinite : 0;
+        nonFinite += 1 + isFinite;
+        maxMagnitude = std::max(maxMagnitude, magnitude & isNormal);
         line[n] = std::bit_cast<float>(bits & isNormal);
     }
-    nonFinite_ += static_cast<std::uint64_t>(bad);
-    return most > mostBits;
+    nonFinite_ += static_cast<std::uint64_t>(nonFinite);
+    return maxMagnitude > maxBits;
 }
 
 // For each frame: the gain that keeps every channel within its ceiling, then the limiter's smoothed gain.
 void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcept {
-    std::array<double, partMost> excess;
+    std::array<double, maxPartFrames> excess;
     excess.fill(1);
     for (std::size_t j = 0; j < lines.channels; ++j) {
         const float* const samples = lines.line(j) + lines.front;
@@ -153,7 +155,7 @@ void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcep
         };
         std::size_t n = 0;
         while (n < lines.frames && !ceilings_[j].isResting()) compare(n++, ceilings_[j].next());
-        for (const float ceiling = ceilings_[j].now(); n < lines.frames; ++n) compare(n, ceiling);
+        for (const float ceiling = ceilings_[j].current(); n < lines.frames; ++n) compare(n, ceiling);
     }
     for (std::size_t n = 0; n < lines.frames; ++n) {
         const bool isOver = enabled_ && excess[n] > 1;
@@ -164,12 +166,12 @@ void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcep
 }
 
 // No sample needed a reduction for a whole window: the gain is 1, and the sliding minimum restarts here.
-void LinkedLimiter::rest(std::size_t frames) noexcept {
+void LinkedLimiter::skipFrames(std::size_t frames) noexcept {
     gain_ = 1.0f;
     frame_ += static_cast<std::int64_t>(frames);
     if (!isSettled_)
-        for (std::size_t j = 0; j < width; ++j) ceilings_[j].pass(static_cast<int>(frames));
-    candidates_[front_] = {unit, frame_ - 1};
+        for (std::size_t j = 0; j < width; ++j) ceilings_[j].skip(static_cast<int>(frames));
+    candidates_[firstCandidate_] = {unit, frame_ - 1};
     candidateCount_ = 1;
 }
 
@@ -191,12 +193,12 @@ void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frame
 // Monotone queue: an entry that needs at least the newcomer's gain can never be the minimum again.
 std::int64_t LinkedLimiter::slidingMinimum(std::int64_t needed) noexcept {
     const auto at = [this](std::size_t k) -> Candidate& {
-        return candidates_[(front_ + k) % candidates_.size()];
+        return candidates_[(firstCandidate_ + k) % candidates_.size()];
     };
     while (candidateCount_ > 0 && at(candidateCount_ - 1).needed >= needed) --candidateCount_;
     at(candidateCount_++) = {needed, frame_};
     if (at(0).frame + window_ <= frame_) {
-        front_ = (front_ + 1) % candidates_.size();
+        firstCandidate_ = (firstCandidate_ + 1) % candidates_.size();
         --candidateCount_;
     }
     ++frame_;

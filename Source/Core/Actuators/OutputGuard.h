@@ -24,11 +24,11 @@ public:
     void prepare(int sampleRateHz, int channels, GuardPlace place,
                  InstructionSet set = InstructionSet::best) noexcept {
         const TileKernel* const kernels = tileKernel(set);
-        addUp_ = kernels != nullptr ? kernels->limiter.addUp : nullptr;
+        sumTiles_ = kernels != nullptr ? kernels->limiter.sumTiles : nullptr;
         channels_ = static_cast<std::size_t>(channels);
         law_.prepare(channels, place);
         sums_.fill(0);
-        acts_ = hasSums_ = false;
+        isActing_ = hasSums_ = false;
         changeRate(sampleRateHz);
     }
     /// Changes the sample rate and keeps the sums. M, not while rendering.
@@ -38,23 +38,23 @@ public:
         law_.setTile(static_cast<float>(tile_) / static_cast<float>(sampleRateHz));
         perUnit_ = 1.0f / (GuardUnits::perFullScale * static_cast<float>(sampleRateHz));
         filled_ = 0;
-        frame_ = nowhere;
+        frame_ = unknownFrame;
     }
 
-    /// What recall() restores. M, not while rendering.
+    /// The state of a channel, for restore(). M, not while rendering.
     GuardSums sums(std::size_t channel) noexcept {
         if (hasSums_) endTile();
-        frame_ = nowhere;
+        frame_ = unknownFrame;
         return law_.sums(channel);
     }
     /// Restores these sums, one per channel. M, after prepare().
-    void recall(const GuardSums* sums) noexcept {
-        for (std::size_t j = 0; j < channels_; ++j) law_.recall(j, sums[j]);
-        for (int k = 0; k < 2; ++k) acts_ = law_.take({}); // both ends of the next tile's ramp
+    void restore(const GuardSums* sums) noexcept {
+        for (std::size_t j = 0; j < channels_; ++j) law_.restore(j, sums[j]);
+        for (int k = 0; k < 2; ++k) isActing_ = law_.update({}); // both ends of the next tile's ramp
     }
     std::size_t channels() const noexcept { return channels_; }
     /// Adds a channel, at rest. R.
-    void widen() noexcept { law_.widen(), ++channels_; }
+    void addChannel() noexcept { law_.addChannel(), ++channels_; }
 
     /// Sets the absolute number of the next frame. Tiles lie on the grid of these numbers, so that samples do
     /// not depend on the output latency. Without it the grid starts at prepare. R.
@@ -75,7 +75,7 @@ public:
             return;
         }
         for (int first = 0, count; first < frames; first += count) {
-            if (!isSilent && !acts_ && filled_ == 0 && frames - first >= tile_ * together) {
+            if (!isSilent && !isActing_ && filled_ == 0 && frames - first >= tile_ * tilesTogether) {
                 count = passTiles(io, first);
                 continue;
             }
@@ -87,49 +87,48 @@ public:
     }
 
     float gain() const noexcept { return law_.gain(); } ///< lowest of all channels; 1: no reduction
-    std::uint32_t episodes() const noexcept {
-        return law_.episodes();
-    } ///< how often it began to act, since prepare
+    /// How often it began to act, since prepare.
+    std::uint32_t episodes() const noexcept { return law_.episodes(); }
 
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
-    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxActuators);
     static_assert(GuardUnits::stride >= width);
-    static constexpr int together = static_cast<int>(GuardUnits::tiles);
+    static constexpr int tilesTogether = static_cast<int>(GuardUnits::tiles);
     using Sums = std::array<std::int32_t, GuardUnits::stride * GuardUnits::tiles>;
 
     // Frames of whole tiles up to the first that is to be turned down.
     int passTiles(float* const* io, int first) noexcept {
         Sums sums;
-        addUp(io, first, tile_, GuardUnits::tiles, sums);
+        sumTiles(io, first, tile_, GuardUnits::tiles, sums);
         int passed = 0;
-        for (std::size_t t = 0; t < GuardUnits::tiles && !acts_; ++t, passed += tile_)
+        for (std::size_t t = 0; t < GuardUnits::tiles && !isActing_; ++t, passed += tile_)
             endTile(sums.data() + t * GuardUnits::stride);
         return passed;
     }
-    void addUp(float* const* io, int first, int frames, std::size_t tiles, Sums& sums) const noexcept {
+    void sumTiles(float* const* io, int first, int frames, std::size_t tiles, Sums& sums) const noexcept {
         const auto from = static_cast<std::size_t>(first), count = static_cast<std::size_t>(frames);
-        if (addUp_ != nullptr) return addUp_(io, channels_, from, count, tiles, sums.data());
+        if (sumTiles_ != nullptr) return sumTiles_(io, channels_, from, count, tiles, sums.data());
         for (std::size_t j = 0; j < channels_; ++j)
             for (std::size_t t = 0; t < tiles; ++t) {
                 const auto at = io[j] == nullptr ? nullptr : io[j] + from + t * count;
                 auto& sum = sums[t * GuardUnits::stride + j] = 0;
-                for (std::size_t k = 0; at != nullptr && k < count; ++k) sum += GuardUnits::of(at[k]);
+                for (std::size_t k = 0; at != nullptr && k < count; ++k) sum += GuardUnits::fromSample(at[k]);
             }
     }
     void pass(float* const* io, int first, int count) noexcept {
         hasSums_ = true;
-        for (std::size_t j = 0; acts_ && j < channels_; ++j)
-            if (io[j] != nullptr && (law_.from(j) != 1.0f || law_.to(j) != 1.0f))
-                turnDown(j, io[j] + first, count);
+        for (std::size_t j = 0; isActing_ && j < channels_; ++j)
+            if (io[j] != nullptr && (law_.startGain(j) != 1.0f || law_.endGain(j) != 1.0f))
+                attenuate(j, io[j] + first, count);
         Sums sums;
-        addUp(io, first, count, 1, sums);
+        sumTiles(io, first, count, 1, sums);
         for (std::size_t j = 0; j < channels_; ++j) sums_[j] += sums[j];
     }
-    void turnDown(std::size_t j, float* at, int count) noexcept {
-        const float step = (law_.to(j) - law_.from(j)) / static_cast<float>(tile_);
+    void attenuate(std::size_t j, float* at, int count) noexcept {
+        const float step = (law_.endGain(j) - law_.startGain(j)) / static_cast<float>(tile_);
         for (int k = 0; k < count; ++k) {
-            const float y = at[k] * (law_.from(j) + step * static_cast<float>(filled_ + k + 1));
+            const float y = at[k] * (law_.startGain(j) + step * static_cast<float>(filled_ + k + 1));
             at[k] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
         }
     }
@@ -140,20 +139,20 @@ private:
         hasSums_ = false;
     }
     void endTile(const std::int32_t* sums) noexcept {
-        GuardLaw<limits::maxEnchanters>::Row areas;
+        GuardLaw<limits::maxActuators>::Row areas;
         for (std::size_t j = 0; j < channels_; ++j) areas[j] = static_cast<float>(sums[j]) * perUnit_;
-        acts_ = law_.take(areas);
+        isActing_ = law_.update(areas);
     }
 
-    decltype(LimiterKernel::addUp) addUp_ = nullptr; // null: a plain loop
-    GuardLaw<limits::maxEnchanters> law_;
+    decltype(LimiterKernel::sumTiles) sumTiles_ = nullptr; // null: a plain loop
+    GuardLaw<limits::maxActuators> law_;
     std::array<std::int32_t, width> sums_{};
     std::size_t channels_ = 0;
-    static constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::min();
-    std::int64_t frame_ = nowhere; // the next one's number; about `nowhere`: not known
+    static constexpr std::int64_t unknownFrame = std::numeric_limits<std::int64_t>::min();
+    std::int64_t frame_ = unknownFrame; // number of the next frame; near `unknownFrame`: not known
     int tile_ = 1, filled_ = 0;
     float perUnit_ = 1.0f;
-    bool acts_ = false, hasSums_ = false;
+    bool isActing_ = false, hasSums_ = false;
 };
 
 /// Linked look-ahead limiter: one gain for all channels, so that a phantom stays in place while no channel
@@ -181,9 +180,9 @@ public:
     /// the delayed frames are 0 too, nothing is computed. True if the output is silent.
     bool process(float* const* io, int frames, bool isSilent = false) noexcept;
 
-    /// The same from `in` to `out`, and `in` is copied to `kept`. Only if canPass.
-    void pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;
-    bool canPass() const noexcept { return kernel_ != nullptr; }
+    /// process() from `in` to `out`; `in` is also copied to `copy`. Only if hasKernel.
+    void processInto(const float* const* in, float* const* out, int frames, float* const* copy) noexcept;
+    bool hasKernel() const noexcept { return kernel_ != nullptr; }
 
     int latencyFrames() const noexcept { return window_ - 1; }
     static int latencyFramesAt(int sampleRateHz) noexcept { return windowAt(sampleRateHz) - 1; }
@@ -194,25 +193,25 @@ public:
 
 private:
     static constexpr std::int64_t unit = std::int64_t{1} << 30;
-    static constexpr auto windowMax = static_cast<std::size_t>(limits::maxLookAheadFrames);
-    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto maxWindowFrames = static_cast<std::size_t>(limits::maxLookAheadFrames);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxActuators);
 
-    static constexpr auto partMost = static_cast<std::size_t>(limits::tileFrames);
-    using Gains = std::array<float, partMost>;
+    static constexpr auto maxPartFrames = static_cast<std::size_t>(limits::tileFrames);
+    using Gains = std::array<float, maxPartFrames>;
 
     static int windowAt(int sampleRateHz) noexcept;
-    void processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;
+    void processAll(const float* const* in, float* const* out, int frames, float* const* copy) noexcept;
     void processPart(const LimiterLines& lines) noexcept;
-    bool takeIn(const LimiterLines& lines) noexcept;
-    void giveOut(const LimiterLines& lines, const float* gains) noexcept;
-    bool cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits,
+    bool storeInputs(const LimiterLines& lines) noexcept;
+    void writeOutputs(const LimiterLines& lines, const float* gains) noexcept;
+    bool cleanAndCompare(const float* samples, std::size_t frames, std::int32_t maxBits,
                          float* line) noexcept;
     void followGains(const LimiterLines& lines, Gains& gains) noexcept;
     void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                        float ceiling) const noexcept;
     bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
-    void rest(std::size_t frames) noexcept;
-    void boundBy(std::size_t channel, float ceiling) noexcept;
+    void skipFrames(std::size_t frames) noexcept;
+    void setBound(std::size_t channel, float ceiling) noexcept;
     void settle() noexcept;
     std::int64_t slidingMinimum(std::int64_t needed) noexcept;
     float advanceGain(std::int64_t needed) noexcept;
@@ -222,7 +221,7 @@ private:
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
     static constexpr std::size_t step = 16, // floats of the widest vector
-        floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+        floatsPerLine = (maxWindowFrames + maxPartFrames + 2 * step - 2) / step * step;
     // of latencyFrames(), whole vectors
     std::size_t front() const noexcept {
         return (static_cast<std::size_t>(window_) + step - 2) / step * step;
@@ -230,8 +229,8 @@ private:
     const LimiterKernel* kernel_ = nullptr;
     std::array<GainRamp, width> ceilings_{}; // of the input
     std::array<float, width> bounds_{};      // ceiling, in a ramp the highest; infinite: the limiter is off
-    std::array<std::int32_t, width> mostBits_{}; // magnitudes up to this need no reduction, even at the
-                                                 // lowest ceiling of a ramp, and are finite
+    std::array<std::int32_t, width> maxBits_{}; // magnitudes up to this need no reduction, even at the
+                                                // lowest ceiling of a ramp, and are finite
     std::int64_t settledFrame_ = 0; // from here on no delayed frame is subject to a ramp's ceiling
     int rampFrames_ = 1;
     bool isSettled_ = true;
@@ -243,11 +242,12 @@ private:
         std::int64_t needed = unit;
         std::int64_t frame = 0;
     };
-    std::array<Candidate, windowMax + 1> candidates_{}; // rising gains: the front is the window's minimum
-    std::size_t front_ = 0;
+    std::array<Candidate, maxWindowFrames + 1> candidates_{}; // rising gains: the front is the window's
+                                                              // minimum
+    std::size_t firstCandidate_ = 0;
     std::size_t candidateCount_ = 0;
     std::int64_t released_ = unit;
-    std::array<std::int64_t, windowMax> averaged_{};
+    std::array<std::int64_t, maxWindowFrames> averaged_{};
     std::int64_t sum_ = 0;
     float gain_ = 1.0f;
     std::uint64_t nonFinite_ = 0;

@@ -34,7 +34,7 @@ public:
 
     /// One frame of one channel. `change(stepIndex, isOn)` is called for a step unlike the one before.
     template <class Change>
-    void take(float sample, Change change) {
+    void add(float sample, Change change) {
         isLoud_ = isLoud_ || std::abs(sample) > threshold_;
         if (++frame_ < endOf(step_)) return;
         if (isLoud_ != isOn_) change(step_, isLoud_);

@@ -20,17 +20,17 @@ bool ModeBank::prepare(int sampleRateHz, int channels, InstructionSet set, int m
     activeCount_ = fadingCount_ = 0;
     stolen_ = 0;
     nextEnd_ = Strike::never;
-    if (!takeMemory(set, gates)) return false;
+    if (!allocate(set, gates)) return false;
     recent_.fill(0);
     freeCount_ = slots_;
     for (int i = 0; i < slots_; ++i) freeSlots_[static_cast<std::size_t>(i)] = slots_ - 1 - i;
-    for (int i = 0; i < slots_; ++i) mode(i).life = 0;
+    for (int i = 0; i < slots_; ++i) mode(i).generation = 0;
     freeGateCount_ = gates;
     for (int i = 0; i < gates; ++i) freeGates_[static_cast<std::size_t>(i)] = gates - 1 - i;
     return true;
 }
 
-bool ModeBank::takeMemory(InstructionSet set, int gates) noexcept {
+bool ModeBank::allocate(InstructionSet set, int gates) noexcept {
     const auto count = static_cast<std::size_t>(slots_), each = static_cast<std::size_t>(channels_);
     if (!index_.resize(slots_) || !tiles_.prepare(channels_, set, slots_)) return false;
     return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) &&
@@ -72,7 +72,7 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
         m.endFrame = moved(m.endFrame);
         if (!m.isFading) index_.insert(m.hash(), slot);
         if (tiles_.isOn()) tiles_.remove(slot);
-        shape(slot);
+        updateMode(slot);
         refreshTile(slot);
     }
     if (tiles_.isOn()) tiles_.begin();
@@ -159,10 +159,10 @@ int ModeBank::create(const Mode& m) noexcept {
     const int slot = freeSlots_[static_cast<std::size_t>(--freeCount_)];
     active_[static_cast<std::size_t>(activeCount_++)] = slot;
     mode(slot) = m;
-    mode(slot).life = ++lives_;
+    mode(slot).generation = ++generations_;
     std::fill_n(amplitudes_.data() + row(slot), channels_, Complex<double>{});
     index_.insert(m.hash(), slot);
-    shape(slot);
+    updateMode(slot);
     return slot;
 }
 
@@ -180,7 +180,7 @@ void ModeBank::recycle(int slot) noexcept {
     else
         index_.erase(mode(slot).hash(), slot);
     if (tiles_.isOn()) tiles_.remove(slot);
-    mode(slot).life = 0; // so that open gates of the slot's earlier mode are ignored
+    mode(slot).generation = 0; // so that open gates of the slot's earlier mode are ignored
     freeSlots_[static_cast<std::size_t>(freeCount_++)] = slot;
 }
 
@@ -202,9 +202,9 @@ void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
         z = z * backwards;
     }
     if (tiles_.isOn()) tiles_.remove(slot);
-    shape(slot);
+    updateMode(slot);
     refreshTile(slot);
-    tiles_.redoFrom(m.isGated, static_cast<int>(frame - tileStart_));
+    tiles_.invalidateFrom(m.isGated, static_cast<int>(frame - tileStart_));
     ++fadingCount_;
 }
 
@@ -216,12 +216,12 @@ void ModeBank::fadeAll(std::int64_t frame, double perSecond) noexcept {
             fade(slot, frame, perSecond);
 }
 
-int ModeBank::quietest(bool fading) const noexcept {
-    int found = -1;
-    double least = 0;
+int ModeBank::quietest(bool isFading) const noexcept {
+    int quietestSlot = -1;
+    double lowest = 0;
     for (int i = 0; i < activeCount_; ++i) {
         const int slot = active_[static_cast<std::size_t>(i)];
-        if (mode(slot).isFading != fading) continue;
+        if (mode(slot).isFading != isFading) continue;
         double level = 0;
         for (int j = 0; j < channels_; ++j) {
             const auto z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
@@ -230,11 +230,11 @@ int ModeBank::quietest(bool fading) const noexcept {
         const double decay =
             decayFactor<double>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
         level *= decay * decay;
-        if (found >= 0 && level >= least) continue;
-        found = slot;
-        least = level;
+        if (quietestSlot >= 0 && level >= lowest) continue;
+        quietestSlot = slot;
+        lowest = level;
     }
-    return found;
+    return quietestSlot;
 }
 
 void ModeBank::fillPowers(int slot) noexcept {
@@ -249,7 +249,7 @@ void ModeBank::fillPowers(int slot) noexcept {
 }
 
 // Recomputes everything that depends on a mode's increments.
-void ModeBank::shape(int slot) noexcept {
+void ModeBank::updateMode(int slot) noexcept {
     fillPowers(slot);
     if (!tiles_.isOn()) return;
     const Mode& m = mode(slot);
@@ -306,18 +306,18 @@ void ModeBank::enterTile(std::int64_t frame) noexcept {
 }
 
 void ModeBank::retireModes() noexcept {
-    int kept = 0;
+    int remaining = 0;
     nextEnd_ = Strike::never;
     for (int i = 0; i < activeCount_; ++i) {
         const int slot = active_[static_cast<std::size_t>(i)];
         if (mode(slot).endFrame > tileStart_) {
-            active_[static_cast<std::size_t>(kept++)] = slot;
+            active_[static_cast<std::size_t>(remaining++)] = slot;
             nextEnd_ = std::min(nextEnd_, mode(slot).endFrame);
         } else {
             recycle(slot);
         }
     }
-    activeCount_ = kept;
+    activeCount_ = remaining;
 }
 
 // Carriers advance by multiplication. To bound rounding errors they are recomputed from their integers every
@@ -328,7 +328,7 @@ void ModeBank::refreshAll(bool isNextTile) noexcept {
         const int stride = isNextTile ? ModeTiles::renewalTiles : 1;
         for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse();
              slot += stride)
-            if (mode(slot).life != 0) renewCarrier(slot);
+            if (mode(slot).generation != 0) renewCarrier(slot);
         return tiles_.begin();
     }
     for (int i = 0; i < activeCount_; ++i) refreshTile(active_[static_cast<std::size_t>(i)]);
@@ -339,7 +339,7 @@ bool ModeBank::openGate(int slot, const Strike& strike, const double* gains) noe
     for (int j = 0; j < channels_; ++j)
         gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = strike.amplitude * gains[j];
     ++mode(slot).openGates;
-    return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset, strike.phase});
+    return gates_.push(strike.closeFrame, {slot, mode(slot).generation, entry, strike.onset, strike.phase});
 }
 
 void ModeBank::closeNextGate() noexcept {
@@ -350,7 +350,7 @@ void ModeBank::closeNextGate() noexcept {
     gates_.pop();
     freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
     Mode& m = mode(gate.slot);
-    if (m.life != gate.life) return;
+    if (m.generation != gate.generation) return;
     rebase(gate.slot);
     const auto phasor = phasorOf(onsetTurn(m, gate.onset, gate.phase));
     --m.openGates;
@@ -363,7 +363,7 @@ void ModeBank::closeNextGate() noexcept {
     }
     if (m.openGates == 0) nextEnd_ = m.endFrame = tileStart_;
     refreshTile(gate.slot);
-    tiles_.redoFrom(m.isGated, static_cast<int>(closeFrame - tileStart_));
+    tiles_.invalidateFrom(m.isGated, static_cast<int>(closeFrame - tileStart_));
 }
 
 Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {

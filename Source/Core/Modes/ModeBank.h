@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bank of sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge
-// exactly into one mode with one complex amplitude per channel. Cost grows with the number of materials that
-// sound at once, not with the number of collisions.
+// The bank of sounding modes (ModeBank), its hash table (ModeIndex) and its input (Strike). Decaying
+// sinusoids are linear, so strikes of equal (frequency, decay) merge exactly into one mode with one complex
+// amplitude per channel. Cost grows with the materials that sound at once, not with the number of collisions.
 //
 // A mode's phase is an integer (2^64 = one turn), linear in the absolute frame number; its decay is a
 // fixed-point number of octaves. Neither drifts, both are the same bits on every machine, and together they
@@ -46,11 +46,11 @@ public:
     }
     void clear() noexcept { std::fill_n(entries_.data(), size_, Entry{}); }
 
-    /// The slot for which `isMeant(slot)` is true, -1 if there is none.
+    /// The slot for which `isMatch(slot)` is true, -1 if there is none.
     template <class Predicate>
-    int find(std::uint64_t hash, Predicate isMeant) const noexcept {
+    int find(std::uint64_t hash, Predicate isMatch) const noexcept {
         for (std::size_t at = home(hash); entries_[at].slot >= 0; at = after(at))
-            if (entries_[at].hash == tag(hash) && isMeant(entries_[at].slot)) return entries_[at].slot;
+            if (entries_[at].hash == tag(hash) && isMatch(entries_[at].slot)) return entries_[at].slot;
         return -1;
     }
 
@@ -66,8 +66,8 @@ public:
         std::size_t gap = home(hash);
         while (entries_[gap].slot != slot) gap = after(gap);
         for (std::size_t at = after(gap); entries_[at].slot >= 0; at = after(at)) {
-            const std::size_t wanted = entries_[at].hash >> (32 - bits_);
-            if (((at - wanted) & mask()) < ((at - gap) & mask())) continue; // its home lies behind the gap
+            const std::size_t homeIndex = entries_[at].hash >> (32 - bits_);
+            if (((at - homeIndex) & mask()) < ((at - gap) & mask())) continue; // its home lies behind the gap
             entries_[gap] = entries_[at];
             gap = at;
         }
@@ -109,29 +109,28 @@ public:
     static constexpr int tile = limits::tileFrames;
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Silence, for this sample rate and number of channels (1 to limits::maxEnchanters). An instruction set
+    /// Silence, for this sample rate and number of channels (1 to limits::maxActuators). An instruction set
     /// that is not available selects the scalar kernel. `modes`: modes that sound at once before one is
     /// stolen, 1 to limits::maxModes; `gates`: strikes with a duration that sound at once. False: no memory;
     /// do not use the bank. M, not while rendering.
     bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best,
                  int modes = limits::maxModes, int gates = limits::maxGates) noexcept;
 
-    /// The instruction set in use. Any thread after prepare.
-    InstructionSet instructionSet() const noexcept { return tiles_.set(); }
+    InstructionSet instructionSet() const noexcept { return tiles_.set(); } ///< Any thread after prepare.
 
     /// Continues at another sample rate and frame: what sounded at `fromFrame` continues at `toFrame`, and
     /// gates close after the same time. M, not while rendering.
     void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
 
     /// `gains`: one per channel. Frames only go forward: the strike's frame is the next one to be rendered,
-    /// or, if takesStrikesAhead(), a later one of the same tile with no gate to be closed before it. False,
+    /// or, if acceptsStrikesAhead(), a later one of the same tile with no gate to be closed before it. False,
     /// and nothing has changed, if too many gates are open.
     bool strike(const Strike& strike, const double* gains) noexcept;
 
     /// How many more strikes with a duration can be accepted now.
     int freeGates() const noexcept { return freeGateCount_; }
 
-    bool takesStrikesAhead() const noexcept { return tiles_.isOn(); }
+    bool acceptsStrikesAhead() const noexcept { return tiles_.isOn(); }
 
     /// The frame at which the next open gate closes; Strike::never if none is open.
     std::int64_t nextGateFrame() const noexcept { return gates_.empty() ? Strike::never : gates_.nextTime(); }
@@ -164,14 +163,14 @@ private:
                                           // absolute
         std::int64_t endFrame = 0;        // first frame after its end
         std::int64_t lifeFrames = 0;      // life of a strike
-        std::uint32_t life = 0;           // distinguishes this use of the slot from earlier ones
+        std::uint32_t generation = 0;     // distinguishes this use of the slot from earlier ones
         int openGates = 0;
         bool isGated = false; // gated and other strikes do not merge, so that closing can leave exact zeros
         bool isFading = false;
         std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
         bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have
                                                     // the same increments
-            return life != 0 && !isFading && frequencyHz == s.frequencyHz &&
+            return generation != 0 && !isFading && frequencyHz == s.frequencyHz &&
                    decayPerSecond == s.decayPerSecond && isGated == (s.closeFrame != Strike::never);
         }
         bool matches(const Mode& o) const noexcept {
@@ -181,13 +180,13 @@ private:
     };
     struct Gate {
         int slot = 0;
-        std::uint32_t life = 0;
+        std::uint32_t generation = 0;
         int entry = 0; // index of its gains
         FramePosition onset;
         std::uint64_t phase = 0;
     };
 
-    bool takeMemory(InstructionSet set, int gates) noexcept;
+    bool allocate(InstructionSet set, int gates) noexcept;
     Mode modeFor(const Strike& strike) const noexcept;
     void setIncrements(Mode& mode) const noexcept;
     int slotFor(const Strike& strike) noexcept;
@@ -196,14 +195,14 @@ private:
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
     void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
-    int quietest(bool fading) const noexcept;
+    int quietest(bool isFading) const noexcept;
     void fillPowers(int slot) noexcept;
     void rebase(int slot) noexcept;
     void refreshTile(int slot) noexcept;
     void refreshAll(bool isNextTile) noexcept;
     void renewCarrier(int slot) noexcept;
     void retireModes() noexcept;
-    void shape(int slot) noexcept;
+    void updateMode(int slot) noexcept;
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<double> carrier(const Mode& mode) const noexcept;
@@ -217,35 +216,35 @@ private:
 
     static constexpr auto slots = static_cast<std::size_t>(slotCount);
     static constexpr auto tileSize = static_cast<std::size_t>(tile);
-    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxActuators);
     static constexpr auto gateCount = static_cast<std::size_t>(limits::maxGates);
     static constexpr std::size_t padding = tiles::channelsPerLine; // because tiles read whole cache lines
-    template <class T, std::size_t most>
-    using Room = Storage<T, most, true>;
+    template <class T, std::size_t max>
+    using Buffer = Storage<T, max, true>;
 
     int channels_ = 1;
     double rate_ = 48000.0;
     std::int64_t tileStart_ = 0;
     int slots_ = 0, modes_ = 0;
-    Room<int, slots> active_;    // slots in the order of their first strike
-    Room<int, slots> freeSlots_; // a stack
+    Buffer<int, slots> active_;    // slots in the order of their first strike
+    Buffer<int, slots> freeSlots_; // a stack
     int activeCount_ = 0;
     int freeCount_ = 0;
     int fadingCount_ = 0;
     std::int64_t nextEnd_ = Strike::never; // no mode ends before this frame
     std::uint64_t stolen_ = 0;
-    std::uint32_t lives_ = 0;
-    Room<Mode, slots> slotModes_;
+    std::uint32_t generations_ = 0;
+    Buffer<Mode, slots> slotModes_;
     ModeIndex<slotCount> index_; // of modes that are not fading
     ModeTiles tiles_;
     std::array<std::int32_t, 256> recent_{}; // slots that were struck recently, by hash of the frequency
-    Room<Complex<double>, slots * width + padding> amplitudes_; // at the mode's reference frame
-    Room<Complex<double>, slots * width> tileAmplitudes_; // at the tile's first frame; scalar kernel only
-    Room<double, slots * tileSize> cosPowers_;
-    Room<double, slots * tileSize> sinPowers_;
+    Buffer<Complex<double>, slots * width + padding> amplitudes_; // at the mode's reference frame
+    Buffer<Complex<double>, slots * width> tileAmplitudes_; // at the tile's first frame; scalar kernel only
+    Buffer<double, slots * tileSize> cosPowers_;
+    Buffer<double, slots * tileSize> sinPowers_;
     TimeOrdered<Gate, limits::maxGates, true> gates_;
-    Room<double, gateCount * width> gateGains_; // amplitude times gain, per channel
-    Room<int, gateCount> freeGates_;
+    Buffer<double, gateCount * width> gateGains_; // amplitude times gain, per channel
+    Buffer<int, gateCount> freeGates_;
     int freeGateCount_ = 0;
 };
 

@@ -15,17 +15,17 @@ bool isAvailable(InstructionSet set) noexcept {
 
 InstructionSet ModeTiles::set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
 
-bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcept {
+bool ModeTiles::prepare(int channels, InstructionSet set, int maxSlots) noexcept {
     static const LowRankBasis basis;
     basis_ = &basis;
     kernel_ = tileKernel(set);
     channels_ = channels;
-    slots_ = isOn() ? slotsMost : 0;
+    slots_ = isOn() ? maxSlots : 0;
     floatsPerSlot_ =
         (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
-    highest_ = 0;
+    slotsInUse_ = 0;
     strikes_.count = 0;
-    if (!takeMemory()) return false;
+    if (!allocate()) return false;
     for (std::size_t s = 0; s < index(slots_); ++s) places_[s].isUsed = false;
     std::fill_n(amplitudes_.data(), slots_ * floatsPerSlot_, 0.0f);
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_})
@@ -40,17 +40,17 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
     return true;
 }
 
-bool ModeTiles::takeMemory() noexcept {
+bool ModeTiles::allocate() noexcept {
     const auto count = index(slots_), wide = (count + 7) / 8 * 8,
                tile = isOn() ? index(channels_) * frames : 0;
-    bool has = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::most : 0) &&
-               places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) &&
-               rows_.resize(count * rowFloats);
-    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) has = has && values->resize(wide);
-    for (auto* values : {&roundedRe_, &roundedIm_}) has = has && values->resize(wide);
-    for (auto& row : rowSlots_) has = has && row.resize(count);
-    for (auto& layer : layers_) has = has && layer.base.resize(tile) && layer.tails.resize(tile);
-    return has;
+    bool hasMemory = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::maxCount : 0) &&
+                     places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) &&
+                     rows_.resize(count * rowFloats);
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) hasMemory = hasMemory && values->resize(wide);
+    for (auto* values : {&roundedRe_, &roundedIm_}) hasMemory = hasMemory && values->resize(wide);
+    for (auto& row : rowSlots_) hasMemory = hasMemory && row.resize(count);
+    for (auto& layer : layers_) hasMemory = hasMemory && layer.base.resize(tile) && layer.tails.resize(tile);
+    return hasMemory;
 }
 
 float* ModeTiles::rowAt(std::size_t rank, int row) noexcept {
@@ -67,7 +67,7 @@ void ModeTiles::add(int slot, const TileMode& mode) noexcept {
     basis_->project(mode.cosPowers, mode.sinPowers, wanted, rowAt(rank, row));
     stepRe_[index(slot)] = mode.tileFactor.re;
     stepIm_[index(slot)] = mode.tileFactor.im;
-    highest_ = std::max(highest_, slot + 1);
+    slotsInUse_ = std::max(slotsInUse_, slot + 1);
 }
 
 // The layer's last row replaces the removed one.
@@ -83,7 +83,7 @@ void ModeTiles::remove(int slot) noexcept {
     }
     place.isUsed = false;
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) (*values)[index(slot)] = 0.0;
-    while (highest_ > 0 && !places_[index(highest_ - 1)].isUsed) --highest_;
+    while (slotsInUse_ > 0 && !places_[index(slotsInUse_ - 1)].isUsed) --slotsInUse_;
 }
 
 void ModeTiles::setCarrier(int slot, Complex<double> carrier) noexcept {
@@ -113,25 +113,25 @@ void ModeTiles::advance() noexcept { kernel_->advance(carriers()); }
 
 void ModeTiles::begin() noexcept {
     if (isEmpty()) return;
-    redoFrom(false, 0);
-    redoFrom(true, 0);
+    invalidateFrom(false, 0);
+    invalidateFrom(true, 0);
 }
 
-void ModeTiles::redoFrom(bool isGated, int frame) noexcept {
-    layers_[isGated].redo = std::min(layers_[isGated].redo, frame);
+void ModeTiles::invalidateFrom(bool isGated, int frame) noexcept {
+    layers_[isGated].staleFrom = std::min(layers_[isGated].staleFrom, frame);
 }
 
 void ModeTiles::settle() noexcept {
-    if (std::min(layers_[0].redo, layers_[1].redo) == tiles::frames) return;
+    if (std::min(layers_[0].staleFrom, layers_[1].staleFrom) == tiles::frames) return;
     finishStrikes(); // because the tile is rendered from the amplitudes after them
-    if (layers_[0].redo < tiles::frames) make(layers_[0], false);
-    if (layers_[1].redo < tiles::frames) make(layers_[1], true);
+    if (layers_[0].staleFrom < tiles::frames) renderLayer(layers_[0], false);
+    if (layers_[1].staleFrom < tiles::frames) renderLayer(layers_[1], true);
 }
 
-// Renders the layer's tile again; frames before `redo` stay.
-void ModeTiles::make(Layer& layer, bool isGated) noexcept {
-    const auto from = index(layer.redo);
-    layer.redo = tiles::frames;
+// Renders the layer's tile again; frames before `staleFrom` stay.
+void ModeTiles::renderLayer(Layer& layer, bool isGated) noexcept {
+    const auto from = index(layer.staleFrom);
+    layer.staleFrom = tiles::frames;
     const auto clear = [&](auto& values, std::size_t first) {
         for (std::size_t j = 0; j < index(channels_); ++j)
             std::fill_n(values.data() + j * frames + first, frames - first, 0);
@@ -147,10 +147,10 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
         layer.hasBase = true;
     } else {
         if (!layer.hasBase) std::fill_n(layer.base.data(), index(channels_) * frames, 0.0f);
-        alignas(64) std::array<float, width * frames> whole;
-        kernel_->render(view(layer, isGated), whole.data());
+        alignas(64) std::array<float, width * frames> rendered;
+        kernel_->render(view(layer, isGated), rendered.data());
         for (std::size_t at = from; at < index(channels_) * frames; at += frames)
-            std::copy_n(whole.data() + at, frames - from, layer.base.data() + at);
+            std::copy_n(rendered.data() + at, frames - from, layer.base.data() + at);
         layer.hasBase = true;
     }
 }
@@ -175,8 +175,8 @@ void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double ampl
     const auto s = index(slot);
     const TileMode& mode = places_[s].mode;
     const int count = strikes_.count;
-    if (count == TileStrikes::most ||
-        (count > 0 && (mode.isGated != areGated_ || from < strikes_.each[index(count - 1)].from)))
+    if (count == TileStrikes::maxCount ||
+        (count > 0 && (mode.isGated != areGated_ || from < strikes_.entries[index(count - 1)].from)))
         strikeAll();
     areGated_ = mode.isGated;
     double* const scaled = scaled_.data() + index(strikes_.count * channels_) * 2;
@@ -187,12 +187,12 @@ void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double ampl
     strikes_.onsetOctaves[last] = turns.onset.octaves;
     strikes_.carrierPhases[last] = turns.carrierPhase;
     strikes_.decayOctaves[last] = turns.decayOctaves;
-    strikes_.each[last] = {mode.cosPowers,
-                           mode.sinPowers,
-                           &amplitudes->re,
-                           amplitudes_.data() + s * index(floatsPerSlot_),
-                           slot,
-                           from};
+    strikes_.entries[last] = {mode.cosPowers,
+                              mode.sinPowers,
+                              &amplitudes->re,
+                              amplitudes_.data() + s * index(floatsPerSlot_),
+                              slot,
+                              from};
 }
 
 void ModeTiles::strikeAll() noexcept {
@@ -203,7 +203,7 @@ void ModeTiles::strikeAll() noexcept {
     strikes_.carriers = carriers();
     kernel_->strike(strikes_);
     strikes_.count = 0;
-    layer.tailsFrom = std::min(layer.tailsFrom, strikes_.each[0].from);
+    layer.tailsFrom = std::min(layer.tailsFrom, strikes_.entries[0].from);
 }
 
 bool ModeTiles::sumsAt(const float** at, int first) noexcept {
@@ -267,7 +267,7 @@ LowRankBasis::LowRankBasis() noexcept {
         for (std::size_t t = 0; t < half; ++t) sum += 2 * at(a, t) * at(b, t);
         return sum;
     };
-    for (std::size_t k = 0; k < most; ++k) {
+    for (std::size_t k = 0; k < maxRank; ++k) {
         for (std::size_t t = 0; t < half; ++t) {
             const double x = (2.0 * static_cast<double>(t) - (tiles::frames - 1)) / tiles::frames;
             at(k, t) = k == 0 ? 1.0 : x * at(k - 1, t);

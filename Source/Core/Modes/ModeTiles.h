@@ -18,8 +18,7 @@ namespace physvib {
 class LowRankBasis;
 struct TileKernel;
 
-/// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the
-/// mode lives.
+/// The properties of a slot's mode that tiles need. Powers: 64 of each, valid for as long as the mode lives.
 struct TileMode {
     const double* cosPowers = nullptr;
     const double* sinPowers = nullptr;
@@ -35,7 +34,7 @@ public:
 
     /// Silence; off, and without memory, if there is no kernel for the set. At most slotCount slots. False:
     /// no memory.
-    bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
+    bool prepare(int channels, InstructionSet set, int maxSlots) noexcept;
     bool isOn() const noexcept { return kernel_ != nullptr; }
     InstructionSet set() const noexcept;
 
@@ -53,11 +52,11 @@ public:
     void begin() noexcept;
     /// Tiles between renewals of a carrier: its error stays below 3e-9.
     static constexpr int renewalTiles = 256;
-    int slotsInUse() const noexcept { return highest_; }
+    int slotsInUse() const noexcept { return slotsInUse_; }
 
     /// The layer's samples from that frame of the tile on are to be rendered again, from the amplitudes as
     /// they are when the samples are next needed.
-    void redoFrom(bool isGated, int frame) noexcept;
+    void invalidateFrom(bool isGated, int frame) noexcept;
 
     /// To be called before a strike changes amplitudes: pending re-rendering is done without that strike.
     void settle() noexcept;
@@ -87,13 +86,13 @@ private:
     static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
     static constexpr auto slots = static_cast<std::size_t>(slotCount);
     static constexpr auto padded = (slots + 7) / 8 * 8; // for the widest vector of doubles
-    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxActuators);
     static constexpr auto frames = static_cast<std::size_t>(tiles::frames);
     static constexpr auto rankCount = tiles::ranks.size();
-    template <class T, std::size_t most>
-    using Room = Storage<T, most, true>;
-    using PerSlot = Room<double, padded>;
-    using RoundedPerSlot = Room<float, padded>;
+    template <class T, std::size_t max>
+    using Buffer = Storage<T, max, true>;
+    using PerSlot = Buffer<double, padded>;
+    using RoundedPerSlot = Buffer<float, padded>;
 
     // Rows of one rank: ungated modes from the front, gated ones from the back, each without gaps.
     struct Place {
@@ -103,24 +102,24 @@ private:
         bool isUsed = false;
     };
     struct Layer {
-        Room<float, width * frames> base;   // modes as at the tile's first frame
-        Room<double, width * frames> tails; // strikes since then
+        Buffer<float, width * frames> base;   // modes as at the tile's first frame
+        Buffer<double, width * frames> tails; // strikes since then
         std::array<int, rankCount> counts{};
-        int redo = tiles::frames;      // frames from here on are not rendered yet
+        int staleFrom = tiles::frames; // frames from here on are not rendered yet
         int tailsFrom = tiles::frames; // tails are 0 before this frame
         bool hasBase = false;
         bool hasTails() const noexcept { return tailsFrom < tiles::frames; }
     };
     float* rowAt(std::size_t rank, int row) noexcept;
     int rowFor(bool isGated, int place) const noexcept { return isGated ? slots_ - 1 - place : place; }
-    void make(Layer& layer, bool isGated) noexcept;
+    void renderLayer(Layer& layer, bool isGated) noexcept;
     TileLayer view(const Layer& layer, bool isGated) noexcept;
     TileCarriers carriers() noexcept {
-        return {highest_,       re_.data(),        im_.data(),       stepRe_.data(),
+        return {slotsInUse_,    re_.data(),        im_.data(),       stepRe_.data(),
                 stepIm_.data(), roundedRe_.data(), roundedIm_.data()};
     }
     void addTails(const Layer& layer, float* const* out, int first, int count) const noexcept;
-    bool takeMemory() noexcept;
+    bool allocate() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
     // the output is the sum of ungated modes, or silence
@@ -128,7 +127,7 @@ private:
         return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
     }
     bool isEmpty() const noexcept {
-        return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() &&
+        return slotsInUse_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() &&
                !layers_[1].hasTails();
     }
 
@@ -144,17 +143,17 @@ private:
 
     const TileKernel* kernel_ = nullptr;
     const LowRankBasis* basis_ = nullptr;
-    int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
-    Room<Place, slots> places_;
+    int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, slotsInUse_ = 0;
+    Buffer<Place, slots> places_;
     std::array<Layer, 2> layers_; // ungated, gated
     TileStrikes strikes_;         // deferred strikes, all of one layer
     bool areGated_ = false;
-    Room<double, 2 * width * TileStrikes::most> scaled_;
+    Buffer<double, 2 * width * TileStrikes::maxCount> scaled_;
     PerSlot re_, im_, stepRe_, stepIm_;
     RoundedPerSlot roundedRe_, roundedIm_;
-    Room<float, slots * width * 4> amplitudes_;
-    Room<float, slots * rowFloats> rows_;
-    std::array<Room<std::int32_t, slots>, rankCount> rowSlots_;
+    Buffer<float, slots * width * 4> amplitudes_;
+    Buffer<float, slots * rowFloats> rows_;
+    std::array<Buffer<std::int32_t, slots>, rankCount> rowSlots_;
 };
 
 /// Orthonormal polynomials on the 64 frames of a tile (discrete Chebyshev, or Gram, polynomials). Decaying
@@ -178,9 +177,9 @@ public:
 
 private:
     static constexpr auto half = static_cast<std::size_t>(tiles::frames / 2);
-    static constexpr auto most = static_cast<std::size_t>(tiles::maxRank);
-    std::array<double, most * half> values_{};
-    alignas(64) std::array<float, most * half> halves_{}; // aligned, because kernels load whole vectors
+    static constexpr auto maxRank = static_cast<std::size_t>(tiles::maxRank);
+    std::array<double, maxRank * half> values_{};
+    alignas(64) std::array<float, maxRank * half> halves_{}; // aligned, because kernels load whole vectors
 };
 
 } // namespace physvib

@@ -18,9 +18,9 @@ constexpr std::int32_t ageOf(std::uint32_t first, std::uint32_t now) noexcept {
 
 // Octaves of decay after `frames` frames, 1 or more; bounded so that the factor stays a normal float.
 std::int64_t octavesAfter(std::uint16_t decay16, std::uint32_t frames) noexcept {
-    constexpr std::int64_t most = 120 * static_cast<std::int64_t>(octaveUnit);
+    constexpr std::int64_t maxOctaves = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t perFrame = boardOctaves(decay16);
-    return perFrame > most / frames ? most : perFrame * frames;
+    return perFrame > maxOctaves / frames ? maxOctaves : perFrame * frames;
 }
 
 Complex<float> phasorAfter(const BoardSegment& segment, std::uint32_t frames) noexcept {
@@ -44,15 +44,15 @@ bool MovingSegments::add(const BoardSegment& segment, std::uint32_t now) noexcep
 }
 
 void MovingSegments::render(std::uint32_t frame, PhasorBank::Block& io) noexcept {
-    int kept = 0;
+    int count = 0;
     for (int i = 0; i < count_; ++i) {
         const std::int32_t age = ageOf(slots_[at(i)].frame, frame);
         if (age + blockFrames > 0) renderSlot(slots_[at(i)], age, io);
         if (age + blockFrames >= slots_[at(i)].frames) continue;
-        if (kept != i) slots_[at(kept)] = slots_[at(i)];
-        ++kept;
+        if (count != i) slots_[at(count)] = slots_[at(i)];
+        ++count;
     }
-    count_ = kept;
+    count_ = count;
 }
 
 void MovingSegments::renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block& io) noexcept {
@@ -65,9 +65,9 @@ void MovingSegments::renderSlot(Slot& slot, std::int32_t age, PhasorBank::Block&
     }
     const auto end = std::min<std::int32_t>(blockFrames, slot.frames - age);
     for (auto k = std::max<std::int32_t>(0, -age); k < end; ++k, slot.phasor = slot.phasor * slot.turn) {
-        const auto since = static_cast<float>(age + k);
+        const auto ageFrames = static_cast<float>(age + k);
         for (std::size_t j = 0; j < start.size(); ++j)
-            io[j][at(k)] += (start[j] + slope[j] * since) * slot.phasor.im;
+            io[j][at(k)] += (start[j] + slope[j] * ageFrames) * slot.phasor.im;
     }
 }
 

@@ -132,13 +132,13 @@ void PhasorBank::renderModes(Mode* from, const Mode* to, Row& a, Row& b, Row& c,
 
 void PhasorBank::renderResidue(Block& io) noexcept {
     for (int j = 0; j < channels; ++j) {
-        float& rest = residue_[at(j)];
-        if (rest == 0.0f) continue;
+        float& residue = residue_[at(j)];
+        if (residue == 0.0f) continue;
         for (float& sample : io[at(j)]) {
-            sample += rest;
-            rest *= residueFactor;
+            sample += residue;
+            residue *= residueFactor;
         }
-        if (std::abs(rest) < residueSilence) rest = 0.0f;
+        if (std::abs(residue) < residueSilence) residue = 0.0f;
     }
 }
 
@@ -146,18 +146,18 @@ void PhasorBank::renderResidue(Block& io) noexcept {
 void PhasorBank::retire(Block& io) noexcept {
     nextEnd_ = frame_ + 0x7FFFFFFF;
     for (int i = 0; i < liveModes();) {
-        const std::int32_t left = between(frame_, endFrames_[at(i)]);
-        if (left >= frames) {
+        const std::int32_t remaining = between(frame_, endFrames_[at(i)]);
+        if (remaining >= frames) {
             if (between(nextEnd_, endFrames_[at(i)]) < 0) nextEnd_ = endFrames_[at(i)];
             ++i;
             continue;
         }
-        for (int k = 0; k < left; ++k) {
+        for (int k = 0; k < remaining; ++k) {
             const Phasors now = phasorsOf(i);
             for (int j = 0; j < channels; ++j) io[at(j)][at(k)] += now[at(j)].im;
             modes_[at(i)].phasor = modes_[at(i)].phasor * modes_[at(i)].turn;
         }
-        close(i);
+        removeMode(i);
     }
 }
 
@@ -175,7 +175,7 @@ int PhasorBank::groupOf(int i) const noexcept {
 }
 
 // A free slot at the end of the group; one mode of each later group moves to free it.
-int PhasorBank::open(int group) noexcept {
+int PhasorBank::insertSlot(int group) noexcept {
     for (int g = channels - 1; g > group; --g) {
         if (ends_[at(g - 1)] != ends_[at(g)]) moveMode(ends_[at(g)], ends_[at(g - 1)]);
         ++ends_[at(g)];
@@ -184,7 +184,7 @@ int PhasorBank::open(int group) noexcept {
 }
 
 // Removes mode i. Other modes move, but none to a slot before i.
-void PhasorBank::close(int i) noexcept {
+void PhasorBank::removeMode(int i) noexcept {
     const int group = groupOf(i);
     --ends_[at(group)];
     if (i != ends_[at(group)]) moveMode(i, ends_[at(group)]);
@@ -213,15 +213,15 @@ int PhasorBank::setPhasors(int i, const Phasors& phasors) noexcept {
     const auto w = phasors[at(loudest)];
     const float norm = w.re * w.re + w.im * w.im;
     if (norm < phasorSilence) {
-        close(i);
+        removeMode(i);
         return -1;
     }
     if (loudest != groupOf(i)) {
         const Mode mode = modes_[at(i)];
         const auto key = keys_[at(i)], end = endFrames_[at(i)];
         const bool isGated = gated_[at(i)];
-        close(i);
-        i = open(loudest);
+        removeMode(i);
+        i = insertSlot(loudest);
         modes_[at(i)] = mode;
         keys_[at(i)] = key;
         endFrames_[at(i)] = end;
@@ -279,7 +279,7 @@ int PhasorBank::create(const BoardEvent& event, std::uint32_t key) noexcept {
         steal(quietest());
         ++stolen_;
     }
-    const int i = open(0);
+    const int i = insertSlot(0);
     modes_[at(i)] = {{}, {}, turnOf(event)};
     keys_[at(i)] = key;
     endFrames_[at(i)] = 0; // the caller sets it
@@ -296,7 +296,7 @@ int PhasorBank::quietest() const noexcept {
 void PhasorBank::steal(int i) noexcept {
     const Phasors all = phasorsOf(i);
     for (int j = 0; j < channels; ++j) residue_[at(j)] += all[at(j)].im;
-    close(i);
+    removeMode(i);
 }
 
 } // namespace physvib

@@ -32,8 +32,7 @@ public:
         Complex<float> turn;   // p
     };
 
-    /// Silence.
-    void clear() noexcept;
+    void clear() noexcept; ///< Silence.
 
     /// Writes the block that begins at `frame`; blocks are consecutive.
     void render(std::uint32_t frame, Block& out) noexcept;
@@ -53,8 +52,8 @@ private:
     void renderResidue(Block& io) noexcept;
     void retire(Block& io) noexcept;
     int groupOf(int i) const noexcept;
-    int open(int group) noexcept;
-    void close(int i) noexcept;
+    int insertSlot(int group) noexcept;
+    void removeMode(int i) noexcept;
     void moveMode(int to, int from) noexcept;
     int find(std::uint32_t key) const noexcept;
     int create(const BoardEvent& event, std::uint32_t key) noexcept;

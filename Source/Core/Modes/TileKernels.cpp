@@ -153,12 +153,12 @@ HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float
     const Doubles wide;
     const hn::Rebind<float, Doubles> narrow;
     constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2,
-                          vectors = HWY_MIN(4, half / lanes), most = tiles::maxRank;
-    HWY_ALIGN float c[channels * most];
+                          vectors = HWY_MIN(4, half / lanes), stride = tiles::maxRank;
+    HWY_ALIGN float c[channels * stride];
     for (std::size_t j = 0; j < channels; ++j)
         for (std::size_t k = 0; k < rank; k += hn::MaxLanes(Doubles()))
-            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * most + k)), narrow,
-                      c + j * most + k);
+            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * stride + k)), narrow,
+                      c + j * stride + k);
     for (std::size_t t = 0; t < half; t += vectors * lanes) {
         hn::Vec<Panel> even[channels][vectors], odd[channels][vectors];
         for (std::size_t j = 0; j < channels; ++j)
@@ -168,8 +168,8 @@ HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float
                 const auto ue = hn::Load(d, basis + k * half + t + v * lanes),
                            uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
                 for (std::size_t j = 0; j < channels; ++j) {
-                    even[j][v] = mulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
-                    odd[j][v] = mulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
+                    even[j][v] = mulAdd(hn::Set(d, c[j * stride + k]), ue, even[j][v]);
+                    odd[j][v] = mulAdd(hn::Set(d, c[j * stride + k + 1]), uo, odd[j][v]);
                 }
             }
         for (std::size_t j = 0; j < channels; ++j)
@@ -183,8 +183,8 @@ HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float
 }
 
 void render(const TileLayer& layer, float* out) {
-    constexpr std::size_t most = tiles::maxRank;
-    HWY_ALIGN double sums[chunkChannels * most];
+    constexpr std::size_t stride = tiles::maxRank;
+    HWY_ALIGN double sums[chunkChannels * stride];
     HWY_ALIGN double direct[chunkChannels * frames];
     const bool hasDirect = layer.modes.back().count > 0;
     std::size_t rank = 0;
@@ -193,18 +193,18 @@ void render(const TileLayer& layer, float* out) {
     const auto all = static_cast<std::size_t>(layer.channels);
     for (std::size_t first = 0; first < all; first += chunkChannels) {
         const std::size_t channels = HWY_MIN(chunkChannels, all - first);
-        for (std::size_t i = 0; i < channels * most; ++i) sums[i] = 0.0;
+        for (std::size_t i = 0; i < channels * stride; ++i) sums[i] = 0.0;
         for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) direct[i] = 0.0;
         for (const auto& modes : layer.modes) {
             const bool isDirect = modes.rank > tiles::maxRank;
             if (modes.count > 0)
-                addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : most);
+                addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : stride);
         }
         constexpr std::size_t together = hn::MaxLanes(Panel()) == 16 ? 2 : 1; // eight sums in either case
         std::size_t j = 0;
         for (; j + together <= channels; j += together)
-            expand<together>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
-        for (; j < channels; ++j) expand<1>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+            expand<together>(sums + j * stride, rank, layer.basis, out + (first + j) * frames);
+        for (; j < channels; ++j) expand<1>(sums + j * stride, rank, layer.basis, out + (first + j) * frames);
         for (std::size_t i = 0; hasDirect && i < channels * frames; ++i)
             out[first * frames + i] += static_cast<float>(direct[i]);
     }
@@ -228,13 +228,13 @@ void advance(const TileCarriers& carriers) {
 
 // Values of each strike.
 struct Onsets {
-    HWY_ALIGN double re[TileStrikes::most]; // phasors at their mode's reference
-    HWY_ALIGN double im[TileStrikes::most];
-    HWY_ALIGN double turnedRe[TileStrikes::most]; // those, multiplied by the carrier
-    HWY_ALIGN double turnedIm[TileStrikes::most];
-    HWY_ALIGN double carrierRe[TileStrikes::most];
-    HWY_ALIGN double carrierIm[TileStrikes::most];
-    HWY_ALIGN double decay[TileStrikes::most];
+    HWY_ALIGN double re[TileStrikes::maxCount]; // phasors at their mode's reference
+    HWY_ALIGN double im[TileStrikes::maxCount];
+    HWY_ALIGN double turnedRe[TileStrikes::maxCount]; // those, multiplied by the carrier
+    HWY_ALIGN double turnedIm[TileStrikes::maxCount];
+    HWY_ALIGN double carrierRe[TileStrikes::maxCount];
+    HWY_ALIGN double carrierIm[TileStrikes::maxCount];
+    HWY_ALIGN double decay[TileStrikes::maxCount];
 };
 
 // Decays a mode's amplitudes, adds a strike and rounds them for the following tiles, in whole cache lines:
@@ -245,15 +245,15 @@ HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::
     const hn::Rebind<float, Doubles> narrow;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
     const auto phasor = hn::OddEven(hn::Set(d, onset.im), hn::Set(d, onset.re)), fallen = hn::Set(d, decay);
-    const std::size_t values = 2 * channels, whole = values / lanes * lanes;
-    for (std::size_t k = whole; k < values; k += 2) {
+    const std::size_t values = 2 * channels, vectorised = values / lanes * lanes;
+    for (std::size_t k = vectorised; k < values; k += 2) {
         s.amplitudes[k] = s.amplitudes[k] * decay + onset.re * scaled[k];
         s.amplitudes[k + 1] = s.amplitudes[k + 1] * decay + onset.im * scaled[k];
     }
     for (std::size_t k = 0; k < values; k += 8)
         for (std::size_t v = k; v < k + 8; v += lanes) {
             auto z = hn::LoadU(d, s.amplitudes + v);
-            if (v < whole) {
+            if (v < vectorised) {
                 z = hn::Add(hn::Mul(z, fallen), hn::Mul(phasor, hn::LoadU(d, scaled + v)));
                 hn::StoreU(z, d, s.amplitudes + v);
             }
@@ -269,7 +269,7 @@ HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* wa
     const Doubles d;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i, waves += frames) {
-        const TileStrike& e = s.each[i];
+        const TileStrike& e = s.entries[i];
         const auto re = hn::Set(d, onsets.turnedRe[i]), im = hn::Set(d, onsets.turnedIm[i]),
                    from = hn::Set(d, static_cast<double>(e.from));
         for (std::size_t k = static_cast<std::size_t>(e.from) / panelFloats * panelFloats; k < frames;
@@ -290,15 +290,15 @@ HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const doub
     constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = HWY_MIN(2, panelFloats / lanes),
                           step = vectors * lanes;
     const auto all = static_cast<std::size_t>(s.count), stride = 2 * static_cast<std::size_t>(s.channels);
-    std::size_t begun = 0;
-    for (std::size_t k = static_cast<std::size_t>(s.each[0].from) / step * step; k < frames; k += step) {
-        while (begun < all && static_cast<std::size_t>(s.each[begun].from) < k + step) ++begun;
+    std::size_t active = 0;
+    for (std::size_t k = static_cast<std::size_t>(s.entries[0].from) / step * step; k < frames; k += step) {
+        while (active < all && static_cast<std::size_t>(s.entries[active].from) < k + step) ++active;
         hn::Vec<Doubles> sum[channels][vectors];
         for (std::size_t j = 0; j < channels; ++j)
             for (std::size_t v = 0; v < vectors; ++v)
                 sum[j][v] = hn::Load(d, tails + j * frames + k + v * lanes);
         const double *gains = scaled, *wave = waves + k;
-        for (std::size_t i = 0; i < begun; ++i, gains += stride, wave += frames)
+        for (std::size_t i = 0; i < active; ++i, gains += stride, wave += frames)
             for (std::size_t j = 0; j < channels; ++j) {
                 const auto g = hn::Set(d, gains[2 * j]);
                 for (std::size_t v = 0; v < vectors; ++v)
@@ -321,9 +321,9 @@ HWY_INLINE Phasors unitPhasors(const std::uint64_t* phases) {
     const auto one = hn::Set(d, 1.0);
     const auto first = hn::Set(turns, 1), phase = hn::LoadU(turns, phases);
     const auto quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61))),
-               rest = hn::Sub(phase, hn::ShiftLeft<62>(quadrant));
+               remainder = hn::Sub(phase, hn::ShiftLeft<62>(quadrant));
     const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0),
-                           hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Doubles>(), rest)));
+                           hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Doubles>(), remainder)));
     const auto q = hn::Mul(x, x);
     auto sine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 110))),
          cosine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 132)));
@@ -343,15 +343,15 @@ HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
     const hn::RebindToSigned<Doubles> fixed;
     const auto one = hn::Set(d, 1.0);
     const auto all = hn::LoadU(fixed, octaves);
-    const auto whole = hn::ShiftRight<octaveFractionBits>(
+    const auto halvings = hn::ShiftRight<octaveFractionBits>(
         hn::Add(all, hn::Set(fixed, std::int64_t{1} << (octaveFractionBits - 1))));
     const auto x = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit),
-                           hn::ConvertTo(d, hn::Sub(all, hn::ShiftLeft<octaveFractionBits>(whole))));
+                           hn::ConvertTo(d, hn::Sub(all, hn::ShiftLeft<octaveFractionBits>(halvings))));
     auto power = hn::Add(one, hn::Mul(x, hn::Set(d, 1.0 / 9)));
     for (const int n : {8, 7, 6, 5, 4, 3, 2})
         power = hn::Add(one, hn::Mul(hn::Mul(x, hn::Set(d, 1.0 / n)), power));
     power = hn::Add(one, hn::Mul(x, power));
-    return hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(fixed, 1023), whole))));
+    return hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(fixed, 1023), halvings))));
 }
 
 // Products are written out, because GCC 12 contracts scalar products whatever its options say.
@@ -371,7 +371,7 @@ HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
         hn::Store(decayFactors(s.decayOctaves.data() + i), d, onsets.decay + i);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i) {
-        const auto slot = static_cast<std::size_t>(s.each[i].slot);
+        const auto slot = static_cast<std::size_t>(s.entries[i].slot);
         s.carriers.re[slot] = onsets.carrierRe[i];
         s.carriers.im[slot] = onsets.carrierIm[i];
         s.carriers.roundedRe[slot] = static_cast<float>(onsets.carrierRe[i]);
@@ -380,17 +380,17 @@ HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
 }
 
 void strike(const TileStrikes& s) {
-    HWY_ALIGN double waves[TileStrikes::most * frames];
+    HWY_ALIGN double waves[TileStrikes::maxCount * frames];
     Onsets onsets;
     const auto count = static_cast<std::size_t>(s.count), channels = static_cast<std::size_t>(s.channels);
     turnOnsets(s, onsets);
     for (std::size_t i = 0; i < count; ++i)
-        addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, {onsets.re[i], onsets.im[i]},
+        addToAmplitudes(s.entries[i], s.scaled + i * 2 * channels, channels, {onsets.re[i], onsets.im[i]},
                         onsets.decay[i]);
     fillWaves(s, onsets, waves);
-    constexpr std::size_t most = HWY_TARGET == HWY_AVX3 ? 8 : 4; // as many sums as registers hold
+    constexpr std::size_t group = HWY_TARGET == HWY_AVX3 ? 8 : 4; // as many sums as registers hold
     std::size_t j = 0;
-    if constexpr (most == 8)
+    if constexpr (group == 8)
         for (; j + 8 <= channels; j += 8) addToTails<8>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
     for (; j + 4 <= channels; j += 4) addToTails<4>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
     for (; j < channels; ++j) addToTails<1>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
@@ -436,7 +436,7 @@ void clear(float* const* out, int channels, int count) {
 }
 
 TileKernel kernel(InstructionSet set) {
-    return {set, advance, render, strike, sum, clear, {take, give, addUp}, measure, join};
+    return {set, advance, render, strike, sum, clear, {storeInputs, writeOutputs, sumTiles}, measure, join};
 }
 
 } // namespace physvib::HWY_NAMESPACE
@@ -449,7 +449,7 @@ HWY_AFTER_NAMESPACE();
 namespace physvib {
 namespace {
 
-// What makes a kernel is compiled for its set too, so it is called only where that runs.
+// `make` is compiled for its instruction set too, so it is called only where that set is available.
 template <typename Make>
 const TileKernel* ifSupported(std::int64_t target, Make make) noexcept {
     static const std::int64_t here = hwy::SupportedTargets();

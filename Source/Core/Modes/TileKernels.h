@@ -21,7 +21,7 @@ struct LimiterLines {
     float* const* out = nullptr;      ///< each from frame `first` on
     std::size_t first = 0, frames = 0, channels = 0;
     float* lines = nullptr;
-    float* const* kept = nullptr; ///< if given, the inputs are copied there as well; null: no copy
+    float* const* copy = nullptr; ///< if given, the inputs are copied there as well; null: no copy
     std::size_t floatsPerLine = 0, front = 0, latency = 0;
 
     float* line(std::size_t channel) const noexcept { return lines + channel * floatsPerLine; }
@@ -29,29 +29,29 @@ struct LimiterLines {
 
 /// One instruction set's functions; the same bits as LinkedLimiter's own. Render thread (R), wait-free.
 struct LimiterKernel {
-    /// Writes the inputs behind the delayed frames, with denormals as 0, and unchanged to `kept`. True if a
-    /// magnitude exceeds its channel's in `mostBits`.
-    bool (*take)(const LimiterLines& lines, const std::int32_t* mostBits) = nullptr;
+    /// Writes the inputs behind the delayed frames, with denormals as 0, and unchanged to `copy`. True if a
+    /// magnitude exceeds its channel's in `maxBits`.
+    bool (*storeInputs)(const LimiterLines& lines, const std::int32_t* maxBits) = nullptr;
     /// Writes the delayed frames, as they are or times `gains` within the ceilings, and shifts the lines.
-    void (*give)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
+    void (*writeOutputs)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
     /// OutputGuard's: sums[t * GuardUnits::stride + channel] of io[channel], in its units, over the t-th of
     /// `tiles` stretches of so many frames, one after another. `tiles`: 1 or GuardUnits::tiles. Null: no
     /// output.
-    void (*addUp)(const float* const* io, std::size_t channels, std::size_t from, std::size_t frames,
-                  std::size_t tiles, std::int32_t* sums) = nullptr;
+    void (*sumTiles)(const float* const* io, std::size_t channels, std::size_t from, std::size_t frames,
+                     std::size_t tiles, std::int32_t* sums) = nullptr;
 };
 
 /// A sample in the units that OutputGuard sums: 2^21 is full scale, so 64 frames of 8 times full scale fit.
 struct GuardUnits {
     static constexpr std::size_t tiles = 4;   ///< summed together: at 48 kHz a block of 64 frames
     static constexpr std::size_t stride = 64; ///< channels, as many as there may be
-    static constexpr float most = 8.0f, perFullScale = 2097152.0f;
-    static std::int32_t of(float x) noexcept {
-        return static_cast<std::int32_t>(std::clamp(x, -most, most) * perFullScale);
+    static constexpr float maxMagnitude = 8.0f, perFullScale = 2097152.0f;
+    static std::int32_t fromSample(float x) noexcept {
+        return static_cast<std::int32_t>(std::clamp(x, -maxMagnitude, maxMagnitude) * perFullScale);
     }
 };
 
-// What a vector kernel is given of one tile of 64 frames: modes, amplitudes, carriers, strikes.
+// Arguments of the vector kernels for one tile of 64 frames: modes, amplitudes, carriers, strikes.
 //
 // Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few
 // polynomials (LowRankBasis). A mode is a row of complex coefficients, fixed for life; a tile is the
@@ -93,7 +93,7 @@ struct TileCarriers {
     float *roundedRe = nullptr, *roundedIm = nullptr;
 };
 
-/// What a complex number is multiplied by: unitPhasor(phase) * decayFactor(octaves).
+/// A complex factor: unitPhasor(phase) * decayFactor(octaves).
 struct Turn {
     std::uint64_t phase = 0;
     std::int64_t octaves = 0;
@@ -110,14 +110,14 @@ struct TileStrike {
     int from = 0;
 };
 
-/// Strikes of one layer, none earlier than the one before it. Together they cost less: what they wait for is
+/// Strikes of one layer, none earlier than the one before it. Together they cost less: memory is
 /// waited for once, and the tails stay in registers.
 struct TileStrikes {
-    static constexpr int most = 8;
+    static constexpr int maxCount = 8;
     int count = 0, channels = 0;
-    std::array<TileStrike, most> each;
-    std::array<std::uint64_t, most> onsetPhases{}, carrierPhases{};
-    std::array<std::int64_t, most> onsetOctaves{}, decayOctaves{};
+    std::array<TileStrike, maxCount> entries;
+    std::array<std::uint64_t, maxCount> onsetPhases{}, carrierPhases{};
+    std::array<std::int64_t, maxCount> onsetOctaves{}, decayOctaves{};
     const double* scaled = nullptr; ///< [strike * channels + channel]: amplitude times gain, twice
     double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
     TileCarriers carriers;
@@ -126,11 +126,11 @@ struct TileStrikes {
 struct Measured {
     float peak = 0.0f, squares = 0.0f;
 };
-/// The same while being summed, per lane of the widest vector. The last bits of the sums differ between sets.
+/// Peaks and sums per lane of the widest vector. The last bits of the sums differ between instruction sets.
 struct alignas(64) MeasuredLanes {
     float peaks[16]{}, squares[16]{};
 
-    void take(float x) noexcept {
+    void add(float x) noexcept {
         const float size = x < 0.0f ? -x : x;
         peaks[0] = peaks[0] < size ? size : peaks[0];
         squares[0] += x * x;
@@ -150,7 +150,7 @@ struct TileKernel {
     /// Adds outputs[j][first, first + frames) to to[j] for up to 64 outputs; returns bit j where one is null.
     std::uint64_t (*measure)(const float* const* outputs, std::size_t count, std::size_t first,
                              std::size_t frames, MeasuredLanes* to) = nullptr;
-    /// all[j] of all lanes of of[j], which are 0 afterwards
+    /// all[j] becomes the result of all lanes of of[j], which are set to 0
     void (*join)(MeasuredLanes* of, std::size_t count, Measured* all) = nullptr;
 };
 

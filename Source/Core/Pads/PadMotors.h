@@ -46,8 +46,8 @@ struct PadMotor {
         return 1.0 - portable::exp(-logOfTen * seconds / (rises ? riseSeconds : fallSeconds));
     }
     double strengthAfter(double strength, double command, double seconds) const noexcept {
-        const double towards = strengthOf(command);
-        return strength + (towards - strength) * shareOfWay(seconds, towards > strength);
+        const double target = strengthOf(command);
+        return strength + (target - strength) * shareOfWay(seconds, target > strength);
     }
 };
 
@@ -70,12 +70,13 @@ struct PadCommand {
     bool isSame(const PadCommand& other) const noexcept { return low == other.low && high == other.high; }
 };
 
-/// Neither allocates nor blocks. One thread at a time.
+/// Converts events to the commands of one controller. Neither allocates nor blocks. One thread at a time.
 class PadMotors {
 public:
     static constexpr std::int64_t never = INT64_MAX;
-    static constexpr double leastFelt = 0.2; ///< strength of the weakest perceptible impact; assumed
-    static constexpr std::int64_t kickNs = 80'000'000; ///< maximum time for which an onset is overdriven
+    static constexpr double minPerceptibleStrength = 0.2; ///< strength of the weakest perceptible impact;
+                                                          ///< assumed
+    static constexpr std::int64_t kickNs = 80'000'000;    ///< maximum time for which an onset is overdriven
 
     explicit PadMotors(const PadLaw& law) noexcept
         : law_{law} {}
@@ -98,14 +99,14 @@ public:
     /// The command that is due, with all strengths multiplied by `level`; 0 stops the motors.
     PadCommand next(double level) noexcept;
 
-    /// What was due until a time: the strongest command, per motor, so that no impact is passed over when
-    /// the caller was late, and the last one, which follows it.
-    struct Due {
+    /// The commands that were due until a time: the strongest per motor, so that no impact is lost when the
+    /// caller is late, and the last one, to be sent after it.
+    struct DueCommands {
         PadCommand strongest, last;
         int count = 0;
     };
-    /// Takes all commands that are due, at most a thousand (a pause of minutes; the next call goes on).
-    Due nextUntil(std::int64_t untilNs, double level) noexcept;
+    /// Computes the commands that are due until `untilNs`, at most a thousand; the next call continues.
+    DueCommands nextUntil(std::int64_t untilNs, double level) noexcept;
 
     std::int64_t intervalNs() const noexcept { ///< between two commands
         return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond);
@@ -114,7 +115,7 @@ public:
 
 private:
     struct Voice {
-        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; endNs 0: it decays
+        std::int64_t startNs = 0, endNs = 0; // earlier than the event by the law's lead; endNs 0: it decays
         double decayPerSecond = 0.0;
         double low = 0.0, high = 0.0;          // energy at the start
         double energy = 0.0, heavyShare = 0.0; // of a moving event, whose place is recomputed
@@ -125,28 +126,30 @@ private:
     struct Energies {
         double low = 0.0, high = 0.0;
     };
-    struct State {
+    struct MotorState {
         double strength = 0.0, command = 0.0; // as modelled; last command
         double kick = 0.0;                    // strength requested by an onset; 0: none
         std::int64_t kickEndNs = 0;
     };
 
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
-    Energies shared(double energy, double heavyShare, double side) const noexcept;
+    Energies shareEnergy(double energy, double heavyShare, double side) const noexcept;
     Energies energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept;
-    double wanted(double amplitude) const noexcept;
+    double strengthFor(double amplitude) const noexcept;
     void beginUntil(std::int64_t nowNs, double level) noexcept;
     void begin(const Voice& voice, double level) noexcept;
-    Energies ringingAt(std::int64_t nowNs) noexcept;
+    Energies soundingEnergiesAt(std::int64_t nowNs) noexcept;
     void add(const Voice& voice) noexcept;
-    double drive(State& state, const PadMotor& motor, double amplitude, double seconds) const noexcept;
-    bool isAtRest() const noexcept { return ringing_ == 0 && low_.command == 0.0 && high_.command == 0.0; }
+    double drive(MotorState& state, const PadMotor& motor, double amplitude, double seconds) const noexcept;
+    bool isAtRest() const noexcept {
+        return soundingCount_ == 0 && low_.command == 0.0 && high_.command == 0.0;
+    }
 
     PadLaw law_;
-    std::array<Voice, 256> waiting_{}; // by startNs
+    std::array<Voice, 256> pending_{}; // by startNs
     std::array<Voice, 64> voices_{};
-    std::size_t waits_ = 0, ringing_ = 0;
-    State low_, high_;
+    std::size_t pendingCount_ = 0, soundingCount_ = 0;
+    MotorState low_, high_;
     std::int64_t lastNs_ = INT64_MIN / 2; // time of the last command
     std::int64_t stopNs_ = INT64_MIN / 2; // no command is sent before it
     std::uint64_t lost_ = 0;

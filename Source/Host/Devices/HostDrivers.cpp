@@ -40,7 +40,7 @@ public:
     }
     void close() override { device_->close(); }
     bool isOpen() override { return device_->isOpen(); }
-    void start(DeviceUser& user) override {
+    void start(AudioDeviceCallback& user) override {
         user_ = &user;
         device_->start(this);
     }
@@ -59,14 +59,14 @@ public:
 private:
     void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs,
                                           int frames, const juce::AudioIODeviceCallbackContext&) override {
-        user_->block(in, inputs, out, outputs, frames);
+        user_->processBlock(in, inputs, out, outputs, frames);
     }
     void audioDeviceAboutToStart(juce::AudioIODevice*) override { user_->aboutToStart(*this); }
     void audioDeviceStopped() override { user_->stopped(); }
     void audioDeviceError(const juce::String&) override { user_->stopped(); }
 
     std::unique_ptr<juce::AudioIODevice> device_;
-    DeviceUser* user_ = nullptr; // changes only while the device does not run
+    AudioDeviceCallback* user_ = nullptr; // changes only while the device does not run
 };
 
 class JuceDriver final : public AudioDriver {

@@ -8,21 +8,21 @@ namespace physvib {
 
 namespace {
 
-constexpr double longestWindowSeconds = 0.0335; // rounded down to a power of two samples, 17 to 33 ms: two
-                                                // periods of a bass drum, but short against a beat
+constexpr double maxWindowSeconds = 0.0335; // rounded down to a power of two samples, 17 to 33 ms: two
+                                            // periods of a bass drum, but short against a beat
 constexpr unsigned hopsPerWindow = 8;
 constexpr int pickedHopsLater = 2; // aubio's picker needs the hop after the peak, and smooths over one more
 constexpr double earlyHops = 0.35; // the flux peaks this long before the onset reaches the middle of the
                                    // window (measured: Docs/music.md)
-constexpr double minSecondsBetween = 0.05; // per band: at most twenty onsets a second
+constexpr double minOnsetGapSeconds = 0.05; // per band: at most twenty onsets a second
 // Time constants (decay to 37 %) of the mean flux, the maximum and the masking after an onset.
-constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
+constexpr double meanFluxSeconds = 1.0, maxFluxSeconds = 5.0, maskingSeconds = 0.1;
 constexpr double minRise = 3.0;          // relative to the mean flux
 constexpr double minFlux = 1e-3;         // about that of a starting sine at -60 dB
 constexpr double minShareAtOne = 0.0625; // of the strongest onset; to the power of the sensitivity
 
 unsigned windowOf(int rateHz) noexcept {
-    return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz)));
+    return std::max(16u, std::bit_floor(static_cast<unsigned>(maxWindowSeconds * rateHz)));
 }
 
 } // namespace
@@ -52,8 +52,8 @@ void BeatDetector::makeBand(std::size_t index) {
                  behind = std::max(first + 1, binOf(beatBands[index].highHz) + 1);
     if (first >= end) return;
     Band& band = bands_[index];
-    band.part = {std::min(end, behind) - first, spectrum_->norm + first, spectrum_->phas + first};
-    band.flux.reset(new_aubio_specdesc("specflux", 2 * band.part.length));
+    band.spectrum = {std::min(end, behind) - first, spectrum_->norm + first, spectrum_->phas + first};
+    band.flux.reset(new_aubio_specdesc("specflux", 2 * band.spectrum.length));
     band.peaks.reset(new_aubio_peakpicker());
 }
 
@@ -62,51 +62,52 @@ void BeatDetector::analyse() noexcept {
     foundCount_ = 0;
     aubio_pvoc_do(vocoder_.get(), hop_.get(), spectrum_.get());
     for (std::size_t i = 0; i < bands_.size(); ++i)
-        if (bands_[i].flux) look(i);
+        if (bands_[i].flux) detectOnset(i);
 }
 
 void BeatDetector::measure(Band& band) noexcept {
-    aubio_specdesc_do(band.flux.get(), &band.part, flux_.get());
+    aubio_specdesc_do(band.flux.get(), &band.spectrum, flux_.get());
     std::rotate(band.latest.begin(), band.latest.begin() + 1, band.latest.end());
     band.latest.back() = flux_->data[0];
     aubio_peakpicker_do(band.peaks.get(), flux_.get(), peak_.get());
 }
 
-void BeatDetector::follow(Band& band) noexcept {
+void BeatDetector::updateAverages(Band& band) noexcept {
     const double hopSeconds = static_cast<double>(hop_->length) / rateHz_;
-    const auto kept = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
-    band.strongest *= kept(strongestSeconds);
-    band.masked *= kept(maskedSeconds);
+    const auto decay = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
+    band.maxFlux *= decay(maxFluxSeconds);
+    band.maskingThreshold *= decay(maskingSeconds);
     // at first the plain mean of all hops
-    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) *
-                  (band.latest.back() - band.usual);
+    band.meanFlux += std::max(1.0 - decay(meanFluxSeconds), 1.0 / static_cast<double>(hops_)) *
+                     (band.latest.back() - band.meanFlux);
 }
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {
     const bool isSoon =
-        band.hasLast && static_cast<double>(frame - band.lastFrame) < minSecondsBetween * rateHz_;
+        band.hasLast && static_cast<double>(frame - band.lastFrame) < minOnsetGapSeconds * rateHz_;
     return frame >= 0 && !isSoon &&
-           height >= std::max({minFlux, minRise * band.usual, minShare_ * band.strongest, band.masked});
+           height >=
+               std::max({minFlux, minRise * band.meanFlux, minShare_ * band.maxFlux, band.maskingThreshold});
 }
 
-void BeatDetector::look(std::size_t index) noexcept {
+void BeatDetector::detectOnset(std::size_t index) noexcept {
     Band& band = bands_[index];
     measure(band);
     const double picked = peak_->data[0]; // 0, or the position of the peak in hops, about 1
     if (picked != 0.0) {
         const double height = std::ranges::max(band.latest);
-        band.strongest = std::max(band.strongest, height);
+        band.maxFlux = std::max(band.maxFlux, height);
         const double hop = static_cast<double>(hops_ - pickedHopsLater) + picked - 1.0 + earlyHops;
         const auto frame =
             static_cast<std::int64_t>(std::llround((hop - 0.5 * hopsPerWindow) * hop_->length));
         if (isOnset(band, height, frame)) {
-            found_[foundCount_++] = {frame, static_cast<int>(index), height / band.strongest};
+            found_[foundCount_++] = {frame, static_cast<int>(index), height / band.maxFlux};
             band.lastFrame = frame;
             band.hasLast = true;
-            band.masked = height;
+            band.maskingThreshold = height;
         }
     }
-    follow(band);
+    updateAverages(band);
 }
 
 std::int64_t BeatDetector::delayFrames() const noexcept {
@@ -124,16 +125,16 @@ void BeatDetector::reset() noexcept {
             if (band.flux) measure(band);
     }
     for (Band& band : bands_) {
-        band.usual = band.strongest = band.masked = 0.0;
+        band.meanFlux = band.maxFlux = band.maskingThreshold = 0.0;
         band.hasLast = false;
     }
     filled_ = 0;
     hops_ = 0;
 }
 
-std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexcept {
+std::array<ActuatorSet, beatBands.size()> defaultBeatActuators(int count) noexcept {
     const auto last = static_cast<std::size_t>(count - 1);
-    std::array<EnchanterSet, beatBands.size()> sets{};
+    std::array<ActuatorSet, beatBands.size()> sets{};
     sets.front()[0] = sets.back()[last] = true;
     for (std::size_t j = std::min<std::size_t>(1, last); j < std::max<std::size_t>(last, 1); ++j)
         sets[1][j] = true;
@@ -141,12 +142,12 @@ std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexce
     return sets;
 }
 
-bool parseEnchanters(std::string_view letters, int count, EnchanterSet& enchanters) {
-    enchanters.reset();
+bool parseActuatorLetters(std::string_view letters, int count, ActuatorSet& actuators) {
+    actuators.reset();
     for (const char letter : letters) {
         const int j = letter - 'A';
-        if (j < 0 || j >= count || enchanters[static_cast<std::size_t>(j)]) return false;
-        enchanters[static_cast<std::size_t>(j)] = true;
+        if (j < 0 || j >= count || actuators[static_cast<std::size_t>(j)]) return false;
+        actuators[static_cast<std::size_t>(j)] = true;
     }
     return true;
 }

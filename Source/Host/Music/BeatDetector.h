@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// BeatDetector finds onsets in music per frequency band, in real time with aubio; strikeBeat makes events of
-// them; BandPass keeps the band that actuators can render.
+// BeatDetector finds onsets in music per frequency band, in real time with aubio; makeBeatEvents makes events
+// of them; BandPass keeps the band that actuators can render.
 #pragma once
 #define AUBIO_UNSTABLE 1 // aubio declares its peak picker only with this; its version is the distribution's
 #include "Core/Actuators/ActuatorEqualiser.h"
@@ -37,36 +37,36 @@ struct BandOnset {
     bool operator==(const BandOnset&) const = default;
 };
 
-using EnchanterSet = std::bitset<limits::maxEnchanters>;
+using ActuatorSet = std::bitset<limits::maxActuators>;
 
 /// Vibration of the beats, per band.
 struct BeatVoices {
-    static constexpr double usualLevel = 0.5;
+    static constexpr double defaultLevel = 0.5;
 
-    std::array<EnchanterSet, beatBands.size()> enchanters; ///< of each band; none: the band is not felt
+    std::array<ActuatorSet, beatBands.size()> actuators; ///< of each band; none: the band is not felt
     /// resonance of the thesis' actuator
     std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0};
     std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, tick
-    double level = usualLevel; ///< peak of the strongest onset at gain 1, 1 = full scale
+    double level = defaultLevel; ///< peak of the strongest onset at gain 1, 1 = full scale
 };
 
 /// Low band on the first actuator, high on the last, mid on those between (with two: on the last). Any
 /// thread, R too.
-std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexcept;
+std::array<ActuatorSet, beatBands.size()> defaultBeatActuators(int count) noexcept;
 
 /// Parses letters such as "AC"; false if one is not among `count` actuators or occurs twice. Any thread.
-bool parseEnchanters(std::string_view letters, int count, EnchanterSet& enchanters);
+bool parseActuatorLetters(std::string_view letters, int count, ActuatorSet& actuators);
 
-/// Calls `strike(const CollisionEvent&)` for each actuator of the onset's band, at `timeNs` and at the
+/// Calls `onEvent(const CollisionEvent&)` for each actuator of the onset's band, at `timeNs` and at the
 /// actuator's place in a field of that size. Any thread, R too.
-template <class Strike>
-void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices,
-                const EnchanterLayout& layout, double fieldWidthMetres, double fieldHeightMetres,
-                Strike&& strike) {
+template <class EventSink>
+void makeBeatEvents(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices,
+                    const ActuatorLayout& layout, double fieldWidthMetres, double fieldHeightMetres,
+                    EventSink&& onEvent) {
     const auto band = static_cast<std::size_t>(onset.band);
     for (int j = 0; j < layout.count; ++j) {
-        if (!voices.enchanters[band][static_cast<std::size_t>(j)]) continue;
-        const EnchanterPlace& place = layout.places[static_cast<std::size_t>(j)];
+        if (!voices.actuators[band][static_cast<std::size_t>(j)]) continue;
+        const ActuatorPlace& place = layout.places[static_cast<std::size_t>(j)];
         CollisionEvent event;
         event.timeNs = timeNs;
         event.frequencyHz = voices.frequencyHz[band];
@@ -74,29 +74,29 @@ void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& v
         event.amplitude = voices.level * onset.strength;
         event.x = place.xMetres / layout.extentWidthMetres * fieldWidthMetres;
         event.y = place.yMetres / layout.extentHeightMetres * fieldHeightMetres;
-        strike(event);
+        onEvent(event);
     }
 }
 
 /// Owning pointer for objects of the aubio library, which must be freed by aubio's own functions.
 template <auto Free>
-struct GivenBack {
+struct AubioDeleter {
     template <class T>
     void operator()(T* part) const {
         Free(part);
     }
 };
 template <class T, auto Free>
-using AubioPart = std::unique_ptr<T, GivenBack<Free>>;
+using AubioPointer = std::unique_ptr<T, AubioDeleter<Free>>;
 
 /// The result does not depend on how the input is divided into blocks. Created and destroyed on any thread
 /// but R; all else on any thread, one at a time. R may call it: it neither allocates nor waits.
 class BeatDetector {
 public:
-    static constexpr double usualSensitivity = 0.5;
-    static constexpr double mostDelaySeconds = 0.0295; ///< upper bound of delayFrames() at any sample rate
+    static constexpr double defaultSensitivity = 0.5;
+    static constexpr double maxDelaySeconds = 0.0295; ///< upper bound of delayFrames() at any sample rate
 
-    explicit BeatDetector(int sampleRateHz, double sensitivity = usualSensitivity);
+    explicit BeatDetector(int sampleRateHz, double sensitivity = defaultSensitivity);
 
     /// From 0 (the strongest onsets only) to 1 (every onset).
     void setSensitivity(double sensitivity) noexcept;
@@ -104,15 +104,15 @@ public:
     /// Returns to the initial state: the next sample is number 0.
     void reset() noexcept;
 
-    /// Processes the next samples. Calls `use(const BandOnset&)` for each onset detected.
-    template <class Use>
-    void take(std::span<const float> samples, Use&& use) noexcept(noexcept(use(BandOnset{}))) {
+    /// Processes the next samples. Calls `onOnset(const BandOnset&)` for each onset detected.
+    template <class OnOnset>
+    void process(std::span<const float> samples, OnOnset&& onOnset) noexcept(noexcept(onOnset(BandOnset{}))) {
         for (const float sample : samples) {
             hop_->data[filled_] = sample;
             if (++filled_ < hop_->length) continue;
             filled_ = 0;
             analyse();
-            for (std::size_t i = 0; i < foundCount_; ++i) use(found_[i]);
+            for (std::size_t i = 0; i < foundCount_; ++i) onOnset(found_[i]);
         }
     }
 
@@ -121,27 +121,27 @@ public:
 
 private:
     struct Band {
-        cvec_t part{}; // bins of the spectrum; empty if the sample rate has none of the band
-        AubioPart<aubio_specdesc_t, del_aubio_specdesc> flux;
-        AubioPart<aubio_peakpicker_t, del_aubio_peakpicker> peaks;
-        std::array<double, 4> latest{};      // flux of the last hops, among them the peak
-        double usual = 0.0, strongest = 0.0; // running mean and maximum of the flux
-        double masked = 0.0;                 // threshold after the last onset, decaying
+        cvec_t spectrum{}; // bins of the spectrum; empty if the sample rate has none of the band
+        AubioPointer<aubio_specdesc_t, del_aubio_specdesc> flux;
+        AubioPointer<aubio_peakpicker_t, del_aubio_peakpicker> peaks;
+        std::array<double, 4> latest{};       // flux of the last hops, among them the peak
+        double meanFlux = 0.0, maxFlux = 0.0; // running mean and maximum of the flux
+        double maskingThreshold = 0.0;        // threshold after the last onset, decaying
         std::int64_t lastFrame = 0;
         bool hasLast = false;
     };
     void makeBand(std::size_t index);
     void measure(Band& band) noexcept;
-    void follow(Band& band) noexcept;
+    void updateAverages(Band& band) noexcept;
     bool isOnset(const Band& band, double height, std::int64_t frame) const noexcept;
-    void look(std::size_t index) noexcept;
+    void detectOnset(std::size_t index) noexcept;
     void analyse() noexcept;
 
     const int rateHz_;
     double minShare_ = 0.0; // relative to the strongest
-    AubioPart<fvec_t, del_fvec> hop_, flux_, peak_;
-    AubioPart<cvec_t, del_cvec> spectrum_;
-    AubioPart<aubio_pvoc_t, del_aubio_pvoc> vocoder_;
+    AubioPointer<fvec_t, del_fvec> hop_, flux_, peak_;
+    AubioPointer<cvec_t, del_cvec> spectrum_;
+    AubioPointer<aubio_pvoc_t, del_aubio_pvoc> vocoder_;
     std::array<Band, beatBands.size()> bands_;
     std::array<BandOnset, beatBands.size()> found_{};
     std::size_t foundCount_ = 0;
@@ -154,7 +154,7 @@ private:
 /// Causal; its group delay at 200 Hz is 2 ms with the default band. One thread at a time.
 class BandPass {
 public:
-    static constexpr FrequencyBand usual{50.0, 500.0};
+    static constexpr FrequencyBand defaultBand{50.0, 500.0};
 
     /// The upper cut-off is at most 45 % of the sample rate.
     BandPass(FrequencyBand band, int sampleRateHz) noexcept {

@@ -36,7 +36,7 @@ std::uint64_t bigEndian(std::span<const char> bytes) {
 
 // liblo does not guarantee alignment.
 template <class T>
-T plain(const void* at) {
+T unalignedValue(const void* at) {
     T value;
     std::memcpy(&value, at, sizeof value);
     return value;
@@ -49,10 +49,10 @@ double finite(double number) {
 
 OscValue valueOf(char type, const lo_arg* value) {
     switch (type) {
-    case LO_INT32: return static_cast<double>(plain<std::int32_t>(value));
-    case LO_INT64: return static_cast<double>(plain<std::int64_t>(value));
-    case LO_FLOAT: return finite(static_cast<double>(plain<float>(value)));
-    case LO_DOUBLE: return finite(plain<double>(value));
+    case LO_INT32: return static_cast<double>(unalignedValue<std::int32_t>(value));
+    case LO_INT64: return static_cast<double>(unalignedValue<std::int64_t>(value));
+    case LO_FLOAT: return finite(static_cast<double>(unalignedValue<float>(value)));
+    case LO_DOUBLE: return finite(unalignedValue<double>(value));
     case LO_TRUE: return 1.0;
     case LO_FALSE: return 0.0;
     case LO_STRING:
@@ -62,11 +62,11 @@ OscValue valueOf(char type, const lo_arg* value) {
 }
 
 OscMessage messageOf(std::span<const char> bytes, OscTag tag) {
-    std::vector<char> own(bytes.begin(), bytes.end()); // liblo needs a mutable buffer
-    int fault = 0;
-    const MessagePointer message{lo_message_deserialise(own.data(), own.size(), &fault)};
-    if (!message) throw OscError{"expected an OSC message (liblo: " + std::to_string(fault) + ")"};
-    OscMessage read{std::string(own.data()), {}, tag};
+    std::vector<char> buffer(bytes.begin(), bytes.end()); // liblo needs a mutable buffer
+    int errorCode = 0;
+    const MessagePointer message{lo_message_deserialise(buffer.data(), buffer.size(), &errorCode)};
+    if (!message) throw OscError{"expected an OSC message (liblo: " + std::to_string(errorCode) + ")"};
+    OscMessage read{std::string(buffer.data()), {}, tag};
     if (!read.address.starts_with('/'))
         throw OscError{"expected an address that begins with /, found " + inQuotes(read.address)};
     const char* const types = lo_message_get_types(message.get());
@@ -81,8 +81,8 @@ void readElement(std::span<const char> bytes, OscTag tag, int depth, std::vector
         throw OscError{"expected a multiple of four bytes, found " + std::to_string(bytes.size())};
     if (!std::string_view(bytes.data(), bytes.size()).starts_with(bundleMark))
         return all.push_back(messageOf(bytes, tag));
-    if (depth == deepestBundle)
-        throw OscError{"expected bundles at most " + std::to_string(deepestBundle) + " deep"};
+    if (depth == maxBundleDepth)
+        throw OscError{"expected bundles at most " + std::to_string(maxBundleDepth) + " deep"};
     if (bytes.size() < 16) throw OscError{"expected a time tag in a bundle"};
     tag = bigEndian(bytes.subspan(8, 8));
     for (bytes = bytes.subspan(16); !bytes.empty();) {
@@ -94,7 +94,7 @@ void readElement(std::span<const char> bytes, OscTag tag, int depth, std::vector
     }
 }
 
-MessagePointer writtenMessage(const PlainMessage& plain) {
+MessagePointer makeLoMessage(const PlainMessage& plain) {
     MessagePointer message{lo_message_new()};
     for (const NamedValue& value : plain.values) {
         lo_message_add_string(message.get(), value.name.c_str());
@@ -140,10 +140,10 @@ Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes) {
 }
 
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message) {
-    return bytesOf(writtenMessage(message), address);
+    return bytesOf(makeLoMessage(message), address);
 }
 
-std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words) {
+std::vector<char> oscStringPacket(const std::string& address, std::initializer_list<std::string> words) {
     const MessagePointer message{lo_message_new()};
     for (const std::string& word : words) lo_message_add_string(message.get(), word.c_str());
     return bytesOf(message, address);
@@ -152,7 +152,7 @@ std::vector<char> oscWords(const std::string& address, std::initializer_list<std
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag) {
     const BundlePointer bundle{
         lo_bundle_new({static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint32_t>(tag)})};
-    lo_bundle_add_message(bundle.get(), address.c_str(), writtenMessage(message).release());
+    lo_bundle_add_message(bundle.get(), address.c_str(), makeLoMessage(message).release());
     std::vector<char> bytes(lo_bundle_length(bundle.get()));
     lo_bundle_serialise(bundle.get(), bytes.data(), nullptr);
     return bytes;
@@ -188,7 +188,7 @@ bool matchesOscPattern(std::string_view pattern, std::string_view address) {
     return (reached >> address.size() & 1U) != 0;
 }
 
-Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values) {
+Result<PlainMessage> parseOscValues(std::string_view name, const std::vector<OscValue>& values) {
     PlainMessage message{std::string(name), {}};
     for (std::size_t i = 0; i < values.size();) {
         const auto* const named = std::get_if<std::string>(&values[i]);

@@ -26,26 +26,26 @@ struct OscMessage {
     OscTag tag = oscNow;          ///< of the innermost enclosing bundle
 };
 
-/// All messages of a packet in order, from bundles nested at most `deepestBundle` deep. Or the error, and no
+/// All messages of a packet in order, from bundles nested at most `maxBundleDepth` deep. Or the error, and no
 /// message. Any thread but R.
 Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes);
-constexpr int deepestBundle = 16;
+constexpr int maxBundleDepth = 16;
 
-/// Alternating names and values, in the order of `message`; the inverse of plainOf. Numbers are single
+/// Alternating names and values, in the order of `message`; the inverse of parseOscValues. Numbers are single
 /// precision, the only type that all programs read (Pd no other); exact times are tags. Any thread but R.
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message);
 /// The same in a bundle.
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag);
 /// A message that has strings only. Any thread but R.
-std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words);
+std::vector<char> oscStringPacket(const std::string& address, std::initializer_list<std::string> words);
 
 /// Whether `address` (at most 62 characters) matches an address pattern of OSC 1.0; `*` and `?` also match
 /// `/`. Any thread.
 bool matchesOscPattern(std::string_view pattern, std::string_view address);
-constexpr std::string_view oscPatternMarks = "?*[{";
+constexpr std::string_view oscPatternCharacters = "?*[{";
 
 /// Parses `level 0.5 place 1 0.5 law energy`: a name, then a string or one or more numbers, and so on. Or the
 /// error. Any thread but R.
-Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values);
+Result<PlainMessage> parseOscValues(std::string_view name, const std::vector<OscValue>& values);
 
 } // namespace physvib

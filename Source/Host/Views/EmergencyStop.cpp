@@ -21,13 +21,13 @@ namespace {
 /// Dispatches the pending events of every source. A call that waits for the display's answer, such as for the
 /// mouse position, also reads earlier clicks and keys, which JUCE finds only when more arrives: a press acted
 /// 0.2 to 0.4 s late. A nested call, which an event may cause, does nothing. M.
-void takeWhatWasReadAhead() {
+void dispatchPendingEvents() {
 #if JUCE_LINUX || JUCE_BSD
-    static bool isTaking = false;
-    if (std::exchange(isTaking, true)) return;
+    static bool isDispatching = false;
+    if (std::exchange(isDispatching, true)) return;
     for (const int source : juce::LinuxEventLoopInternal::getRegisteredFds())
         juce::LinuxEventLoopInternal::invokeEventLoopCallbackForFd(source);
-    isTaking = false;
+    isDispatching = false;
 #endif
 }
 
@@ -38,44 +38,44 @@ public:
     StopKeys() {
         juce::Desktop::getInstance().addGlobalMouseListener(this);
         juce::Desktop::getInstance().addFocusChangeListener(this);
-        startTimer(lookMs);
+        startTimer(pollMs);
     }
     ~StopKeys() override {
         juce::Desktop::getInstance().removeGlobalMouseListener(this);
         juce::Desktop::getInstance().removeFocusChangeListener(this);
-        for (auto& component : heard_)
+        for (auto& component : listenedComponents_)
             if (component != nullptr) component->removeKeyListener(this);
     }
     std::vector<EmergencyStop*> stops;
 
     // Polls with each frame of the display, for which JUCE wakes this thread anyway. The timer polls only
     // while there are no frames.
-    void lookWithPicture() {
+    void pollWithFrame() {
         const auto now = juce::Time::getMillisecondCounter();
-        if (now - lookedAtMs_ < leastMs) return; // frames may come more often
-        lookedAtMs_ = now;
-        if (getTimerInterval() != seldomMs) startTimer(seldomMs);
-        look();
+        if (now - polledAtMs_ < minPollMs) return; // frames may come more often
+        polledAtMs_ = now;
+        if (getTimerInterval() != idlePollMs) startTimer(idlePollMs);
+        poll();
     }
 
 private:
-    static constexpr int lookMs = 20, seldomMs = 250; // lookMs: shorter than a key press
-    static constexpr juce::uint32 leastMs = 12;
+    static constexpr int pollMs = 20, idlePollMs = 250; // pollMs: shorter than a key press
+    static constexpr juce::uint32 minPollMs = 12;
 
     void timerCallback() override {
-        if (juce::Time::getMillisecondCounter() - lookedAtMs_ < lookMs) return;
-        if (getTimerInterval() != lookMs) startTimer(lookMs);
-        look();
+        if (juce::Time::getMillisecondCounter() - polledAtMs_ < pollMs) return;
+        if (getTimerInterval() != pollMs) startTimer(pollMs);
+        poll();
     }
     // Listens to components that opened since the last call. An Esc that was pressed before they opened is
     // still down.
-    void look() {
+    void poll() {
         listen();
-        const auto* target = targetOf(nullptr);
+        const auto* target = targetCell(nullptr);
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
-        if (isDown && !isHeld_ && target != nullptr) silence(*target);
-        isHeld_ = isDown;
-        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // later, outside lists of listeners
+        if (isDown && !wasEscapeDown_ && target != nullptr) silence(*target);
+        wasEscapeDown_ = isDown;
+        juce::MessageManager::callAsync(&dispatchPendingEvents); // later, outside lists of listeners
     }
     void globalFocusChanged(juce::Component*) override { listen(); }
     void mouseUp(const juce::MouseEvent&) override { listen(); }
@@ -89,37 +89,38 @@ private:
     }
     bool keyPressed(const juce::KeyPress& key, juce::Component* at) override {
         if (!key.isKeyCode(juce::KeyPress::escapeKey)) return false;
-        const auto* target = targetOf(at);
-        if (at != target && isHeard(target)) return false; // a parent's listener: already handled
+        const auto* target = targetCell(at);
+        if (at != target && isListenedTo(target)) return false; // a parent's listener: already handled
         silence(*at);
-        return std::exchange(isHeld_, isEscapeDown()); // a repeated key silences again and does nothing else
+        return std::exchange(wasEscapeDown_, isEscapeDown()); // a repeated key silences again and does
+                                                              // nothing else
     }
 
     static bool isEscapeDown() { return juce::KeyPress::isKeyCurrentlyDown(juce::KeyPress::escapeKey); }
     /// The component that gets a key now, as juce::ComponentPeer determines it. `at`: a component of the
     /// window with keyboard focus.
-    static juce::Component* targetOf(juce::Component* at) {
+    static juce::Component* targetCell(juce::Component* at) {
         auto* const focused = juce::Component::getCurrentlyFocusedComponent();
         auto* const target = focused != nullptr || at == nullptr ? focused : at->getTopLevelComponent();
         auto* const modal = juce::Component::getCurrentlyModalComponent();
         const bool isBlocked = target == nullptr || target->isCurrentlyBlockedByAnotherModalComponent();
         return isBlocked && modal != nullptr ? modal : target;
     }
-    bool isHeard(const juce::Component* c) const {
-        return std::ranges::any_of(heard_, [c](const auto& other) { return other.get() == c; });
+    bool isListenedTo(const juce::Component* c) const {
+        return std::ranges::any_of(listenedComponents_, [c](const auto& other) { return other.get() == c; });
     }
     void listen() {
-        std::erase_if(heard_, [](const auto& component) { return component == nullptr; });
+        std::erase_if(listenedComponents_, [](const auto& component) { return component == nullptr; });
         const auto& desktop = juce::Desktop::getInstance();
         for (int i = 0; i < desktop.getNumComponents(); ++i)
-            hear(desktop.getComponent(i)); // without a focus, these get the keys
-        hear(targetOf(nullptr));
+            listenTo(desktop.getComponent(i)); // without a focus, these get the keys
+        listenTo(targetCell(nullptr));
     }
-    void hear(juce::Component* component) {
+    void listenTo(juce::Component* component) {
         if (component == nullptr) return;
         component->removeKeyListener(this);
         component->addKeyListener(this); // the newest listener is asked first
-        if (!isHeard(component)) heard_.emplace_back(component);
+        if (!isListenedTo(component)) listenedComponents_.emplace_back(component);
     }
     void silence(const juce::Component& at) {
         const auto isHere = [&at](const EmergencyStop* s) {
@@ -130,9 +131,9 @@ private:
             if ((!isAny || isHere(stop)) && !(stop->closesFirst_ && stop->closesFirst_())) stop->silence_();
     }
 
-    std::vector<juce::WeakReference<juce::Component>> heard_;
-    bool isHeld_ = false; // state of the Esc key at the last check
-    juce::uint32 lookedAtMs_ = 0;
+    std::vector<juce::WeakReference<juce::Component>> listenedComponents_;
+    bool wasEscapeDown_ = false; // state of the Esc key at the last check
+    juce::uint32 polledAtMs_ = 0;
 };
 
 EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence,
@@ -140,7 +141,7 @@ EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> sile
     : window_{window}
     , silence_{std::move(silence)}
     , closesFirst_{std::move(closesFirst)}
-    , pictures_{&window, [this] { keys_->lookWithPicture(); }} {
+    , frames_{&window, [this] { keys_->pollWithFrame(); }} {
     keys_->stops.push_back(this);
 }
 

@@ -26,7 +26,7 @@ private:
     std::function<void()> silence_;
     std::function<bool()> closesFirst_;
     juce::SharedResourcePointer<StopKeys> keys_;
-    juce::VBlankAttachment pictures_; // last: it calls the keys
+    juce::VBlankAttachment frames_; // last: it calls the keys
 };
 
 } // namespace physvib

@@ -22,7 +22,7 @@ struct Shades {
 const Shades& shadesOf(Theme theme) {
     static const Shades dark{palette::ground, palette::panel,       juce::Colour{Argb{0xff272a33}},
                              palette::well,   palette::line,        palette::text,
-                             palette::muted,  palette::now,         palette::limit,
+                             palette::muted,  palette::highlight,   palette::limit,
                              palette::camera, palette::enchanter(0)};
     static const Shades light{
         juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffd3d9e4}},
@@ -57,17 +57,17 @@ double luminanceOf(juce::Colour colour) {
 }
 
 /// Colour of an actuator, darkened or lightened until text in it has enough contrast on a panel.
-juce::Colour readableEnchanter(Theme theme, int index) {
-    constexpr double least = 4.6;
+juce::Colour readableActuatorColour(Theme theme, int index) {
+    constexpr double minContrast = 4.6;
     const bool isLight = theme == Theme::light;
     const auto panel = luminanceOf(shadesOf(theme).panel);
     auto colour = palette::enchanter(index);
     if (isLight) colour = colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f);
     const auto contrast = [&] {
-        const double own = luminanceOf(colour);
-        return (std::max(own, panel) + 0.05) / (std::min(own, panel) + 0.05);
+        const double luminance = luminanceOf(colour);
+        return (std::max(luminance, panel) + 0.05) / (std::min(luminance, panel) + 0.05);
     };
-    while (contrast() < least)
+    while (contrast() < minContrast)
         colour = colour.interpolatedWith(isLight ? juce::Colours::black : juce::Colours::white, 0.04f);
     return colour;
 }
@@ -77,13 +77,13 @@ void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, cons
     g.setColour(shade(slider, Shade::raised));
     g.fillRoundedRectangle(x - 2.0f, area.getY(), 4.0f, area.getHeight(), 2.0f);
     const auto cap = juce::Rectangle<float>{26.0f, 15.0f}.withCentre({x, place});
-    g.setColour(shade(slider, Shade::ground));
+    g.setColour(shade(slider, Shade::background));
     g.fillRoundedRectangle(cap.expanded(1.5f), 4.5f);
     const auto colour = shade(slider, Shade::text)
                             .interpolatedWith(shade(slider, Shade::panel), slider.isEnabled() ? 0.18f : 0.6f);
     g.setColour(colour);
     g.fillRoundedRectangle(cap, 3.5f);
-    g.setColour(shade(slider, Shade::ground).withAlpha(0.75f));
+    g.setColour(shade(slider, Shade::background).withAlpha(0.75f));
     g.fillRect(cap.withSizeKeepingCentre(18.0f, 1.5f));
 }
 
@@ -108,12 +108,12 @@ juce::Colour shade(const juce::Component& component, Shade which) {
     return component.findColour(idOf(which));
 }
 
-juce::Colour enchanterColour(const juce::Component& component, int index) {
-    using All = std::array<juce::Colour, limits::maxEnchanters>;
+juce::Colour actuatorColour(const juce::Component& component, int index) {
+    using All = std::array<juce::Colour, limits::maxActuators>;
     const auto made = [](Theme theme) {
         All all;
-        for (int j = 0; j < limits::maxEnchanters; ++j)
-            all[static_cast<std::size_t>(j)] = readableEnchanter(theme, j);
+        for (int j = 0; j < limits::maxActuators; ++j)
+            all[static_cast<std::size_t>(j)] = readableActuatorColour(theme, j);
         return all;
     };
     static const All dark = made(Theme::dark), light = made(Theme::light);
@@ -198,7 +198,7 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
     const auto area = getLabelBorderSize(label).subtractedFrom(label.getLocalBounds());
     const int lines =
         std::max(1, static_cast<int>(static_cast<float>(area.getHeight()) / getLabelFont(label).getHeight()));
-    const int high = text::high(getLabelFont(label), label.getText(), area.getWidth());
+    const int high = text::heightInLines(getLabelFont(label), label.getText(), area.getWidth());
     if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting sometimes uses too few lines
         juce::AttributedString words;
         words.append(label.getText(), getLabelFont(label), label.findColour(juce::Label::textColourId));

@@ -20,10 +20,10 @@ inline const juce::Colour ground = juceColour(picture::palette::ground),
                           line = juceColour(picture::palette::line),
                           text = juceColour(picture::palette::text),
                           muted = juceColour(picture::palette::muted),
-                          now = juceColour(picture::palette::now),
+                          highlight = juceColour(picture::palette::highlight),
                           limit = juceColour(picture::palette::limit),
                           camera = juceColour(picture::palette::camera),
-                          other = juceColour(picture::palette::other);
+                          grey = juceColour(picture::palette::grey);
 
 using Argb = juce::uint32;
 using picture::palette::materialCount;
@@ -39,7 +39,7 @@ inline juce::Colour ramp(int index) { return juceColour(picture::palette::ramp(i
 namespace physvib::readable {
 
 /// number() as a JUCE string. Any thread.
-inline juce::String words(double value, int decimals) {
+inline juce::String numberString(double value, int decimals) {
     return juce::String::fromUTF8(number(value, decimals).c_str());
 }
 
@@ -47,14 +47,26 @@ inline juce::String words(double value, int decimals) {
 namespace physvib {
 
 /// Colours of all components, except those of actuators and materials. Read them with shade().
-enum class Shade { ground, panel, raised, well, line, text, muted, now, limit, camera, accent };
+enum class Shade {
+    background,
+    panel,
+    raised,
+    well,
+    line,
+    text,
+    muted,
+    highlight,
+    limit,
+    hapticSource,
+    accent
+};
 
 enum class Theme { dark, light };
 
 JUCE_BEGIN_IGNORE_WARNINGS_GCC_LIKE("-Wdeprecated-declarations") // deprecated in JUCE 8 and 9
 /// Area of a display, and the area without the system's bars. M.
-inline juce::Rectangle<int> wholeOf(const juce::Displays::Display& display) { return display.totalArea; }
-inline juce::Rectangle<int> usableOf(const juce::Displays::Display& display) { return display.userArea; }
+inline juce::Rectangle<int> totalAreaOf(const juce::Displays::Display& display) { return display.totalArea; }
+inline juce::Rectangle<int> userAreaOf(const juce::Displays::Display& display) { return display.userArea; }
 
 /// Heights of text in pixels; all text has one of these.
 namespace text {
@@ -74,16 +86,16 @@ inline float width(const juce::Font& font, const juce::String& words) {
 }
 
 /// Width of `words` in whole pixels, rounded up. M.
-inline int pixels(const juce::Font& font, const juce::String& words) {
+inline int pixelWidth(const juce::Font& font, const juce::String& words) {
     return static_cast<int>(std::ceil(width(font, words)));
 }
 
 /// Height in pixels of `words` in lines of that width. M.
-inline int high(const juce::Font& font, const juce::String& words, int width) {
-    juce::AttributedString said{words};
-    said.setFont(font);
+inline int heightInLines(const juce::Font& font, const juce::String& words, int width) {
+    juce::AttributedString attributed{words};
+    attributed.setFont(font);
     juce::TextLayout lines;
-    lines.createLayout(said, static_cast<float>(width));
+    lines.createLayout(attributed, static_cast<float>(width));
     return static_cast<int>(std::ceil(lines.getHeight()));
 }
 } // namespace text
@@ -92,7 +104,7 @@ inline int high(const juce::Font& font, const juce::String& words, int width) {
 juce::Colour shade(const juce::Component& component, Shade which);
 
 /// The colour of an actuator, darkened on a light background so that text in it is readable. M.
-juce::Colour enchanterColour(const juce::Component& component, int index);
+juce::Colour actuatorColour(const juce::Component& component, int index);
 
 /// Property of red stop buttons; see juce::Component::getProperties.
 inline const juce::Identifier stopProperty{"physvib-stop"};
@@ -109,21 +121,21 @@ inline const juce::Identifier iconProperty{"physvib-icon"};
 
 /// Sets a displayed value, and repaints the component if it has changed. M.
 template <class T>
-void setShown(juce::Component& component, T& shown, const T& value) {
+void setAndRepaint(juce::Component& component, T& shown, const T& value) {
     if (std::exchange(shown, value) != value) component.repaint();
 }
 
 /// Text that is only read, also by screen readers. M.
-class ReadOut : public juce::Component {
+class ReadOnlyText : public juce::Component {
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
         return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
     }
 };
 
 /// Tooltips, with a short delay for icons. M.
-class Tips final : public juce::TooltipWindow {
+class TooltipHost final : public juce::TooltipWindow {
 public:
-    explicit Tips(juce::Component& parent)
+    explicit TooltipHost(juce::Component& parent)
         : TooltipWindow{&parent} {}
     juce::String getTipFor(juce::Component& c) override {
         setMillisecondsBeforeTipAppears(c.getProperties().contains(iconProperty) ? 100 : 700);

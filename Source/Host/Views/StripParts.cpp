@@ -15,17 +15,17 @@ void fillMeter(juce::Graphics& g, const juce::Component& meter) {
 }
 } // namespace
 
-void Fader::setUp(double least, double most, const juce::String& title, double byDefault) {
+void Fader::configure(double minDb, double maxDb, const juce::String& title, double defaultDb) {
     setSliderStyle(LinearVertical);
     setSliderSnapsToMousePosition(false);
     setTextBoxStyle(NoTextBox, true, 0, 0);
     getProperties().set(faderProperty, true);
-    setRange(least, most, 0.1);
+    setRange(minDb, maxDb, 0.1);
     setSkewFactorFromMidPoint(-15.0);
     setTitle(title);
-    setDoubleClickReturnValue(true, byDefault);
+    setDoubleClickReturnValue(true, defaultDb);
     textFromValueFunction = [](double db) {
-        return db <= leastStripDb ? juce::String{"silent"} : readable::words(db, 1) + " dB";
+        return db <= minStripDb ? juce::String{"silent"} : readable::numberString(db, 1) + " dB";
     };
     setPopupDisplayEnabled(true, true, nullptr);
     setWantsKeyboardFocus(true);
@@ -38,29 +38,29 @@ void Fader::resized() {
     setMouseDragSensitivity(std::max(1, length - margins)); // the handle follows the pointer
 }
 
-void drawScale(juce::Graphics& g, const Fader& fader, int right) {
-    constexpr int figure = 20, least = 10; // pixels
+void drawFaderScale(juce::Graphics& g, const Fader& fader, int right) {
+    constexpr int figureWidth = 20, minSpacing = 10; // pixels
     const int x = fader.getBounds().getCentreX() + 4;
-    const bool hasFigures = x + 12 + figure <= right;
+    const bool hasFigures = x + 12 + figureWidth <= right;
     g.setFont(text::font(11.0f));
-    for (int last = -least; const int db : {6, 0, -6, -12, -24, -40}) {
+    for (int last = -minSpacing; const int db : {6, 0, -6, -12, -24, -40}) {
         if (db > fader.getMaximum()) continue;
         const int y = fader.getY() + juce::roundToInt(fader.getPositionOfValue(db));
         g.setColour(shade(fader, db == 0 ? Shade::text : Shade::muted));
         g.fillRect(x, y, db == 0 ? 9 : 6, 1);
-        if (!hasFigures || y - last < least) continue;
+        if (!hasFigures || y - last < minSpacing) continue;
         last = y;
-        g.drawText((db > 0 ? "+" : "") + readable::words(db, 0), x + 12, y - 7, figure, 14,
+        g.drawText((db > 0 ? "+" : "") + readable::numberString(db, 0), x + 12, y - 7, figureWidth, 14,
                    juce::Justification::centredLeft, false);
     }
 }
 
 void PeakMeter::set(float peak, float hold) {
-    const float height = meterHeight(peak), held = meterHeight(hold);
-    if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
+    const float height = meterHeight(peak), holdHeight = meterHeight(hold);
+    if (std::abs(height - peak_) < 0.004f && std::abs(holdHeight - hold_) < 0.004f) return;
     peak_ = height;
-    hold_ = held;
-    setDescription(peak > 0.001f ? readable::words(juce::Decibels::gainToDecibels(peak), 0) + " dB"
+    hold_ = holdHeight;
+    setDescription(peak > 0.001f ? readable::numberString(juce::Decibels::gainToDecibels(peak), 0) + " dB"
                                  : juce::String{"silent"});
     repaint();
 }
@@ -74,7 +74,7 @@ void PeakMeter::paint(juce::Graphics& g) {
         juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(),
                                   false};
         ramp.addColour(0.6, green);
-        ramp.addColour(0.85, palette::now);
+        ramp.addColour(0.85, palette::highlight);
         g.setGradientFill(ramp);
         g.fillRoundedRectangle(lit, 3.0f);
     }
@@ -100,12 +100,12 @@ void LimiterBar::paint(juce::Graphics& g) {
                            3.0f);
 }
 
-static_assert(leastCeilingDb == meterFloorDb, "the handle moves along the whole meter");
+static_assert(minCeilingDb == meterFloorDb, "the handle moves along the whole meter");
 
 CeilingHandle::CeilingHandle(const juce::String& label) {
     setSliderStyle(LinearVertical);
     setTextBoxStyle(NoTextBox, true, 0, 0);
-    setRange(leastCeilingDb, 0.0, 0.5);
+    setRange(minCeilingDb, 0.0, 0.5);
     setSliderSnapsToMousePosition(false);
     setScrollWheelEnabled(false);
     setDoubleClickReturnValue(false, 0.0);
@@ -118,49 +118,49 @@ CeilingHandle::CeilingHandle(const juce::String& label) {
 void CeilingHandle::placeOver(juce::Rectangle<int> meter) {
     const int thumb = getLookAndFeel().getSliderThumbRadius(*this); // JUCE keeps this margin at both ends
     setMouseDragSensitivity(std::max(1, meter.getHeight()));        // the mark follows the pointer
-    setBounds(meter.withLeft(meter.getX() - room).expanded(0, thumb));
+    setBounds(meter.withLeft(meter.getX() - markWidth).expanded(0, thumb));
 }
 
 void CeilingHandle::paint(juce::Graphics& g) {
     const auto y = getPositionOfValue(getValue());
     juce::Path mark;
-    mark.addTriangle(0.0f, y - 5.0f, 0.0f, y + 5.0f, static_cast<float>(room) - 2.0f, y);
+    mark.addTriangle(0.0f, y - 5.0f, 0.0f, y + 5.0f, static_cast<float>(markWidth) - 2.0f, y);
     g.setColour(shade(*this, Shade::limit));
     g.fillPath(mark);
-    g.fillRect(static_cast<float>(room) - 1.0f, y - 0.75f, static_cast<float>(getWidth() - room) + 1.0f,
-               1.5f);
+    g.fillRect(static_cast<float>(markWidth) - 1.0f, y - 0.75f,
+               static_cast<float>(getWidth() - markWidth) + 1.0f, 1.5f);
 }
 
 StripParts::StripParts(const juce::String& label)
     : meter_{"Level of " + label}
     , ceiling_{label} {
     setTitle("Strip " + label);
-    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
+    fader_.configure(minStripDb, maxStripDb, "Gain of " + label);
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
-                            bool Strip::*what) {
+                            bool Strip::*flag) {
         button.setTitle(name + " " + label);
         button.setTooltip(name);
         button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
-        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+        button.onClick = [this, flag, name] { change(name, [flag](Strip& s) { s.*flag = !(s.*flag); }); };
     };
     toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
-    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
+    toggle(solo_, "Solo", palette::highlight, &Strip::isSolo);
     toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
     delay_.setTitle("Delay of " + label);
-    delay_.onClick = [this] { askDelay(); };
+    delay_.onClick = [this] { showDelayMenu(); };
     level_.setTitle("Level of " + label + " in g");
     level_.setFont(text::font(text::small, juce::Font::bold));
     level_.setJustificationType(juce::Justification::centredRight);
     level_.setBorderSize({0, 0, 0, 0});
-    most_.setTitle("Ceiling of " + label + " in g");
-    most_.setFont(text::font(text::small));
-    most_.setBorderSize({0, 4, 0, 0});
+    ceilingLabel_.setTitle("Ceiling of " + label + " in g");
+    ceilingLabel_.setFont(text::font(text::small));
+    ceilingLabel_.setBorderSize({0, 4, 0, 0});
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &mute_, &solo_, &polarity_, &meter_, &fader_, &ceiling_, &delay_, &level_, &most_})
+             &mute_, &solo_, &polarity_, &meter_, &fader_, &ceiling_, &delay_, &level_, &ceilingLabel_})
         addAndMakeVisible(c);
 }
 
-void StripParts::show(const Strip& strip, double mostG) {
+void StripParts::show(const Strip& strip, double ceilingG) {
     constexpr auto quietly = juce::dontSendNotification;
     if (!fader_.isMouseButtonDown()) fader_.setValue(strip.gainDb, quietly);
     if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(strip.ceilingDb, quietly);
@@ -168,22 +168,22 @@ void StripParts::show(const Strip& strip, double mostG) {
     solo_.setToggleState(strip.isSolo, quietly);
     polarity_.setToggleState(strip.isInverted, quietly);
     delayMs_ = strip.delayMs;
-    delay_.setButtonText(delayMs_ > 0.0 ? readable::words(delayMs_, delayMs_ < 1.0 ? 1 : 0)
+    delay_.setButtonText(delayMs_ > 0.0 ? readable::numberString(delayMs_, delayMs_ < 1.0 ? 1 : 0)
                                         : juce::String{"ms"});
     delay_.setToggleState(delayMs_ > 0.0, quietly);
-    delay_.setTooltip("Delay: " + readable::words(delayMs_, 1) + " ms");
-    most_.setText("/ " + inG(mostG) + " g", quietly);
-    most_.setTooltip("Ceiling: " + readable::words(strip.ceilingDb, 1) + " dB of full scale");
-    most_.setColour(juce::Label::textColourId,
-                    shade(*this, strip.ceilingDb < 0.0 ? Shade::text : Shade::muted));
+    delay_.setTooltip("Delay: " + readable::numberString(delayMs_, 1) + " ms");
+    ceilingLabel_.setText("/ " + gText(ceilingG) + " g", quietly);
+    ceilingLabel_.setTooltip("Ceiling: " + readable::numberString(strip.ceilingDb, 1) + " dB of full scale");
+    ceilingLabel_.setColour(juce::Label::textColourId,
+                            shade(*this, strip.ceilingDb < 0.0 ? Shade::text : Shade::muted));
     repaint();
 }
 
-void StripParts::askDelay() {
+void StripParts::showDelayMenu() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Delay");
     for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-        menu.addItem(readable::words(ms, ms == 0.5 ? 1 : 0) + " ms", true, delayMs_ == ms,
+        menu.addItem(readable::numberString(ms, ms == 0.5 ? 1 : 0) + " ms", true, delayMs_ == ms,
                      [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
@@ -192,7 +192,7 @@ void StripParts::askDelay() {
 void StripParts::place(juce::Rectangle<int> area, int left, bool areBeside) {
     auto row = area.removeFromBottom(18);
     level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
-    most_.setBounds(row);
+    ceilingLabel_.setBounds(row);
     row = area.removeFromBottom(areBeside ? 0 : 24);
     area.removeFromBottom(8);
     constexpr int column = 24, figuresEnd = 103;
@@ -208,17 +208,17 @@ void StripParts::place(juce::Rectangle<int> area, int left, bool areBeside) {
     fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
 }
 
-void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& name, const juce::String& why) {
+void StripParts::paint(juce::Graphics& g, int actuator, const juce::String& name, const juce::String& why) {
     const bool isQuiet = why.isNotEmpty();
     auto row = getLocalBounds();
-    g.setColour(enchanterColour(*this, enchanter).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
+    g.setColour(actuatorColour(*this, actuator).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
     g.fillRoundedRectangle(row.removeFromTop(4).toFloat(), 2.0f);
     row = row.withTrimmedTop(4).removeFromTop(20);
     const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
     const double gainDb = fader_.getValue();
     const auto gain = isQuiet ? why : gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
     constexpr int between = 5;
-    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
+    const int gainWidth = text::pixelWidth(plain, gain) + between, nameWidth = text::pixelWidth(bold, name);
     if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
         row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
         g.setColour(shade(*this, Shade::muted));
@@ -228,13 +228,14 @@ void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& nam
     g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
     g.setFont(bold);
     g.drawText(name, row, juce::Justification::centred, true);
-    drawScale(g, fader_, mute_.getY() < fader_.getBottom() ? mute_.getX() : getWidth());
+    drawFaderScale(g, fader_, mute_.getY() < fader_.getBottom() ? mute_.getX() : getWidth());
     g.setColour(shade(*this, Shade::muted));
     g.setFont(text::font(11.0f));
     const auto bar = meter_.getBounds().toFloat();
     for (const int db : {0, -20, -40, -60}) {
         const float y = bar.getY() + bar.getHeight() * static_cast<float>(db) / meterFloorDb;
-        g.drawText(readable::words(db, 0), juce::Rectangle{bar.getRight() + 4.0f, y - 7.0f, 24.0f, 14.0f},
+        g.drawText(readable::numberString(db, 0),
+                   juce::Rectangle{bar.getRight() + 4.0f, y - 7.0f, 24.0f, 14.0f},
                    juce::Justification::centredLeft, false);
     }
 }

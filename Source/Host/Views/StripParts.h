@@ -17,7 +17,7 @@ inline float meterHeight(float peak) {
 }
 
 /// A bar from -60 dB to full scale, with a peak-hold mark.
-class PeakMeter final : public ReadOut {
+class PeakMeter final : public ReadOnlyText {
 public:
     explicit PeakMeter(const juce::String& title) { setTitle(title); }
     void set(float peak, float hold);
@@ -27,13 +27,13 @@ private:
     float peak_ = 0.0f, hold_ = 0.0f; // as heights of the meter
 };
 
-/// How much the limiter holds back, or the guard, if that is more: a bar that grows downwards to 20 dB. M.
+/// Gain reduction of the limiter, or of the guard if that is more: a bar that grows down to 20 dB. M.
 class LimiterBar final : public juce::Component {
 public:
-    bool set(float limiterGain, float guardGain); ///< true: the display has changed
+    bool set(float limiterGain, float guardGain); ///< gains, 0 to 1; returns true if the display has changed
     bool isHolding() const noexcept { return db_ < -0.05f; }
     bool isGuard() const noexcept { return isGuard_; }
-    juce::String decibels() const { return readable::words(isHolding() ? db_ : 0.0, 1); }
+    juce::String decibels() const { return readable::numberString(isHolding() ? db_ : 0.0, 1); }
     void paint(juce::Graphics& g) override;
 
 private:
@@ -41,19 +41,19 @@ private:
     bool isGuard_ = false;
 };
 
-/// A fader in dB; its lowest position is silence. It goes where it is dragged, not where it is clicked, since
-/// hands may be on the actuators; a double click gives the default.
+/// A fader in dB; its lowest position is silence. A click does not move it, only a drag, since hands may be
+/// on the actuators; a double click sets the default.
 class Fader final : public juce::Slider {
 public:
     /// Sets range and default in dB, and the title. M.
-    void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
+    void configure(double minDb, double maxDb, const juce::String& title, double defaultDb = 0.0);
     /// Makes it a plain horizontal slider. M.
-    void lieDown() { setSliderStyle(LinearHorizontal), getProperties().remove(faderProperty); }
+    void setHorizontal() { setSliderStyle(LinearHorizontal), getProperties().remove(faderProperty); }
     void resized() override;
 };
 
-/// The fader's own marks right of its groove, in its parent, with figures if there is room up to `right`. M.
-void drawScale(juce::Graphics& g, const Fader& fader, int right);
+/// Draws the fader's marks in its parent, right of the groove, with figures if there is room to `right`. M.
+void drawFaderScale(juce::Graphics& g, const Fader& fader, int right);
 
 /// Slider for the ceiling of a strip, the highest level of its actuator, in dB of full scale. It only reacts
 /// to dragging: a click, a double click or the wheel could raise the limit by accident while the actuator
@@ -66,33 +66,33 @@ public:
     void paint(juce::Graphics& g) override;
 
 private:
-    static constexpr int room = 10; // space left of the meter, for the mark
+    static constexpr int markWidth = 10; // space left of the meter, for the mark
 };
 
-/// A level as strips show it, without its unit.
-inline juce::String inG(double g) { return readable::words(g, g < 9.995 ? 2 : 1); }
+/// A level in g as strips show it, without the unit.
+inline juce::String gText(double g) { return readable::numberString(g, g < 9.995 ? 2 : 1); }
 
-/// What strips of the mixer and of the plug-in have in common. M only.
+/// The common parts of the mixer's and the plug-in's channel strips. M only.
 class StripParts : public juce::Component {
 protected:
     explicit StripParts(const juce::String& label);
-    virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
-    void show(const Strip& strip, double mostG);
+    virtual void change(const juce::String& name, const std::function<void(Strip&)>& edit) = 0;
+    void show(const Strip& strip, double ceilingG);
     /// Places meter and fader from `left` on, above the figures. The buttons lie between them, or with
     /// `areBeside` in a column, which makes the fader longer.
     void place(juce::Rectangle<int> area, int left, bool areBeside = false);
-    /// The fader's gain, or `why` it plays nothing, stands beside the name, unless it is 0 dB or the name
-    /// needs the room; the meter's scale is right of the meter.
-    void paint(juce::Graphics& g, int enchanter, const juce::String& name, const juce::String& why);
+    /// Draws the name and beside it, if there is room, the fader's gain unless it is 0 dB, or `why` the strip
+    /// is silent; and the meter's scale.
+    void paint(juce::Graphics& g, int actuator, const juce::String& name, const juce::String& why);
 
     PeakMeter meter_;
     Fader fader_;
     CeilingHandle ceiling_;
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
-    juce::Label level_, most_; // in g
+    juce::Label level_, ceilingLabel_; // in g
 
 private:
-    void askDelay();
+    void showDelayMenu();
     double delayMs_ = 0.0;
 };
 

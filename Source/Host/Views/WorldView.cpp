@@ -2,7 +2,7 @@
 // Draws the world fast enough for a software renderer: only plain paths and gradients, no blur.
 #include "Host/Views/WorldView.h"
 #include "Pictures/ShapeOutline.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <algorithm>
 #include <cmath>
 #include <juce_audio_basics/juce_audio_basics.h>
@@ -11,16 +11,16 @@
 namespace physvib {
 namespace {
 
-constexpr double hitMs = 450.0;         // how long a hit glows
-constexpr std::size_t maxHits = 48;     // simultaneous; more would only glare
-constexpr std::size_t maxTraces = 400;  // for 30 sliding pairs
-constexpr double leastGain = 0.02;      // with less, an actuator plays no hit
-constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
-constexpr float lowBadge = 24.0f;       // has small text
-constexpr float minSpokePixels = 4.0f;  // radius of a circle whose rotation is seen
-constexpr std::size_t manyBodies = 200; // small circles among them are drawn quickly
+constexpr double hitMs = 450.0;              // how long a hit glows
+constexpr std::size_t maxHits = 48;          // glowing at the same time; more would only glare
+constexpr std::size_t maxTraces = 400;       // enough for 30 sliding pairs
+constexpr double minShownGain = 0.02;        // an actuator with a smaller gain counts as silent
+constexpr float wallPixels = 11.0f;          // bodies around the field are drawn as a frame of this width
+constexpr float minMediumTextHeight = 24.0f; // lower badges have small text
+constexpr float minSpokePixels = 4.0f;       // radius of a circle whose rotation is seen
+constexpr std::size_t quickDrawBodies = 200; // with more bodies, small circles are drawn from cached pictures
 
-float levelOf(double amplitude) {
+float glowLevel(double amplitude) {
     return juce::jlimit(
         0.12f, 1.0f,
         1.0f + static_cast<float>(juce::Decibels::gainToDecibels(std::abs(amplitude), -50.0)) / 50.0f);
@@ -34,8 +34,7 @@ bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
 }
 
 /// Gain of an actuator at each place of the field, as opacity of the colour.
-juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width,
-                      int height) {
+juce::Image gainImage(const PhantomPanner& panner, int actuator, juce::Colour colour, int width, int height) {
     juce::Image image{juce::Image::ARGB, std::max(1, width), std::max(1, height), true};
     PhantomPanner::Gains gains{};
     juce::Image::BitmapData pixels{image, juce::Image::BitmapData::writeOnly};
@@ -44,7 +43,7 @@ juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour c
             panner.gainsAt((x + 0.5) / image.getWidth() * panner.fieldWidthMetres(),
                            (1.0 - (y + 0.5) / image.getHeight()) * panner.fieldHeightMetres(), gains);
             const auto share =
-                static_cast<float>(juce::jlimit(0.0, 1.0, gains[static_cast<std::size_t>(enchanter)]));
+                static_cast<float>(juce::jlimit(0.0, 1.0, gains[static_cast<std::size_t>(actuator)]));
             pixels.setPixelColour(x, y, colour.withAlpha(0.75f * share));
         }
     return image;
@@ -63,55 +62,58 @@ void WorldView::show(const Scene& scene) {
     const bool isNew =
         scene.name != scene_.name || !std::ranges::equal(scene.bodies, scene_.bodies, isOfName);
     scene_ = scene;
-    cast_ = sceneCast(scene_);
-    scripted_ = scriptedCast(scene_).size();
+    bodies_ = allBodies(scene_);
+    firstInputBody_ = scriptedBodies(scene_).size();
     followInputs();
     if (isNew) {
-        ahead_.clear();
+        pendingPoses_.clear();
         hits_.clear();
         traces_.clear();
         grip_.body = -1; // the index may now denote another body
-        if (std::ranges::find(cast_, grip_.held, &BodyDescription::name) == cast_.end()) grip_.held.clear();
+        if (std::ranges::find(bodies_, grip_.held, &BodyDescription::name) == bodies_.end())
+            grip_.held.clear();
     }
     repaint();
 }
 
 void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted,
-                     std::vector<bool> without) {
+                     std::vector<bool> withoutOutput) {
     layout_ = layout;
     panner_ = panner;
     muted_ = std::move(muted);
-    without_ = std::move(without);
-    gains_ = {};
+    withoutOutput_ = std::move(withoutOutput);
+    gainMap_ = {};
     badges_.clear();
     repaint();
 }
 
-void WorldView::showGainsOf(int enchanter) {
-    if (enchanter == shownGains_) return;
-    shownGains_ = enchanter;
-    gains_ = {};
+void WorldView::showGainMap(int actuator) {
+    if (actuator == gainMapActuator_) return;
+    gainMapActuator_ = actuator;
+    gainMap_ = {};
     repaint();
 }
 
-void WorldView::update(WorldMoment moment) {
-    if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new scene run
-    const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
-    if (!moment.poses.empty()) ahead_.push_back({moment.sessionNs, std::move(moment.poses)});
-    while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
-    bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() ||
-                   (!ahead_.empty() && !isSame(before, ahead_.front().poses));
+void WorldView::update(WorldFrame moment) {
+    if (!pendingPoses_.empty() && moment.sessionNs < pendingPoses_.back().timeNs)
+        pendingPoses_.clear(); // a new scene run
+    const auto before = pendingPoses_.empty() ? std::vector<BodyPose>{} : pendingPoses_.front().poses;
+    if (!moment.poses.empty()) pendingPoses_.push_back({moment.sessionNs, std::move(moment.poses)});
+    while (pendingPoses_.size() > 1 && pendingPoses_[1].timeNs + moment.aheadNs <= moment.sessionNs)
+        pendingPoses_.pop_front();
+    bool hasChanged = !hits_.empty() || !traces_.empty() || !moment.hits.empty() ||
+                      (!pendingPoses_.empty() && !isSame(before, pendingPoses_.front().poses));
     const double now = nowMs_ = moment.nowMs;
-    for (const auto& event : moment.hits) addHit(event, now, moment.isFelt);
+    for (const auto& event : moment.hits) addContact(event, now, moment.isFelt);
     while (!hits_.empty() && (hits_.size() > maxHits || now - hits_.front().shownAtMs > hitMs))
         hits_.pop_front();
     while (!traces_.empty() && (traces_.size() > maxTraces || now - traces_.front().shownAtMs > hitMs))
         traces_.pop_front();
     for (std::size_t j = 0; j < std::min(moment.peaks.size(), peaks_.size()); ++j) {
-        isOther = isOther || std::abs(std::sqrt(peaks_[j]) - std::sqrt(moment.peaks[j])) > 0.01f;
-        if (isOther) peaks_[j] = moment.peaks[j];
+        hasChanged = hasChanged || std::abs(std::sqrt(peaks_[j]) - std::sqrt(moment.peaks[j])) > 0.01f;
+        if (hasChanged) peaks_[j] = moment.peaks[j];
     }
-    if (isOther) repaint();
+    if (hasChanged) repaint();
 }
 
 juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
@@ -119,21 +121,21 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
         if (scene_.materials[i].frequencyHz == event.frequencyHz &&
             scene_.materials[i].decayPerSecond == event.decayPerSecond)
             return palette::material(scene_.materials, static_cast<int>(i));
-    return palette::other;
+    return palette::grey;
 }
 
-juce::Rectangle<float> WorldView::roomOfField() const {
-    return room_.subtractedFrom(getLocalBounds()).reduced(margin_, std::max(0, margin_ - 6)).toFloat();
+juce::Rectangle<float> WorldView::fieldArea() const {
+    return padding_.subtractedFrom(getLocalBounds()).reduced(margin_, std::max(0, margin_ - 6)).toFloat();
 }
 
 float WorldView::fittingPixelsPerMetre() const {
-    const auto room = roomOfField();
+    const auto room = fieldArea();
     return std::min(room.getWidth() / static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)),
                     room.getHeight() / static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6)));
 }
 
-WorldView::Map WorldView::map() const {
-    const auto room = roomOfField();
+WorldView::FieldTransform WorldView::map() const {
+    const auto room = fieldArea();
     const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)),
                height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
     const float scale =
@@ -144,75 +146,76 @@ WorldView::Map WorldView::map() const {
 
 // Inputs that remove or replace bodies; bodies that the script spawns may appear again.
 void WorldView::followInputs() {
-    fates_.assign(cast_.size(), {});
-    std::size_t next = scripted_;
+    bodyStates_.assign(bodies_.size(), {});
+    std::size_t next = firstInputBody_;
     for (const LiveInput& input : scene_.inputs) {
-        const BodyDescription* put = bodyPutBy(input.action);
+        const BodyDescription* added = bodyAddedBy(input.action);
         const auto* removal = std::get_if<RemoveAction>(&input.action);
-        if (put == nullptr && removal == nullptr) continue;
-        const std::string& name = put ? put->name : removal->body;
+        if (added == nullptr && removal == nullptr) continue;
+        const std::string& name = added ? added->name : removal->body;
         for (std::size_t i = next; i-- > 0;)
-            if (cast_[i].name == name) {
+            if (bodies_[i].name == name) {
                 const auto* change = std::get_if<ChangeAction>(&input.action);
-                if (change != nullptr && change->stays && !fates_[i].isGone)
-                    fates_[next].before = static_cast<int>(i);
-                if (i < scene_.bodies.size() || i >= scripted_) fates_[i].isGone = true;
+                if (change != nullptr && change->stays && !bodyStates_[i].isGone)
+                    bodyStates_[next].replaced = static_cast<int>(i);
+                if (i < scene_.bodies.size() || i >= firstInputBody_) bodyStates_[i].isGone = true;
                 break;
             }
-        if (put != nullptr) ++next;
+        if (added != nullptr) ++next;
     }
 }
 
 // The pose in the world, or the start pose of a body that has not appeared yet.
 BodyPose WorldView::poseBefore(std::size_t body) const {
-    if (!ahead_.empty() && body < ahead_.front().poses.size()) return ahead_.front().poses[body];
-    if (const int before = fates_[body].before; before >= 0)
+    if (!pendingPoses_.empty() && body < pendingPoses_.front().poses.size())
+        return pendingPoses_.front().poses[body];
+    if (const int before = bodyStates_[body].replaced; before >= 0)
         if (const BodyPose pose = poseBefore(static_cast<std::size_t>(before)); pose.isPresent) return pose;
-    const auto& b = cast_[body];
+    const auto& b = bodies_[body];
     return {b.positionMetres.x, b.positionMetres.y, b.angleRadians,
-            body < scene_.bodies.size() || body >= scripted_};
+            body < scene_.bodies.size() || body >= firstInputBody_};
 }
 
 BodyPose WorldView::poseOf(std::size_t body) const {
     BodyPose pose = poseBefore(body);
-    pose.isPresent = pose.isPresent && !fates_[body].isGone;
+    pose.isPresent = pose.isPresent && !bodyStates_[body].isGone;
     return pose;
 }
 
-juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const Map& at) const {
+juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const FieldTransform& at) const {
     return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians))
         .translated(at.at(pose.xMetres, pose.yMetres));
 }
 
 juce::AffineTransform WorldView::placeOf(const FixtureDescription& fixture, const BodyPose& pose,
-                                         const Map& at) const {
+                                         const FieldTransform& at) const {
     return juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
         .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre,
                     static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
         .followedBy(placeOf(pose, at));
 }
 
-juce::Point<float> WorldView::placeOfEnchanter(int enchanter) const {
+juce::Point<float> WorldView::actuatorPixel(int actuator) const {
     const auto& layout = layout_.geometry;
-    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    const auto& place = layout.places[static_cast<std::size_t>(actuator)];
     return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres,
                     place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
 }
 
-juce::Point<float> WorldView::placeOfShare(FieldShare at) const {
+juce::Point<float> WorldView::pixelOfShare(FieldShare at) const {
     return map().at(at.x * scene_.fieldWidthMetres, at.y * scene_.fieldHeightMetres);
 }
 
-juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
-    for (std::size_t i = 0; i < cast_.size(); ++i)
-        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent)
+juce::Point<float> WorldView::pixelOfBody(const std::string& name) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (const auto pose = poseOf(i); bodies_[i].name == name && pose.isPresent)
             return map().at(pose.xMetres, pose.yMetres);
     return {-1e4f, -1e4f};
 }
 
 std::optional<BodyPose> WorldView::poseOfBody(const std::string& name) const {
-    for (std::size_t i = cast_.size(); i-- > 0;)
-        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return pose;
+    for (std::size_t i = bodies_.size(); i-- > 0;)
+        if (const auto pose = poseOf(i); bodies_[i].name == name && pose.isPresent) return pose;
     return std::nullopt;
 }
 
@@ -222,12 +225,12 @@ Vector WorldView::metresAt(juce::Point<float> place) const {
             static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
 }
 
-juce::String WorldView::labelOf(int enchanter) const {
-    return juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str());
+juce::String WorldView::labelOf(int actuator) const {
+    return juce::String::fromUTF8(layout_.actuators[static_cast<std::size_t>(actuator)].label.c_str());
 }
 
 juce::Font WorldView::badgeFont() const {
-    const bool isLow = !badges_.empty() && badges_.front().getHeight() < lowBadge;
+    const bool isLow = !badges_.empty() && badges_.front().getHeight() < minMediumTextHeight;
     return text::font(isLow ? text::small : text::medium, juce::Font::bold);
 }
 
@@ -236,14 +239,14 @@ const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
     const auto count = static_cast<std::size_t>(layout_.geometry.count);
     if (badges_.size() == count && field == badgesIn_) return badges_;
     std::vector<juce::Point<float>> places;
-    for (int j = 0; j < layout_.geometry.count; ++j) places.push_back(placeOfEnchanter(j));
+    for (int j = 0; j < layout_.geometry.count; ++j) places.push_back(actuatorPixel(j));
     badgesIn_ = field;
     badges_.clear();
     for (int pass = 0; pass < 2; ++pass) { // the second with the text that fits the height
         std::vector<float> widths;
         for (int j = 0; j < layout_.geometry.count; ++j)
             widths.push_back(text::width(badgeFont(), labelOf(j)) + 8.0f);
-        badges_ = badgesAround(places, widths, getLocalBounds().reduced(4).toFloat());
+        badges_ = layOutBadges(places, widths, getLocalBounds().reduced(4).toFloat());
     }
     return badges_;
 }
@@ -252,11 +255,11 @@ void WorldView::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::panel));
     if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return g.fillAll();
     const auto at = map();
-    juce::RectangleList<int> around{getLocalBounds()}; // the field is filled by drawGround
+    juce::RectangleList<int> around{getLocalBounds()}; // the field is filled by drawField
     around.subtract(at.field.reduced(1.0f).toNearestInt());
     g.fillRectList(around);
     drawHalos(g);
-    drawGround(g, at);
+    drawField(g, at);
     {
         const juce::Graphics::ScopedSaveState whole{g};
         g.reduceClipRegion(at.field.expanded(wallPixels).toNearestInt());
@@ -266,20 +269,21 @@ void WorldView::paint(juce::Graphics& g) {
     drawTraces(g, at);
     drawHits(g, at);
     drawSpot(g);
-    drawEnchanters(g);
+    drawActuators(g);
     drawGrip(g);
     drawFiles(g);
 }
 
-void WorldView::drawGround(juce::Graphics& g, const Map& at) {
+void WorldView::drawField(juce::Graphics& g, const FieldTransform& at) {
     g.setColour(shade(*this, Shade::well));
     g.fillRect(at.field);
-    if (shownGains_ < 0 || shownGains_ >= layout_.geometry.count || panner_.channels() == 0) return;
+    if (gainMapActuator_ < 0 || gainMapActuator_ >= layout_.geometry.count || panner_.channels() == 0) return;
     const auto field = at.field.toNearestInt();
-    if (gains_.isNull()) // smooth enough, and fast enough while an actuator is dragged
-        gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54)
-                     .rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
-    g.drawImageAt(gains_, field.getX(), field.getY());
+    if (gainMap_.isNull()) // smooth enough, and fast enough while an actuator is dragged
+        gainMap_ =
+            gainImage(panner_, gainMapActuator_, actuatorColour(*this, gainMapActuator_), 96, 54)
+                .rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
+    g.drawImageAt(gainMap_, field.getX(), field.getY());
 }
 
 bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path,
@@ -287,8 +291,8 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     const auto index = static_cast<std::size_t>(fixture.material);
     if (!showsMaterials_ || index >= scene_.materials.size()) return false;
     const auto& material = scene_.materials[index];
-    const auto look = materialLookOf(material.name);
-    const bool isHollow = look && looksHollow(*look, material.densityKgPerSquareMetre);
+    const auto look = findMaterialLook(material.name);
+    const bool isHollow = look && isHollowDensity(*look, material.densityKgPerSquareMetre);
     if (const MaterialPicture* const picture = pictureOf(pictures_, material.name))
         return fillWithPicture(g, path, place, picture->image, isHollow), true;
     if (look) fillWithMaterial(g, path, place, *look, isHollow);
@@ -296,24 +300,25 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
 }
 
 // Draws a small plain circle from a cached picture; false: nothing was drawn.
-bool WorldView::drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
-                          double angle, const juce::AffineTransform& place, const Map& at) {
+bool WorldView::drawSmallCircle(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
+                                double angle, const juce::AffineTransform& place, const FieldTransform& at) {
     const auto* circle = std::get_if<CircleShape>(&fixture.shape);
     if (circle == nullptr || showsMaterials_) return false;
     const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
     if (r < minSpokePixels) return false; // drawn larger than it is
     const auto none = juce::Colours::transparentBlack;
-    return balls_.draw(
-        g, {r, colour, palette::well.withAlpha(0.45f), fixture.isCamera ? shade(*this, Shade::camera) : none},
-        juce::Point<float>{}.transformedBy(place), static_cast<float>(-angle));
+    return discs_.draw(g,
+                       {r, colour, palette::well.withAlpha(0.45f),
+                        fixture.isCamera ? shade(*this, Shade::hapticSource) : none},
+                       juce::Point<float>{}.transformedBy(place), static_cast<float>(-angle));
 }
 
-void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
+void WorldView::drawBodies(juce::Graphics& g, const FieldTransform& at) {
     const juce::Graphics::ScopedSaveState before{g};
-    const bool areMany = cast_.size() > manyBodies;
+    const bool areMany = bodies_.size() > quickDrawBodies;
     if (areMany) g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // whole pixels
-    for (std::size_t i = 0; i < cast_.size(); ++i) {
-        const auto& body = cast_[i];
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const auto& body = bodies_[i];
         const BodyPose pose = poseOf(i);
         if (!pose.isPresent) continue;
         for (const auto& fixture : body.fixtures) {
@@ -321,7 +326,8 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
             const auto colour =
                 palette::material(scene_.materials, fixture.material)
                     .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f);
-            if (areMany && drawSmall(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
+            if (areMany &&
+                drawSmallCircle(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
                 continue;
             const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
@@ -335,25 +341,25 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
             if (r >= minSpokePixels) { // shows the rotation
                 juce::Path spoke;
                 spoke.startNewSubPath(0.0f, 0.0f);
-                spoke.lineTo(r * BallPictures::spokeShare, 0.0f);
+                spoke.lineTo(r * DiscPictures::spokeShare, 0.0f);
                 g.setColour(palette::well.withAlpha(0.45f));
-                g.strokePath(spoke, juce::PathStrokeType{BallPictures::spokeWidth}, place);
+                g.strokePath(spoke, juce::PathStrokeType{DiscPictures::spokeWidth}, place);
             }
             if (!fixture.isCamera) continue;
-            g.setColour(shade(*this, Shade::camera));
-            g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : BallPictures::rimWidth}, place);
+            g.setColour(shade(*this, Shade::hapticSource));
+            g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : DiscPictures::rimWidth}, place);
         }
     }
 }
 
 // All grains of one update form one segment of a contact's path, which starts where the last one ended.
-void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
+void WorldView::addContact(const CollisionEvent& event, double nowMs, bool isFelt) {
     if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether an unmuted one plays it
         PhantomPanner::Gains gains{};
         panner_.gainsAt(event, gains);
         isFelt = false;
         for (int j = 0; j < panner_.channels(); ++j)
-            isFelt = isFelt || (gains[static_cast<std::size_t>(j)] >= leastGain && !isMuted(j));
+            isFelt = isFelt || (gains[static_cast<std::size_t>(j)] >= minShownGain && !isMuted(j));
     }
     if (event.source.kind == ContactKind::hit)
         return hits_.push_back({event, colourOf(event), nowMs, isFelt});
@@ -361,12 +367,12 @@ void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
         return t.source.fixture == event.source.fixture && t.source.other == event.source.other;
     };
     const auto last = std::find_if(traces_.rbegin(), traces_.rend(), isSamePair);
-    const Vector here{event.x, event.y};
+    const Vector point{event.x, event.y};
     if (last == traces_.rend() || last->shownAtMs != nowMs)
-        return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here,
+        return traces_.push_back({event.source, last == traces_.rend() ? point : last->toMetres, point,
                                   event.amplitude, colourOf(event), nowMs, isFelt});
     // the middle between the points of a two-point contact
-    last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)};
+    last->toMetres = {0.5 * (last->toMetres.x + point.x), 0.5 * (last->toMetres.y + point.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
@@ -374,10 +380,10 @@ float WorldView::ageOf(double shownAtMs) const {
     return static_cast<float>(juce::jlimit(0.0, 1.0, (nowMs_ - shownAtMs) / hitMs));
 }
 
-// Traces have a white core, as hits, and lie over the outlines that they follow. Even weak ones show.
-void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
+// Traces have a white core, as hits have, and cover the outlines that they follow; weak ones remain visible.
+void WorldView::drawTraces(juce::Graphics& g, const FieldTransform& at) const {
     for (const auto& trace : traces_) {
-        const float level = levelOf(trace.amplitude),
+        const float level = glowLevel(trace.amplitude),
                     fade = (1.0f - ageOf(trace.shownAtMs)) * (0.4f + 0.6f * level);
         juce::Path path;
         path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
@@ -387,7 +393,7 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
             g.strokePath(path, juce::PathStrokeType{1.5f});
             continue;
         }
-        const auto amber = trace.colour.interpolatedWith(shade(*this, Shade::now), 0.7f);
+        const auto amber = trace.colour.interpolatedWith(shade(*this, Shade::highlight), 0.7f);
         for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f},
                                                     {amber, 5.0f + 6.0f * level, 0.45f},
                                                     {juce::Colours::white, 1.5f + 1.5f * level, 0.9f}}) {
@@ -398,11 +404,11 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     }
 }
 
-void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
-    const auto amber = shade(*this, Shade::now);
+void WorldView::drawHits(juce::Graphics& g, const FieldTransform& at) const {
+    const auto amber = shade(*this, Shade::highlight);
     const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // needs thick lines
     for (const auto& hit : hits_) {
-        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
+        const float age = ageOf(hit.shownAtMs), level = glowLevel(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
@@ -421,9 +427,9 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
 }
 
 // Lines from the strongest current hit to each actuator; width and brightness show the actuator's gain.
-void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
+void WorldView::drawRays(juce::Graphics& g, const FieldTransform& at) const {
     const auto light = [this](const Hit& hit) {
-        return hit.isFelt ? levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)) : 0.0f;
+        return hit.isFelt ? glowLevel(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)) : 0.0f;
     };
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
@@ -432,9 +438,9 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto from = at.at(strongest->event.x, strongest->event.y);
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
-        if (gains[static_cast<std::size_t>(j)] < leastGain || isMuted(j)) continue;
+        if (gains[static_cast<std::size_t>(j)] < minShownGain || isMuted(j)) continue;
         g.setColour(
-            enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
+            actuatorColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
         g.drawLine({from, badgeAt(j).getCentre()}, 1.0f + 4.0f * gain);
     }
 }
@@ -444,7 +450,7 @@ void WorldView::drawHalos(juce::Graphics& g) const {
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         if (share > 0.03f)
             glows_.draw(g, badgeAt(j).getCentre(), 20.0f + 70.0f * share,
-                        enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
+                        actuatorColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
     }
 }
 
@@ -459,16 +465,16 @@ void drawDashes(juce::Graphics& g, juce::Rectangle<float> badge) {
 }
 } // namespace
 
-void WorldView::drawEnchanters(juce::Graphics& g) const {
+void WorldView::drawActuators(juce::Graphics& g) const {
     for (int j = 0; j < layout_.geometry.count; ++j) // lines to the true places of moved badges
-        if (const juce::Line<float> way{placeOfEnchanter(j), badgeAt(j).getCentre()};
+        if (const juce::Line<float> way{actuatorPixel(j), badgeAt(j).getCentre()};
             !badgeAt(j).contains(way.getStart())) {
-            g.setColour(enchanterColour(*this, j));
+            g.setColour(actuatorColour(*this, j));
             g.drawLine(way, 1.5f);
             g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(way.getStart()));
         }
     for (int j = 0; j < layout_.geometry.count; ++j) {
-        const auto colour = isMuted(j) ? shade(*this, Shade::muted) : enchanterColour(*this, j);
+        const auto colour = isMuted(j) ? shade(*this, Shade::muted) : actuatorColour(*this, j);
         const auto badge = badgeAt(j);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         // may extend over the field
@@ -495,7 +501,7 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
 
 void WorldView::drawSpot(juce::Graphics& g) const {
     if (!spot_) return;
-    const auto centre = placeOfShare(*spot_);
+    const auto centre = pixelOfShare(*spot_);
     g.setColour(shade(*this, Shade::text));
     g.drawEllipse(juce::Rectangle<float>{16.0f, 16.0f}.withCentre(centre), 1.5f);
     for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
@@ -506,13 +512,12 @@ void WorldView::drawSpot(juce::Graphics& g) const {
 void WorldView::drawFiles(juce::Graphics& g) const {
     if (!filesAt_) return;
     const auto at = map();
-    const int enchanter = enchanterAt(*filesAt_);
+    const int actuator = actuatorAt(*filesAt_);
     const auto target =
-        enchanter >= 0 ? badgeAt(enchanter).expanded(5.0f)
-                       : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
-    const float corner = enchanter >= 0 ? 10.0f : 13.0f;
-    const auto words =
-        enchanter >= 0 ? "felt on " + labelOf(enchanter) + " alone" : juce::String{"felt here"};
+        actuator >= 0 ? badgeAt(actuator).expanded(5.0f)
+                      : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(pixelOfShare(at.shareAt(*filesAt_)));
+    const float corner = actuator >= 0 ? 10.0f : 13.0f;
+    const auto words = actuator >= 0 ? "felt on " + labelOf(actuator) + " alone" : juce::String{"felt here"};
     const auto font = text::font(text::small);
     const float below = 0.5f * target.getHeight() + 15.0f;
     const auto plate = juce::Rectangle<float>{text::width(font, words) + 14.0f, 20.0f}
@@ -537,7 +542,7 @@ void WorldView::drawHold(juce::Graphics& g) const {
         juce::Point<float>{static_cast<float>(grip_.point.x), static_cast<float>(-grip_.point.y)} *
         at.pixelsPerMetre;
     const auto start = point.transformedBy(placeOf(poseOf(static_cast<std::size_t>(grip_.body)), at)),
-               hand = placeOfShare(at.shareAt(grip_.to));
+               hand = pixelOfShare(at.shareAt(grip_.to));
     g.setColour(shade(*this, Shade::text));
     g.drawLine({start, hand}, 1.8f);
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(start));
@@ -546,7 +551,7 @@ void WorldView::drawHold(juce::Graphics& g) const {
 
 void WorldView::drawGrip(juce::Graphics& g) const {
     if (dropAt_) {
-        const auto badge = juce::Rectangle<float>{highestBadge, highestBadge}.withCentre(*dropAt_);
+        const auto badge = juce::Rectangle<float>{maxBadgeHeight, maxBadgeHeight}.withCentre(*dropAt_);
         g.setColour(shade(*this, Shade::accent));
         g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         g.setFont(text::font(text::large));
@@ -561,13 +566,13 @@ void WorldView::drawGrip(juce::Graphics& g) const {
     juce::PathStrokeType{1.8f}.createDashedStroke(dashed, line, dashes, 2);
     g.setColour(shade(*this, Shade::text));
     g.fillPath(dashed);
-    if (!pullText) return;
+    if (!flingText) return;
     g.setFont(text::font(text::small));
     const auto words = juce::Rectangle<float>{130.0f, 18.0f}
                            .withCentre(grip_.to.translated(0.0f, -16.0f))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());
     g.drawText(
-        pullText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)),
+        flingText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)),
         words, juce::Justification::centred, false);
 }
 
@@ -583,8 +588,8 @@ bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
     const auto at = map();
     const auto pose = poseOf(body);
     if (!pose.isPresent) return false;
-    const bool moves = cast_[body].type == BodyType::dynamicBody;
-    return std::ranges::any_of(cast_[body].fixtures, [&](const FixtureDescription& fixture) {
+    const bool moves = bodies_[body].type == BodyType::dynamicBody;
+    return std::ranges::any_of(bodies_[body].fixtures, [&](const FixtureDescription& fixture) {
         auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
         path.applyTransform(placeOf(fixture, pose, at));
         if (juce::Point<float> nearest; std::holds_alternative<ChainShape>(fixture.shape))
@@ -595,51 +600,51 @@ bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
 }
 
 int WorldView::bodyAt(juce::Point<float> p) const {
-    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) // the topmost
+    for (int i = static_cast<int>(bodies_.size()) - 1; i >= 0; --i) // the topmost
         if (const auto body = static_cast<std::size_t>(i);
-            cast_[body].type == BodyType::dynamicBody && isOn(body, p))
+            bodies_[body].type == BodyType::dynamicBody && isOn(body, p))
             return i;
     return -1;
 }
 
 std::vector<std::string> WorldView::bodiesAt(juce::Point<float> place) const {
     std::vector<std::string> names;
-    for (std::size_t i = cast_.size(); i-- > 0;)
-        if (isOn(i, place)) names.push_back(cast_[i].name);
+    for (std::size_t i = bodies_.size(); i-- > 0;)
+        if (isOn(i, place)) names.push_back(bodies_[i].name);
     return names;
 }
 
 WorldView::Target WorldView::targetAt(juce::Point<float> place) const {
-    Target target{enchanterAt(place), {}, map().shareAt(place)};
-    if (target.enchanter >= 0) return target;
+    Target target{actuatorAt(place), {}, map().shareAt(place)};
+    if (target.actuator >= 0) return target;
     const auto under = bodiesAt(place);
     if (!under.empty()) target.body = under.front();
     return target;
 }
 
-int WorldView::enchanterAt(juce::Point<float> p) const {
+int WorldView::actuatorAt(juce::Point<float> p) const {
     for (int j = layout_.geometry.count - 1; j >= 0; --j)
         if (badgeAt(j).expanded(3.0f).contains(p)) return j;
     return -1;
 }
 
 void WorldView::mouseMove(const juce::MouseEvent& e) {
-    const bool canGrip = (onMove && enchanterAt(e.position) >= 0) || (onPull && bodyAt(e.position) >= 0);
+    const bool canGrip = (onMove && actuatorAt(e.position) >= 0) || (onFling && bodyAt(e.position) >= 0);
     setMouseCursor(canGrip ? juce::MouseCursor::DraggingHandCursor : juce::MouseCursor::NormalCursor);
 }
 
 void WorldView::mouseDown(const juce::MouseEvent& e) {
-    grip_ = {onSelect || onMove ? enchanterAt(e.position) : -1, -1, e.position, e.position};
-    const int body = grip_.enchanter < 0 ? bodyAt(e.position) : -1;
+    grip_ = {onSelect || onMove ? actuatorAt(e.position) : -1, -1, e.position, e.position};
+    const int body = grip_.actuator < 0 ? bodyAt(e.position) : -1;
     if (e.mods.isPopupMenu()) {
         grip_ = {};
         if (onMenu) onMenu(e.position);
         return;
     }
-    if (onPull) grip_.body = body;
-    if (onSelect) onSelect(grip_.enchanter);
+    if (onFling) grip_.body = body;
+    if (onSelect) onSelect(grip_.actuator);
     if (!onHold || body < 0 || !e.mods.isShiftDown()) return;
-    grip_.held = cast_[static_cast<std::size_t>(body)].name;
+    grip_.held = bodies_[static_cast<std::size_t>(body)].name;
     grip_.point = pointOf(grip_);
     hold();
 }
@@ -652,29 +657,29 @@ void WorldView::hold() {
 void WorldView::mouseDrag(const juce::MouseEvent& e) {
     grip_.to = e.position;
     grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
-    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && isDrag(e))
-        onMove(grip_.enchanter, map().shareAt(e.position));
+    if (grip_.actuator >= 0 && onMove && !grip_.isOutside && isDrag(e))
+        onMove(grip_.actuator, map().shareAt(e.position));
     if (isHolding()) hold();
     if (grip_.body >= 0) repaint();
 }
 
 void WorldView::cancelDrag() {
     const Grip grip = std::exchange(grip_, {});
-    if (!grip.held.empty()) onLetGo(grip.held);
+    if (!grip.held.empty()) onRelease(grip.held);
     repaint();
 }
 
 void WorldView::mouseUp(const juce::MouseEvent& e) {
     const Grip grip = std::exchange(grip_, {});
     repaint();
-    if (!grip.held.empty()) return onLetGo(grip.held);
-    if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
-    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) &&
+    if (!grip.held.empty()) return onRelease(grip.held);
+    if (grip.actuator >= 0 && grip.isOutside && onDetach) return onDetach(grip.actuator);
+    if (onSpot && grip.actuator < 0 && !e.mods.isPopupMenu() && !isDrag(e) &&
         map().field.contains(e.position))
         return onSpot(map().shareAt(e.position));
-    if (grip.body < 0 || !onPull || !isDrag(e)) return;
+    if (grip.body < 0 || !onFling || !isDrag(e)) return;
     const auto way = (e.position - grip.from).toDouble() / screenPixelsPerMetre(*this, displayWidthMetres_);
-    onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
+    onFling(bodies_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
 }
 
 // The point in the body's own, rotated coordinates.
@@ -687,7 +692,7 @@ Vector WorldView::pointOf(const Grip& grip) const {
 }
 
 bool WorldView::isInterestedInDragSource(const SourceDetails& details) {
-    return onAttach && details.description == newEnchanter;
+    return onAttach && details.description == newActuatorDrag;
 }
 
 void WorldView::itemDragMove(const SourceDetails& details) {
@@ -718,7 +723,7 @@ void WorldView::fileDragExit(const juce::StringArray&) {
 void WorldView::filesDropped(const juce::StringArray& files, int x, int y) {
     fileDragExit(files);
     const auto at = juce::Point<int>{x, y}.toFloat();
-    onFiles(files, enchanterAt(at), map().shareAt(at));
+    onFiles(files, actuatorAt(at), map().shareAt(at));
 }
 
 } // namespace physvib

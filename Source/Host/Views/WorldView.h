@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// View of the world as it is currently felt: bodies, hits as flashes, actuators with their levels. The user
-// can drag bodies and actuators where that is enabled. Also the physical size of displays.
+// WorldView shows the world as the actuators render it now: bodies, hits as flashes, actuators with their
+// levels; the user can drag bodies and actuators where callbacks allow it. Also the size of displays.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -17,14 +17,14 @@
 
 namespace physvib {
 
-/// News since the last call of WorldView::update.
-struct WorldMoment {
-    std::vector<BodyPose> poses; ///< of the bodies, at `sessionNs`
+/// What has changed since the last call of WorldView::update().
+struct WorldFrame {
+    std::vector<BodyPose> poses; ///< poses of the bodies at `sessionNs`
     std::int64_t sessionNs = 0;
-    std::int64_t aheadNs = 0;                                ///< output latency of these poses
-    std::span<const CollisionEvent> hits;                    ///< that have been played
+    std::int64_t aheadNs = 0;                                ///< output latency, after which poses are drawn
+    std::span<const CollisionEvent> hits;                    ///< events played since the last frame
     std::span<const float> peaks;                            ///< per actuator, 1 = full scale
-    bool isFelt = true;                                      ///< false: the hits are silenced and only drawn
+    bool isFelt = true;                                      ///< false: the hits are muted and drawn dim
     double nowMs = juce::Time::getMillisecondCounterHiRes(); ///< time of the picture, for ages of glows
 };
 
@@ -39,18 +39,17 @@ class WorldView final : public juce::Component,
                         public juce::FileDragAndDropTarget {
 public:
     /// Drag description of a new actuator.
-    static constexpr const char* newEnchanter = "physvib-new-enchanter";
+    static constexpr const char* newActuatorDrag = "physvib-new-enchanter";
 
     WorldView();
 
     /// Shows another scene, or the same with more bodies. M.
     void show(const Scene& scene);
-    /// Sets the actuators, their panning law and which are muted; `without`: which of these lack an output.
-    /// M.
+    /// Sets the actuators, their panner, and for each whether it is muted or lacks an output. M.
     void show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted = {},
-              std::vector<bool> without = {});
-    /// M, several times a second; repaints if something has changed.
-    void update(WorldMoment moment);
+              std::vector<bool> withoutOutput = {});
+    /// Shows the next frame, and repaints if it differs. M, several times a second.
+    void update(WorldFrame moment);
     /// Draws bodies with the textures of their materials where there are any; otherwise one colour per
     /// material. M.
     void showMaterials(bool areShown) { showsMaterials_ = areShown, repaint(); }
@@ -61,39 +60,40 @@ public:
     /// Whether the whole field is visible at that scale. M.
     bool fits() const { return worldScale_ <= 0.0 || map().pixelsPerMetre <= fittingPixelsPerMetre(); }
     /// Shows the gain of that actuator at each place, behind the bodies; -1: off. M.
-    void showGainsOf(int enchanter);
+    void showGainMap(int actuator);
     /// Width of the display, see screenPixelsPerMetre(). M.
     void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
     /// Space kept free around the field, for text and tools over the view. M.
-    void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, resized(), repaint(); }
+    void setPadding(juce::BorderSize<int> pixels) { padding_ = pixels, resized(), repaint(); }
     /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
     /// Draws that actuator as selected; -1: none. M.
-    void select(int enchanter) { setShown(*this, selected_, enchanter); }
+    void select(int actuator) { setAndRepaint(*this, selected_, actuator); }
     /// Draws a cross at a place in the field; none: no cross. M.
-    void showSpot(std::optional<FieldShare> spot) { setShown(*this, spot_, spot); }
+    void showSpot(std::optional<FieldShare> spot) { setAndRepaint(*this, spot_, spot); }
 
     // Callbacks for mouse input; without a callback the action is disabled. M.
-    /// After the drag of a body: the way on the screen in the field's axes, and the body's point, in metres.
-    std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull;
-    /// With Shift, while the body is held: its point, as for onPull, and the mouse in the field.
+    /// After the drag of a body: the distance on the screen in the field's axes, and the point of the body
+    /// that was dragged, in metres.
+    std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onFling;
+    /// While a body is held with Shift: its point, as for onFling, and the mouse, in metres of the field.
     std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
-    std::function<void(const std::string& body)> onLetGo;      ///< of the body that was held
-    std::function<juce::String(double screenMetres)> pullText; ///< text beside the line while pulling
+    std::function<void(const std::string& body)> onRelease;     ///< of the body that was held
+    std::function<juce::String(double screenMetres)> flingText; ///< text beside the line while pulling
     /// While an actuator is dragged: its new place.
-    std::function<void(int enchanter, FieldShare to)> onMove;
-    std::function<void(int enchanter)> onDetach; ///< dropped outside
+    std::function<void(int actuator, FieldShare to)> onMove;
+    std::function<void(int actuator)> onDetach; ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
-    std::function<void(int enchanter)> onSelect;
+    std::function<void(int actuator)> onSelect;
     std::function<void(juce::Point<float> place)> onMenu; ///< right click; targetAt() says on what
     std::function<void(FieldShare at)> onSpot;            ///< a click without a drag
     /// Whether the dragged files may be dropped.
     std::function<bool(const juce::StringArray& files)> acceptsFiles;
     /// Files dropped on that actuator; -1: in the field.
-    std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
+    std::function<void(const juce::StringArray& files, int actuator, FieldShare at)> onFiles;
 
     void paint(juce::Graphics& g) override;
-    void resized() override { gains_ = {}, badges_.clear(); }
+    void resized() override { gainMap_ = {}, badges_.clear(); }
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
     void mouseUp(const juce::MouseEvent& e) override;
@@ -110,30 +110,30 @@ public:
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
     /// Positions in pixels of this component. M.
-    juce::Point<float> placeOfShare(FieldShare at) const;
-    juce::Point<float> placeOfEnchanter(int enchanter) const;
-    juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if the body is absent
+    juce::Point<float> pixelOfShare(FieldShare at) const;
+    juce::Point<float> actuatorPixel(int actuator) const;
+    juce::Point<float> pixelOfBody(const std::string& name) const; ///< outside the view if the body is absent
     bool isHolding() const noexcept { return !grip_.held.empty(); }
-    bool isDragging() const noexcept { return grip_.body >= 0 || grip_.enchanter >= 0; }
+    bool isDragging() const noexcept { return grip_.body >= 0 || grip_.actuator >= 0; }
     void cancelDrag(); ///< releases what is dragged without throwing it
 
     /// For components that draw over this view. Places in metres of the field; they may lie outside it. M.
-    juce::Point<float> placeOfMetres(Vector at) const { return map().at(at.x, at.y); }
+    juce::Point<float> pixelOfMetres(Vector at) const { return map().at(at.x, at.y); }
     Vector metresAt(juce::Point<float> place) const;
     float pixelsPerMetre() const { return map().pixelsPerMetre; }
     std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as drawn; none: absent
     std::vector<std::string> bodiesAt(juce::Point<float> place) const; ///< of any type, topmost first
     /// What lies at a place: an actuator, else the topmost body, else nothing.
     struct Target {
-        int enchanter = -1;
+        int actuator = -1;
         std::string body;
         FieldShare at;
     };
     Target targetAt(juce::Point<float> place) const;
-    /// In pixels, of the displayed layout, which may be one refresh older than the session's.
+    /// Rectangles in pixels of the displayed layout, which may be one refresh older than the session's.
     const std::vector<juce::Rectangle<float>>& badges() const;
-    juce::Rectangle<float> badgeAt(int enchanter) const {
-        return badges()[static_cast<std::size_t>(enchanter)];
+    juce::Rectangle<float> badgeAt(int actuator) const {
+        return badges()[static_cast<std::size_t>(actuator)];
     }
 
 private:
@@ -155,7 +155,7 @@ private:
         double shownAtMs;
         bool isFelt;
     };
-    struct Map {
+    struct FieldTransform {
         juce::Rectangle<float> field;
         float pixelsPerMetre;
         juce::Point<float> at(double x, double y) const {
@@ -168,16 +168,16 @@ private:
                 juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
         }
     };
-    struct Grip { // what the mouse drags
-        int enchanter = -1, body = -1;
+    struct Grip { // what the mouse drags; -1: no actuator, no body
+        int actuator = -1, body = -1;
         juce::Point<float> from, to;
         bool isOutside = false;
         std::string held{}; // name of the body
         Vector point{};     // point on the body
     };
-    juce::Rectangle<float> roomOfField() const;
+    juce::Rectangle<float> fieldArea() const;
     float fittingPixelsPerMetre() const; ///< scale at which the field just fits
-    Map map() const;
+    FieldTransform map() const;
     Vector pointOf(const Grip& grip) const;
     void hold();
     void drawHold(juce::Graphics& g) const;
@@ -185,60 +185,60 @@ private:
     BodyPose poseOf(std::size_t body) const;
     BodyPose poseBefore(std::size_t body) const;
     void followInputs();
-    juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
+    juce::AffineTransform placeOf(const BodyPose& pose, const FieldTransform& at) const;
     juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose,
-                                  const Map& at) const;
+                                  const FieldTransform& at) const;
     bool drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path,
                       const juce::AffineTransform& place) const;
     int bodyAt(juce::Point<float> p) const;
     bool isOn(std::size_t body, juce::Point<float> p) const;
-    int enchanterAt(juce::Point<float> p) const;
-    juce::String labelOf(int enchanter) const;
+    int actuatorAt(juce::Point<float> p) const;
+    juce::String labelOf(int actuator) const;
     juce::Font badgeFont() const;
-    void drawGround(juce::Graphics& g, const Map& at);
-    void drawBodies(juce::Graphics& g, const Map& at);
-    bool drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour, double angle,
-                   const juce::AffineTransform& place, const Map& at);
-    void drawHits(juce::Graphics& g, const Map& at) const;
-    void addHit(const CollisionEvent& event, double nowMs, bool isFelt);
+    void drawField(juce::Graphics& g, const FieldTransform& at);
+    void drawBodies(juce::Graphics& g, const FieldTransform& at);
+    bool drawSmallCircle(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
+                         double angle, const juce::AffineTransform& place, const FieldTransform& at);
+    void drawHits(juce::Graphics& g, const FieldTransform& at) const;
+    void addContact(const CollisionEvent& event, double nowMs, bool isFelt);
     float ageOf(double shownAtMs) const; ///< 0: just shown, 1: faded
-    static bool isSet(const std::vector<bool>& of, int enchanter) {
-        return static_cast<std::size_t>(enchanter) < of.size() && of[static_cast<std::size_t>(enchanter)];
+    static bool isTrueAt(const std::vector<bool>& of, int actuator) {
+        return static_cast<std::size_t>(actuator) < of.size() && of[static_cast<std::size_t>(actuator)];
     }
-    bool isMuted(int enchanter) const { return isSet(muted_, enchanter); }
-    bool isWithoutOutput(int enchanter) const { return isSet(without_, enchanter); }
-    void drawTraces(juce::Graphics& g, const Map& at) const;
-    void drawRays(juce::Graphics& g, const Map& at) const;
+    bool isMuted(int actuator) const { return isTrueAt(muted_, actuator); }
+    bool isWithoutOutput(int actuator) const { return isTrueAt(withoutOutput_, actuator); }
+    void drawTraces(juce::Graphics& g, const FieldTransform& at) const;
+    void drawRays(juce::Graphics& g, const FieldTransform& at) const;
     void drawHalos(juce::Graphics& g) const;
-    void drawEnchanters(juce::Graphics& g) const;
+    void drawActuators(juce::Graphics& g) const;
     void drawSpot(juce::Graphics& g) const;
     void drawGrip(juce::Graphics& g) const;
     void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
-    struct Fate {            // effect of inputs on a body; the input may lie ahead while the world is paused
+    struct BodyState {       // effect of inputs on a body, also of those that a paused world has yet to reach
         bool isGone = false; // removed, or replaced by a body of the same name
-        int before = -1;     // index of the body it replaces
+        int replaced = -1;   // index of the body it replaces
     };
-    BallPictures balls_;
+    DiscPictures discs_;
     mutable GlowPictures glows_;
-    std::vector<BodyDescription> cast_;
-    std::vector<Fate> fates_;  // one per body of cast_
-    std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first
+    std::vector<BodyDescription> bodies_;
+    std::vector<BodyState> bodyStates_; // one per body of bodies_
+    std::size_t firstInputBody_ = 0;    // number of bodies from scriptedBodies(), which come first
     LayoutDescription layout_;
     PhantomPanner panner_;
-    std::vector<bool> muted_, without_; // per actuator
-    std::deque<Snapshot> ahead_;        // poses not felt yet, except the first
+    std::vector<bool> muted_, withoutOutput_; // per actuator
+    std::deque<Snapshot> pendingPoses_;       // the first is drawn; the others are not due yet
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;
-    std::array<float, limits::maxEnchanters> peaks_{};
+    std::array<float, limits::maxActuators> peaks_{};
     double displayWidthMetres_ = 0.0, worldScale_ = 0.0, nowMs_ = 0.0;
     std::vector<MaterialPicture> pictures_;
-    juce::BorderSize<int> room_;
-    int shownGains_ = -1, selected_ = -1, margin_ = 38;
+    juce::BorderSize<int> padding_;
+    int gainMapActuator_ = -1, selected_ = -1, margin_ = 38;
     bool showsMaterials_ = false;
-    juce::Image gains_;
-    mutable std::vector<juce::Rectangle<float>> badges_; // of badgesIn_; empty: to be placed
+    juce::Image gainMap_;
+    mutable std::vector<juce::Rectangle<float>> badges_; // for the field badgesIn_; empty: not laid out yet
     mutable juce::Rectangle<float> badgesIn_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_, filesAt_;
@@ -257,16 +257,16 @@ constexpr bool isDisplayWidth(double metres) noexcept {
 inline juce::Rectangle<int> displayOf(const juce::Component& component) {
     const auto* display =
         juce::Desktop::getInstance().getDisplays().getDisplayForRect(component.getScreenBounds());
-    return display != nullptr ? wholeOf(*display) : component.getTopLevelComponent()->getLocalBounds();
+    return display != nullptr ? totalAreaOf(*display) : component.getTopLevelComponent()->getLocalBounds();
 }
 
 /// Pixels of `component` per metre on its display, `displayMetres` wide; 0: by what the system reports. M.
 inline double screenPixelsPerMetre(const juce::Component& component, double displayMetres) {
     if (displayMetres > 0.0) return displayOf(component).getWidth() / displayMetres;
-    constexpr double usualDpi = 96.0, metresPerInch = 0.0254; // if the system reports none
+    constexpr double defaultDpi = 96.0, metresPerInch = 0.0254; // if the system reports none
     const auto* display =
         juce::Desktop::getInstance().getDisplays().getDisplayForRect(component.getScreenBounds());
-    return (display != nullptr && display->dpi > 0.0 ? display->dpi / display->scale : usualDpi) /
+    return (display != nullptr && display->dpi > 0.0 ? display->dpi / display->scale : defaultDpi) /
            metresPerInch;
 }
 

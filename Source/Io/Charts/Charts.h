@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts of study reports: data in, SVG text out.
+// Charts of study reports: data of bar, line, grid and place charts, and functions that return them as SVG.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -18,9 +18,9 @@ struct ChartFrame {
 
 /// A value with its interval.
 struct ChartValue {
-    double value = 0.0, least = 0.0, most = 0.0; ///< all equal: no interval is drawn
+    double value = 0.0, min = 0.0, max = 0.0; ///< equal: no interval is drawn
 
-    static ChartValue around(double value, double halfInterval = 0.0) noexcept {
+    static ChartValue withMargin(double value, double halfInterval = 0.0) noexcept {
         return {value, value - halfInterval, value + halfInterval};
     }
 };
@@ -32,16 +32,16 @@ struct BarSeries {
 
 struct BarChart {
     ChartFrame frame;
-    std::string groupsWords, valueWords; ///< of the axes, with units
+    std::string groupAxisLabel, valueAxisLabel; ///< with units
     std::vector<std::string> groups{};
     std::vector<BarSeries> series{};
     std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
     std::vector<double> ceilings{};                            ///< per group: the maximum possible value
-    std::string ceilingWords{};
-    double least = 0.0;           ///< where bars begin; the axis begins lower if values do
-    std::optional<double> most{}; ///< end of the axis; nullopt: from the values
+    std::string ceilingLabel{};
+    double min = 0.0;            ///< start of the bars; the axis extends below it for lower values
+    std::optional<double> max{}; ///< end of the axis; nullopt: from the values
 
-    /// One more bar of a chart of one series.
+    /// Adds a group with one bar to a chart of one series.
     void add(std::string group, ChartValue value) {
         groups.push_back(std::move(group));
         series.resize(1);
@@ -58,7 +58,7 @@ struct LinePoint {
 struct LineSeries {
     std::string name; ///< empty: not in the legend
     std::vector<LinePoint> points{};
-    bool isDrawnThrough = true, isMarked = true;
+    bool hasLine = true, hasMarkers = true;
     bool isFaint = false; ///< thin and grey: one of many
     bool isThin = false;  ///< thin and without dashes: a waveform
     std::size_t style = 0;
@@ -66,30 +66,30 @@ struct LineSeries {
 
 struct LineChart {
     ChartFrame frame;
-    std::string xWords, yWords;
+    std::string xLabel, yLabel;
     std::vector<LineSeries> series{};
     bool isLogarithmic = false; ///< both axes
     std::optional<std::pair<double, double>> xRange{}, yRange{};
     std::vector<std::pair<double, std::string>> references{}; ///< horizontal lines
     std::optional<ChartValue> threshold{};                    ///< a vertical line with its interval
-    std::string thresholdWords{};
+    std::string thresholdLabel{};
     double width = 680.0, height = 380.0;
 };
 
 struct GridChart {
     ChartFrame frame;
-    std::string rowWords, columnWords;
+    std::string rowAxisLabel, columnAxisLabel;
     std::vector<std::string> rows{}, columns{};  ///< labels
     std::vector<std::optional<double>> values{}; ///< row by row
     std::vector<double> halfIntervals{};         ///< of the values; empty: none
-    double most = 1.0;                           ///< value of the darkest shade
+    double max = 1.0;                            ///< value of the darkest shade
     int decimals = 0;                            ///< of the numbers in the cells
-    std::optional<double> markedBelow{};         ///< cells below are framed
+    std::optional<double> framedBelow{};         ///< cells below are framed
     double width = 330.0;
-    double shape = 1.0; ///< of a cell: height / width
+    double cellAspect = 1.0; ///< height / width of a cell
 };
 
-/// Where a stimulus was felt.
+/// A marked place of the response field, usually where a stimulus was felt.
 struct PlaceMark {
     std::size_t target = 0;  ///< row by row
     double x = 0.0, y = 0.0; ///< from 0 to 1, y downwards
@@ -112,14 +112,14 @@ struct PlaceChart {
     double width = 335.0;
 };
 
-// Equal input gives equal bytes. Any thread (allocates).
+// Each returns the chart as SVG text, equal bytes for equal input. Any thread (allocates).
 
 std::string barChart(const BarChart& chart);
 std::string lineChart(const LineChart& chart);
 std::string gridChart(const GridChart& chart);
 std::string placeChart(const PlaceChart& chart);
 
-/// Charts as one picture: side by side where there is room, then in rows.
+/// Combines charts in one picture: side by side as far as they fit, then in further rows.
 std::string chartSheet(const std::vector<std::string>& charts);
 
 } // namespace physvib

@@ -14,13 +14,13 @@ namespace {
 
 using namespace detail;
 
-/// White to dark blue; lightness is monotonic, so it also works in greyscale.
+/// Colour from white (0) to dark blue (1); its lightness is monotonic, so it also works in greyscale.
 std::string shade(double share) {
     const double t = std::clamp(share, 0.0, 1.0);
-    const auto mixed = [t](double dark) {
+    const auto mixedChannel = [t](double dark) {
         return std::to_string(static_cast<int>(std::lround(255.0 + t * (dark - 255.0))));
     };
-    return "rgb(" + mixed(0) + "," + mixed(60) + "," + mixed(120) + ")";
+    return "rgb(" + mixedChannel(0) + "," + mixedChannel(60) + "," + mixedChannel(120) + ")";
 }
 
 struct GridDrawing {
@@ -36,36 +36,36 @@ struct GridDrawing {
         if (!value) return;
         const ChartPoint corner{area.left + cellWidth() * static_cast<double>(column),
                                 area.top + cellHeight() * static_cast<double>(row)};
-        const double share = *value / chart.most;
+        const double share = *value / chart.max;
         if (share > 0.0) svg.rect(corner, cellWidth(), cellHeight(), shade(share));
-        if (chart.markedBelow && *value < *chart.markedBelow)
+        if (chart.framedBelow && *value < *chart.framedBelow)
             svg.rect({corner.x + 1.5, corner.y + 1.5}, cellWidth() - 3.0, cellHeight() - 3.0, "none",
                      {"#D55E00", 2.0, "4 3"});
         numbers(corner, row * chart.columns.size() + column, share > 0.5);
     }
     void numbers(ChartPoint corner, std::size_t index, bool isDark) const {
-        const std::string words = fixedNumber(*chart.values[index], chart.decimals);
-        if (textWidth(words, smallSize) > cellWidth() - 4.0 || cellHeight() < 13.0) return;
+        const std::string label = fixedNumber(*chart.values[index], chart.decimals);
+        if (textWidth(label, smallSize) > cellWidth() - 4.0 || cellHeight() < 13.0) return;
         const std::string_view colour = isDark ? "#fff" : "#111";
         const bool hasInterval =
             !chart.halfIntervals.empty() && chart.halfIntervals[index] > 0.0 && cellHeight() >= 28.0;
         const double x = corner.x + 0.5 * cellWidth(),
                      y = corner.y + 0.5 * cellHeight() + (hasInterval ? -2.0 : 4.0);
-        svg.text({x, y}, words, {smallSize, Anchor::middle, 0.0, false, colour});
+        svg.text({x, y}, label, {smallSize, Anchor::middle, 0.0, false, colour});
         if (hasInterval)
             svg.text({x, y + 12.0}, intervalOf(index), {9.0, Anchor::middle, 0.0, false, colour});
     }
     /// The interval as text, clamped to the possible values.
     std::string intervalOf(std::size_t index) const {
         const double value = *chart.values[index], half = chart.halfIntervals[index];
-        const auto words = [&](double end) {
-            return fixedNumber(std::clamp(end, 0.0, chart.most), chart.decimals);
+        const auto label = [&](double end) {
+            return fixedNumber(std::clamp(end, 0.0, chart.max), chart.decimals);
         };
-        return value - half < 0.0 || value + half > chart.most
-                   ? words(value - half) + "\u2013" + words(value + half)
+        return value - half < 0.0 || value + half > chart.max
+                   ? label(value - half) + "\u2013" + label(value + half)
                    : "\u00b1" + fixedNumber(half, chart.decimals);
     }
-    /// Draws every label that fits.
+    /// Draws the labels, only every n-th if not all fit.
     void labels() const {
         const auto rowStep = static_cast<std::size_t>(std::ceil(11.0 / cellHeight())),
                    columnStep = static_cast<std::size_t>(std::ceil(13.0 / cellWidth()));
@@ -80,27 +80,28 @@ struct GridDrawing {
                 svg.text({x, area.bottom + 14.0}, chart.columns[c], {10.0, Anchor::middle});
         }
     }
-    bool isTurned() const { return widest(chart.columns, 10.0) > cellWidth() - 2.0; }
+    bool isTurned() const { return maxTextWidth(chart.columns, 10.0) > cellWidth() - 2.0; }
 };
 
 } // namespace
 
 std::string gridChart(const GridChart& chart) {
     const double titleBottom = titleHeight(chart.frame.title, chart.width);
-    const double left = 26.0 + widest(chart.rows, 10.0) + 6.0, right = chart.width - 10.0,
+    const double left = 26.0 + maxTextWidth(chart.rows, 10.0) + 6.0, right = chart.width - 10.0,
                  top = titleBottom + 6.0;
     const double cell = std::min((right - left) / static_cast<double>(chart.columns.size()), 64.0);
-    const double height = chart.shape * cell * static_cast<double>(chart.rows.size());
+    const double height = chart.cellAspect * cell * static_cast<double>(chart.rows.size());
     const PlotArea area{left, top, left + cell * static_cast<double>(chart.columns.size()), top + height};
-    const double below = widest(chart.columns, 10.0) > cell - 2.0 ? widest(chart.columns, 10.0) + 10.0 : 18.0;
+    const double below =
+        maxTextWidth(chart.columns, 10.0) > cell - 2.0 ? maxTextWidth(chart.columns, 10.0) + 10.0 : 18.0;
     Svg svg{chart.frame, chart.width, area.bottom + below + 20.0};
     const GridDrawing drawing{chart, svg, area};
     for (std::size_t r = 0; r < chart.rows.size(); ++r)
         for (std::size_t c = 0; c < chart.columns.size(); ++c) drawing.cell(r, c);
     svg.rect({area.left, area.top}, area.width(), area.height(), "none", {"#222", 1.0});
     drawing.labels();
-    svg.text({14.0, 0.5 * (area.top + area.bottom)}, chart.rowWords, {labelSize, Anchor::middle, -90.0});
-    svg.text({0.5 * (area.left + area.right), area.bottom + below + 12.0}, chart.columnWords,
+    svg.text({14.0, 0.5 * (area.top + area.bottom)}, chart.rowAxisLabel, {labelSize, Anchor::middle, -90.0});
+    svg.text({0.5 * (area.left + area.right), area.bottom + below + 12.0}, chart.columnAxisLabel,
              {labelSize, Anchor::middle});
     return svg.finish();
 }
@@ -109,14 +110,14 @@ namespace {
 
 using namespace detail;
 
-constexpr double fieldShape = 635.0 / 1230.0; // of the thesis' tablet
+constexpr double fieldShape = 635.0 / 1230.0; // height by width of the thesis' tablet
 
 struct PlaceDrawing {
     const PlaceChart& chart;
     Svg& svg;
     PlotArea area;
 
-    ChartPoint at(double x, double y) const {
+    ChartPoint pixelAt(double x, double y) const {
         return {area.left + x * area.width(), area.top + y * area.height()};
     }
     /// Neighbours in a row and in a column have different styles.
@@ -124,6 +125,7 @@ struct PlaceDrawing {
         return (target % chart.columns + 3 * (target / chart.columns)) % 7;
     }
 
+    /// Fills the area of each target, in runs of equal map points, and outlines it.
     void territory() const {
         if (chart.mapColumns == 0) return;
         const std::size_t rows = chart.territory.size() / chart.mapColumns;
@@ -133,19 +135,19 @@ struct PlaceDrawing {
         std::string edges;
         for (std::size_t r = 0; r < rows; ++r)
             for (std::size_t c = 0; c < chart.mapColumns;) {
-                const std::size_t owner = chart.territory[r * chart.mapColumns + c], from = c;
-                while (c < chart.mapColumns && chart.territory[r * chart.mapColumns + c] == owner) ++c;
+                const std::size_t target = chart.territory[r * chart.mapColumns + c], from = c;
+                while (c < chart.mapColumns && chart.territory[r * chart.mapColumns + c] == target) ++c;
                 const double x = area.left + width * static_cast<double>(from),
                              y = area.top + height * static_cast<double>(r),
-                             run = width * static_cast<double>(c - from);
-                std::string& d = fills[owner];
+                             runWidth = width * static_cast<double>(c - from);
+                std::string& d = fills[target];
                 move(d, x, y);
-                step(d, 'h', run);
+                step(d, 'h', runWidth);
                 step(d, 'v', height);
-                step(d, 'h', -run);
+                step(d, 'h', -runWidth);
                 d += 'z';
                 if (c < chart.mapColumns) {
-                    move(edges, x + run, y);
+                    move(edges, x + runWidth, y);
                     step(edges, 'v', height);
                 }
             }
@@ -167,9 +169,11 @@ struct PlaceDrawing {
         return d;
     }
     static void move(std::string& d, double x, double y) { appendPoint(d, 'M', {x, y}); }
-    static void step(std::string& d, char direction, double length) { (d += direction) += pixels({length}); }
-    /// As thesis Fig. 4.6 has them: a dot, x, cross, circle or asterisk by the target's row, blue, black, red
-    /// or cyan by its column.
+    static void step(std::string& d, char direction, double length) {
+        (d += direction) += svgNumbers({length});
+    }
+    /// Draws places as thesis Fig. 4.6 does: the target's row gives the symbol (dot, x, cross, circle,
+    /// asterisk), its column the colour (blue, black, red, cyan).
     void places() const {
         constexpr std::array shapes{"h0", "m-2 -2l4 4m0 -4l-4 4", "m-2.5 0h5m-2.5 -2.5v5",
                                     "m-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0",
@@ -177,7 +181,7 @@ struct PlaceDrawing {
         constexpr std::array<std::string_view, 4> colours{"#00f", "#000", "#f00", "#0cc"};
         std::vector<std::string> dots(chart.rows * chart.columns);
         for (const PlaceMark& mark : chart.places) {
-            const ChartPoint point = at(mark.x, mark.y);
+            const ChartPoint point = pixelAt(mark.x, mark.y);
             move(dots[mark.target], point.x, point.y);
             dots[mark.target] += shapes[mark.target / chart.columns % shapes.size()];
         }
@@ -189,32 +193,35 @@ struct PlaceDrawing {
     }
     void ellipses() const {
         for (const PlaceEllipse& e : chart.ellipses) {
-            const double wx = area.width(), wy = area.height(); // the field's shares are not square in pixels
-            const double a = e.varianceX * wx * wx, b = e.covariance * wx * wy, c = e.varianceY * wy * wy;
+            const double widthPixels = area.width(), heightPixels = area.height(); // pixels per unit of x and
+                                                                                   // y
+            const double a = e.varianceX * widthPixels * widthPixels,
+                         b = e.covariance * widthPixels * heightPixels,
+                         c = e.varianceY * heightPixels * heightPixels;
             const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
             const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;
-            svg.ellipse(at(e.x, e.y), std::sqrt(middle + spread), std::sqrt(std::max(0.0, middle - spread)),
-                        degrees, "none", {"#000", 1.3});
+            svg.ellipse(pixelAt(e.x, e.y), std::sqrt(middle + spread),
+                        std::sqrt(std::max(0.0, middle - spread)), degrees, "none", {"#000", 1.3});
         }
     }
     void labels() const {
         for (const PlaceMark& mark : chart.labels) {
-            const ChartPoint place = at(mark.x, mark.y);
-            const std::string words = std::to_string(mark.target / chart.columns + 1) + "," +
+            const ChartPoint place = pixelAt(mark.x, mark.y);
+            const std::string label = std::to_string(mark.target / chart.columns + 1) + "," +
                                       std::to_string(mark.target % chart.columns + 1);
             svg.rect({place.x - 8.0, place.y - 6.0}, 16.0, 11.0, "#fff");
-            svg.text({place.x, place.y + 3.0}, words, {8.5, Anchor::middle});
+            svg.text({place.x, place.y + 3.0}, label, {8.5, Anchor::middle});
         }
     }
     /// Draws targets as crosses, with lines to the indicated places.
     void targets() const {
         for (const PlaceEllipse& e : chart.ellipses)
             if (e.target < chart.targets.size())
-                svg.line(at(chart.targets[e.target].first, chart.targets[e.target].second), at(e.x, e.y),
-                         {"#000", 0.8, "2 2"});
+                svg.line(pixelAt(chart.targets[e.target].first, chart.targets[e.target].second),
+                         pixelAt(e.x, e.y), {"#000", 0.8, "2 2"});
         std::string crosses;
         for (const auto& [x, y] : chart.targets) {
-            const ChartPoint p = at(x, y);
+            const ChartPoint p = pixelAt(x, y);
             move(crosses, p.x - 3.0, p.y);
             step(crosses, 'h', 6.0);
             move(crosses, p.x, p.y - 3.0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Implementation of atomic file writing: temporary files beside the target, locks, renames, and error
-// messages.
+// Atomic file writing: creates temporary files beside the target, locks and renames them.
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include <algorithm>
@@ -15,156 +14,160 @@ namespace {
 namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
 
-constexpr const char* suffix = ".physvib.part"; // only this program uses it, so leftovers may be removed
-constexpr const char* beingWritten = "it is being written already, here or by another program";
-constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
+constexpr const char* temporarySuffix = ".physvib.part"; // of this program only, so leftovers may be removed
+constexpr const char* inUseMessage = "it is being written already, here or by another program";
+constexpr const char* occupiedMessage = "another program is writing it, or left its temporary file: ";
 
 std::string reasonOf(int code) { return std::generic_category().message(code); }
 
 /// Opens and closes the file; returns 0 or the error number.
-int tryOpen(const fs::path& path, const char* mode) {
+int openErrorNumber(const fs::path& path, const char* mode) {
     std::FILE* const file = openStream(path, mode);
     return file != nullptr && std::fclose(file) == 0 ? 0 : errno;
 }
 
 /// Why `target` cannot be written; empty if it can.
-std::string obstacle(const fs::path& target) {
+std::string writeObstacle(const fs::path& target) {
     std::error_code code;
     const fs::path folder = folderOf(target);
     if (!target.has_filename()) return "it names a folder, expected a file";
-    const bool isThere = fs::exists(folder, code);
+    const bool folderExists = fs::exists(folder, code);
     if (code) return code.message();
-    if (!isThere) return "the folder " + folder.string() + " does not exist";
-    const fs::file_status present = fs::status(target, code);
-    if (!fs::exists(present)) return {};
-    if (!fs::is_regular_file(present)) return "expected a regular file, found a folder, a device or a pipe";
-    const int denied = tryOpen(target, "r+b"); // a rename would ignore write protection
-    return denied == 0 ? std::string() : reasonOf(denied);
+    if (!folderExists) return "the folder " + folder.string() + " does not exist";
+    const fs::file_status targetStatus = fs::status(target, code);
+    if (!fs::exists(targetStatus)) return {};
+    if (!fs::is_regular_file(targetStatus))
+        return "expected a regular file, found a folder, a device or a pipe";
+    const int errorNumber = openErrorNumber(target, "r+b"); // a rename would ignore write protection
+    return errorNumber == 0 ? std::string() : reasonOf(errorNumber);
 }
 
-/// Removes the temporary file of a killed program, which is not locked. It is locked before it is removed, so
-/// no file in use is removed. Empty, or the obstacle.
-std::string removeLeftBehind(const fs::path& sibling) {
-    SystemFile left = SystemFile::look(sibling);
-    if (!left.isOpen())
-        return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
-    const Lock lock = left.lock();
-    if (lock == Lock::others) return beingWritten;
-    if (lock == Lock::none) return inTheWay + sibling.string();
+/// Removes the temporary file of a killed program. Locks it first, because a file in use is locked already
+/// and must stay. Returns empty, or why it cannot be removed.
+std::string removeLeftover(const fs::path& sibling) {
+    SystemFile leftover = SystemFile::openForLocking(sibling);
+    if (!leftover.isOpen())
+        return leftover.error() == ENOENT ? std::string()
+                                          : occupiedMessage + sibling.string() + ": " + leftover.reason();
+    const Lock lock = leftover.lock();
+    if (lock == Lock::heldByOthers) return inUseMessage;
+    if (lock == Lock::unsupported) return occupiedMessage + sibling.string();
     std::error_code code;
-    if (left.isAt(sibling)) fs::remove(sibling, code);
-    return code ? inTheWay + sibling.string() + ": " + code.message() : std::string();
+    if (leftover.isAt(sibling)) fs::remove(sibling, code);
+    return code ? occupiedMessage + sibling.string() + ": " + code.message() : std::string();
 }
 
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path& path)
-    : named_(path)
-    , target_(path) {
+    : givenPath_(path)
+    , targetPath_(path) {
     if (const std::string reason = prepare(); !reason.empty()) fail(reason);
 }
 
 AtomicFile::~AtomicFile() { removeTemporary(); }
 
 bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
-    if (error_.empty() && lock_ && file_.size() != bytes_) failIfChanged(), removeTemporary();
+    if (error_.empty() && lock_ && file_.size() != writtenBytes_) failIfChanged(), removeTemporary();
     if (!error_.empty()) return false;
     if (file_.writeAt(position, bytes)) {
-        bytes_ = std::max(bytes_, position + static_cast<std::int64_t>(bytes.size()));
+        writtenBytes_ = std::max(writtenBytes_, position + static_cast<std::int64_t>(bytes.size()));
         return true;
     }
     fail(file_.reason());
-    file_.forgetError();
+    file_.clearError();
     if (lock_ && position > 0) file_.resize(position); // cuts off the partially written block
     removeTemporary();
     return false;
 }
 
 const std::string& AtomicFile::write(std::string_view bytes) {
-    if (error_.empty()) file_.resize(bytes_ = 0);
+    if (error_.empty()) file_.resize(writtenBytes_ = 0);
     writeAt(0, bytes);
     return error_;
 }
 
-const std::string& AtomicFile::show() {
+const std::string& AtomicFile::publish() {
     if (!error_.empty() || lock_) return error_;
-    place();
+    moveIntoPlace();
     if (!error_.empty()) return removeTemporary(), error_;
-    temporary_.clear();
-    onEnd_ = RemovedOnEnd();
-    lock_ = std::make_unique<AtomicFile>(named_);
+    temporaryPath_.clear();
+    removeOnSignal_ = RemoveOnSignal();
+    lock_ = std::make_unique<AtomicFile>(givenPath_);
     return error_;
 }
 
 const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
-    place();
+    moveIntoPlace();
     removeTemporary();
     if (error_.empty() && folderError_ != 0)
-        error_ = named_.string() + ": its folder cannot be flushed to the disk: " + reasonOf(folderError_);
+        error_ =
+            givenPath_.string() + ": its folder cannot be flushed to the disk: " + reasonOf(folderError_);
     return error_;
 }
 
-// A file after show() is in its place already.
-void AtomicFile::place() {
+// After publish() the file is in its place already, and is only checked.
+void AtomicFile::moveIntoPlace() {
     std::error_code code;
-    if (!lock_) file_.takePermissionsOf(target_);
+    if (!lock_) file_.copyPermissionsFrom(targetPath_);
     if (!file_.sync()) {
         fail(file_.reason());
     } else if (lock_) {
         return failIfChanged();
-    } else if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
+    } else if (!file_.isAt(temporaryPath_) && fs::exists(fs::symlink_status(temporaryPath_, code))) {
         fail("its temporary file was replaced by another");
-    } else if (fs::rename(temporary_, target_, code); code) {
+    } else if (fs::rename(temporaryPath_, targetPath_, code); code) {
         fail(code.message());
     }
-    if (error_.empty()) folderError_ = SystemFile::syncFolder(folderOf(target_));
+    if (error_.empty()) folderError_ = SystemFile::syncFolder(folderOf(targetPath_));
 }
 
 void AtomicFile::failIfChanged() {
-    if (const std::string change = file_.changeByOthers(target_, bytes_); !change.empty()) fail(change);
+    if (const std::string reason = file_.externalChange(targetPath_, writtenBytes_); !reason.empty())
+        fail(reason);
 }
 
 std::string AtomicFile::prepare() {
     std::error_code code;
-    if (fs::is_symlink(named_, code)) {
-        if (!isWithin(named_.parent_path(), named_)) return leadsElsewhere;
-        target_ = fs::weakly_canonical(named_, code);
+    if (fs::is_symlink(givenPath_, code)) {
+        if (!isWithin(givenPath_.parent_path(), givenPath_)) return linkLeadsElsewhere;
+        targetPath_ = fs::weakly_canonical(givenPath_, code);
         if (code) return code.message();
     }
-    if (std::string reason = obstacle(target_); !reason.empty()) return reason;
-    fs::path sibling = target_;
-    return make(sibling += suffix);
+    if (std::string reason = writeObstacle(targetPath_); !reason.empty()) return reason;
+    fs::path sibling = targetPath_;
+    return createTemporary(sibling += temporarySuffix);
 }
 
 // Retries, because between creation and locking another program may remove the new file as one left behind.
-std::string AtomicFile::make(const fs::path& sibling) {
-    constexpr int mostTries = 100;
-    for (int i = 0; i < mostTries; ++i) {
-        const HeldSignals held;
-        SystemFile made = SystemFile::create(sibling);
-        if (!made.isOpen() && made.error() != EEXIST) return made.reason();
-        if (made.isOpen() && made.lock() != Lock::others && made.isAt(sibling)) {
-            temporary_ = sibling;
-            file_ = std::move(made);
-            onEnd_ = RemovedOnEnd(file_, temporary_);
+std::string AtomicFile::createTemporary(const fs::path& sibling) {
+    constexpr int maxTries = 100;
+    for (int i = 0; i < maxTries; ++i) {
+        const DeferredSignals deferredSignals;
+        SystemFile created = SystemFile::create(sibling);
+        if (!created.isOpen() && created.error() != EEXIST) return created.reason();
+        if (created.isOpen() && created.lock() != Lock::heldByOthers && created.isAt(sibling)) {
+            temporaryPath_ = sibling;
+            file_ = std::move(created);
+            removeOnSignal_ = RemoveOnSignal(file_, temporaryPath_);
             return {};
         }
-        if (std::string reason = removeLeftBehind(sibling); !reason.empty()) return reason;
+        if (std::string reason = removeLeftover(sibling); !reason.empty()) return reason;
     }
-    return beingWritten;
+    return inUseMessage;
 }
 
 void AtomicFile::fail(std::string_view reason) {
-    error_ = named_.string() + ": cannot be written: ";
+    error_ = givenPath_.string() + ": cannot be written: ";
     error_ += reason;
 }
 
 void AtomicFile::removeTemporary() noexcept {
     std::error_code ignored;
-    if (file_.isOpen() && file_.isAt(temporary_)) fs::remove(temporary_, ignored);
-    temporary_.clear();
-    onEnd_ = RemovedOnEnd();
+    if (file_.isOpen() && file_.isAt(temporaryPath_)) fs::remove(temporaryPath_, ignored);
+    temporaryPath_.clear();
+    removeOnSignal_ = RemoveOnSignal();
     file_ = SystemFile(); // which also releases the lock
     lock_.reset();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Atomic file writing: a file appears complete or not at all. It is written beside its place, then renamed.
+// Atomic file writing: a file is written beside its place, then renamed: it appears complete or not.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace physvib {
 
-/// A file being written. commit() puts it in place. Without that the destructor, or the signal that ends the
-/// program (see removeAllOnEnd()), removes it, and an earlier file at the path is unchanged. Its temporary
-/// file also locks the path: one writer at a time, across all programs. Message thread (M) only.
+/// A file being written, which commit() puts in its place. Without commit() it is removed by the destructor
+/// or by a signal that ends the program (see removeFilesOnSignal()), and an earlier file at the path stays as
+/// it was. Its temporary file locks the path: one writer at a time, in all programs. Message thread only.
 class AtomicFile {
 public:
     /// Creates the empty temporary file beside `path`; see error(). A link at `path` is followed if it leads
@@ -25,44 +25,44 @@ public:
     /// Empty, or one line naming the path and why it cannot be written.
     const std::string& error() const noexcept { return error_; }
 
-    /// Writes `bytes` at that position. False after an error.
+    /// Writes `bytes` at that byte position. False after an error.
     bool writeAt(std::int64_t position, std::string_view bytes);
 
     /// Makes `bytes` the whole content. Returns error(); after an error nothing is left behind.
     const std::string& write(std::string_view bytes);
 
-    /// Puts the file in its place early, once: later data is written there, and stays even if the program
-    /// ends or an error occurs. Returns error(). Once others remove or replace it, commit() fails; once they
-    /// change its length, the next write does.
-    const std::string& show();
+    /// Puts the file in its place before it is complete, once: later writes go there, and remain even if the
+    /// program ends or an error occurs. Returns error(). If other programs remove or replace the file,
+    /// commit() fails; if they change its length, the next write fails.
+    const std::string& publish();
 
     /// Renames the temporary file onto the path, once, and flushes file and folder to disk, so that the
     /// result survives a power failure. After an error nothing is left behind.
     [[nodiscard]] const std::string& commit();
 
-    /// Beside the path, until commit(). Do not open it again: another program may have replaced it.
-    const std::filesystem::path& temporaryPath() const noexcept { return temporary_; }
+    /// Path of the temporary file, until commit(). Do not open it: another program may have replaced it.
+    const std::filesystem::path& temporaryPath() const noexcept { return temporaryPath_; }
 
 private:
     std::string prepare(); // why it cannot be written, empty once the temporary file exists
-    std::string make(const std::filesystem::path& sibling);
-    void place();
+    std::string createTemporary(const std::filesystem::path& sibling);
+    void moveIntoPlace();
     void failIfChanged();
     void fail(std::string_view reason);
     void removeTemporary() noexcept;
 
-    std::filesystem::path named_;  // as the caller wrote it, for messages
-    std::filesystem::path target_; // with links followed
-    std::filesystem::path temporary_;
+    std::filesystem::path givenPath_;  // as the caller wrote it, for messages
+    std::filesystem::path targetPath_; // with links followed
+    std::filesystem::path temporaryPath_;
     SystemFile file_;
-    RemovedOnEnd onEnd_;
-    std::unique_ptr<AtomicFile> lock_; // locks the path after show()
-    std::int64_t bytes_ = 0;           // written, up to the last
-    int folderError_ = 0;              // why the folder was not flushed; 0: it was
+    RemoveOnSignal removeOnSignal_;
+    std::unique_ptr<AtomicFile> lock_; // locks the path after publish()
+    std::int64_t writtenBytes_ = 0;    // length written so far
+    int folderError_ = 0;              // errno of flushing the folder; 0: flushed
     std::string error_;
 };
 
-/// Writes `bytes` to `path` atomically. Returns "", or one line naming path and reason. M only.
+/// Writes `bytes` to `path` atomically. Returns "", or one line naming path and reason. Message thread only.
 [[nodiscard]] std::string writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace physvib

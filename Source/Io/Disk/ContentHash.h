@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Any thread.
+/// The 64-bit FNV-1a hash of `bytes`. Any thread.
 inline std::string contentHash(std::string_view bytes) {
     std::uint64_t hash = 0xCBF29CE484222325u;
     for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;

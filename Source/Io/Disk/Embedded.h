@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that are compiled into the library, so that no path is needed at run time.
+// Files that are compiled into the library, so that no path is needed at run time; and the test that tells
+// paths of JSON files from names of embedded ones.
 #pragma once
 #include <stdexcept>
 #include <string_view>
@@ -22,13 +23,13 @@ struct EmbeddedFile {
 /// read; a test reads them all. Any thread.
 template <class Read>
 auto readEmbedded(const std::vector<EmbeddedFile>& files, Read read) {
-    std::vector<decltype(read(files.front().text, files.front().name).value)> all;
+    std::vector<decltype(read(files.front().text, files.front().name).value)> values;
     for (const EmbeddedFile& file : files) {
-        auto found = read(file.text, file.name);
-        if (!found) throw std::logic_error(found.error);
-        all.push_back(std::move(found.value));
+        auto result = read(file.text, file.name);
+        if (!result) throw std::logic_error(result.error);
+        values.push_back(std::move(result.value));
     }
-    return all;
+    return values;
 }
 
 } // namespace physvib

@@ -9,9 +9,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mostLinks = 40; // limit for consecutive links, as in operating systems
+constexpr int maxLinks = 40; // limit for consecutive links, as in operating systems
 
-std::string clash(const std::string& output, const std::string& kind, const std::string& other) {
+std::string clashMessage(const std::string& output, const std::string& kind, const std::string& other) {
     return output + ": expected another file to write, this is the " + kind + " " + other;
 }
 
@@ -28,30 +28,30 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 }
 
 bool isWithin(const fs::path& folder, const fs::path& path) {
-    std::error_code failed;
-    const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, failed);
-    if (failed) return false;
-    fs::path at = fs::absolute(path, failed);
-    // also for a link whose target does not exist
-    for (int links = 0; links < mostLinks && !failed && fs::is_symlink(at, failed); ++links)
-        at = at.parent_path() / fs::read_symlink(at, failed);
-    failed.clear(); // error of a target that does not exist
-    const fs::path found = fs::weakly_canonical(at, failed);
-    return !failed && std::ranges::mismatch(home, found).in1 == home.end();
+    std::error_code code;
+    const fs::path canonicalFolder = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
+    if (code) return false;
+    fs::path linkTarget = fs::absolute(path, code);
+    // weakly_canonical() does not follow a link to a file that does not exist
+    for (int links = 0; links < maxLinks && !code && fs::is_symlink(linkTarget, code); ++links)
+        linkTarget = linkTarget.parent_path() / fs::read_symlink(linkTarget, code);
+    code.clear(); // set if the last target does not exist
+    const fs::path canonicalPath = fs::weakly_canonical(linkTarget, code);
+    return !code && std::ranges::mismatch(canonicalFolder, canonicalPath).in1 == canonicalFolder.end();
 }
 
 // Two spellings of a new file that only the file system considers equal ("A.wav", "a.wav") are detected when
 // they are created: see AtomicFile.
-std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs) {
+std::string fileClashError(std::span<const std::string> outputs, std::span<const std::string> inputs) {
     const auto sameAs = [](const std::string& path) {
         return [&path](const std::string& other) { return !other.empty() && isSameFile(path, other); };
     };
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->empty()) continue;
         if (const auto input = std::ranges::find_if(inputs, sameAs(*output)); input != inputs.end())
-            return clash(*output, "input", *input);
+            return clashMessage(*output, "input", *input);
         if (const auto other = std::find_if(outputs.begin(), output, sameAs(*output)); other != output)
-            return clash(*output, "output", *other);
+            return clashMessage(*output, "output", *other);
     }
     return {};
 }

@@ -15,31 +15,31 @@ namespace physvib {
 std::filesystem::path folderOf(const std::filesystem::path& file);
 
 /// A file's name without its folders. Any thread.
-inline std::string leafOf(const std::filesystem::path& file) { return file.filename().string(); }
+inline std::string fileNameOf(const std::filesystem::path& file) { return file.filename().string(); }
 
 /// True if both name one file, existing or not; links and folders may be spelled in any way. Any thread.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
-inline constexpr const char* leadsElsewhere =
+inline constexpr const char* linkLeadsElsewhere =
     "expected a file in its own folder or below, found a link that leads elsewhere";
 
-/// True if `path`, after following all links, is in `folder` or below, existing or not. Any thread but R.
+/// True if `path`, after following all links, is in `folder` or below, existing or not. Not on the render
+/// thread.
 bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 /// Empty, or one line on the first of `outputs` that equals an input or another output. Empty names are
-/// skipped. Any thread.
-std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs);
-
-// Checks the file name ending of an output, with a common error message.
+/// skipped.
+std::string fileClashError(std::span<const std::string> outputs, std::span<const std::string> inputs);
 
 /// Empty, or `expected a name that ends in .webp, .gif or .mp4, found "a.avi"`. Any thread (allocates).
-inline std::string endingFault(std::string_view path, std::span<const std::string_view> endings) {
-    const auto has = [path](std::string_view ending) { return path.ends_with(ending); };
-    if (std::ranges::any_of(endings, has)) return {};
+inline std::string fileExtensionError(std::string_view path, std::span<const std::string_view> endings) {
+    const auto hasEnding = [path](std::string_view ending) { return path.ends_with(ending); };
+    if (std::ranges::any_of(endings, hasEnding)) return {};
     return "expected a name that ends in " + listed(endings, " or ") + ", found " + inQuotes(path);
 }
-inline std::string endingFault(std::string_view path, std::initializer_list<std::string_view> endings) {
-    return endingFault(path, std::span{endings.begin(), endings.size()});
+inline std::string fileExtensionError(std::string_view path,
+                                      std::initializer_list<std::string_view> endings) {
+    return fileExtensionError(path, std::span{endings.begin(), endings.size()});
 }
 
 } // namespace physvib

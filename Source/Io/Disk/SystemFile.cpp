@@ -10,26 +10,28 @@
 
 namespace physvib {
 
-struct RemovedOnEnd::Removal {
+struct RemoveOnSignal::Removal {
     SystemFile::Handle handle;
     std::filesystem::path name;
 };
 
-std::array<std::atomic<RemovedOnEnd::Removal*>, 256> RemovedOnEnd::removals{};
+std::array<std::atomic<RemoveOnSignal::Removal*>, 256> RemoveOnSignal::removals{};
 
-SystemFile SystemFile::create(const std::filesystem::path& path) { return opened(path, Opening::create); }
-SystemFile SystemFile::grow(const std::filesystem::path& path) {
+SystemFile SystemFile::create(const std::filesystem::path& path) { return openWith(path, Opening::create); }
+SystemFile SystemFile::openForAppending(const std::filesystem::path& path) {
     std::error_code code;
     if (!std::filesystem::is_symlink(path, code) || isWithin(path.parent_path(), path))
-        return opened(path, Opening::grow);
+        return openWith(path, Opening::append);
     SystemFile refused;
     refused.error_ = ELOOP;
     return refused;
 }
-SystemFile SystemFile::look(const std::filesystem::path& path) { return opened(path, Opening::look); }
+SystemFile SystemFile::openForLocking(const std::filesystem::path& path) {
+    return openWith(path, Opening::lockOnly);
+}
 
 SystemFile::SystemFile(SystemFile&& other) noexcept
-    : handle_{std::exchange(other.handle_, none)}
+    : handle_{std::exchange(other.handle_, noHandle)}
     , error_{std::exchange(other.error_, 0)} {}
 
 SystemFile& SystemFile::operator=(SystemFile&& other) noexcept {
@@ -39,68 +41,68 @@ SystemFile& SystemFile::operator=(SystemFile&& other) noexcept {
 }
 
 SystemFile::~SystemFile() {
-    if (isOpen()) closeNow();
+    if (isOpen()) closeHandle();
 }
 
 std::string SystemFile::reason() const {
-    if (error_ == ELOOP) return leadsElsewhere;
+    if (error_ == ELOOP) return linkLeadsElsewhere;
     if (error_ == EINVAL) return "expected a regular file, found a folder, a device or a pipe";
     return error_ == 0 ? std::string{} : std::generic_category().message(error_);
 }
 
-void SystemFile::refuse() noexcept {
-    closeNow();
-    handle_ = none;
+void SystemFile::closeAsIrregular() noexcept {
+    closeHandle();
+    handle_ = noHandle;
     error_ = EINVAL;
 }
 
 bool SystemFile::append(std::string_view bytes) noexcept {
     const std::int64_t end = size();
     if (error_ != 0 || writeAt(end, bytes)) return error_ == 0;
-    const int first = std::exchange(error_, 0);
+    const int firstError = std::exchange(error_, 0);
     resize(end);
-    error_ = first; // the first error is the one that counts
+    error_ = firstError; // the first error is the one that counts
     return false;
 }
 
 bool SystemFile::isAt(const std::filesystem::path& path) const noexcept { return isAt(handle_, path); }
 
-std::string SystemFile::changeByOthers(const std::filesystem::path& path, std::int64_t bytes) {
-    if (error_ != 0) return {}; // then its length is not known
-    std::error_code gone;
-    const auto place = std::filesystem::canonical(path, gone);
-    if (gone || !isAt(place)) return "it was removed, moved or replaced while it was being written";
+std::string SystemFile::externalChange(const std::filesystem::path& path, std::int64_t bytes) {
+    if (error_ != 0) return {}; // size() is not known after an error
+    std::error_code code;
+    const auto canonicalPath = std::filesystem::canonical(path, code);
+    if (code || !isAt(canonicalPath)) return "it was removed, moved or replaced while it was being written";
     if (size() != bytes) return "another program changed its length while it was being written";
     return {};
 }
 
-RemovedOnEnd::RemovedOnEnd(const SystemFile& file, const std::filesystem::path& name) {
+RemoveOnSignal::RemoveOnSignal(const SystemFile& file, const std::filesystem::path& name) {
     auto removal = std::make_unique<Removal>(Removal{file.handle_, std::filesystem::absolute(name)});
     for (std::size_t i = 0; i < removals.size() && slot_ < 0; ++i) {
-        Removal* none = nullptr;
-        if (removals[i].compare_exchange_strong(none, removal.get())) slot_ = static_cast<int>(i);
+        Removal* emptySlot = nullptr;
+        if (removals[i].compare_exchange_strong(emptySlot, removal.get())) slot_ = static_cast<int>(i);
     }
-    // the slot owns it; without one there are more files at once than any call writes
+    // the slot owns it now; no program writes more files at once than there are slots
     if (slot_ >= 0) static_cast<void>(removal.release());
 }
 
-RemovedOnEnd::RemovedOnEnd(RemovedOnEnd&& other) noexcept
+RemoveOnSignal::RemoveOnSignal(RemoveOnSignal&& other) noexcept
     : slot_{std::exchange(other.slot_, -1)} {}
 
-RemovedOnEnd& RemovedOnEnd::operator=(RemovedOnEnd&& other) noexcept {
+RemoveOnSignal& RemoveOnSignal::operator=(RemoveOnSignal&& other) noexcept {
     std::swap(slot_, other.slot_);
     return *this;
 }
 
-RemovedOnEnd::~RemovedOnEnd() {
+RemoveOnSignal::~RemoveOnSignal() {
     if (slot_ >= 0) delete removals[static_cast<std::size_t>(slot_)].exchange(nullptr);
 }
 
-void RemovedOnEnd::removeAll() noexcept {
+void RemoveOnSignal::removeAll() noexcept {
     for (auto& slot : removals)
         if (const Removal* const removal = slot.exchange(nullptr);
             removal && SystemFile::isAt(removal->handle, removal->name))
-            SystemFile::removeNow(removal->name);
+            SystemFile::removePath(removal->name);
 }
 
 } // namespace physvib

@@ -13,19 +13,19 @@
 namespace physvib {
 namespace {
 
-constexpr DWORD othersMay = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // Windows locks block readers too, so it locks a
-                                                           // byte beyond any file's end
+constexpr DWORD shareMode = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+constexpr std::int64_t lockedPosition = 0x7fff'ffff'ffff'fff0; // Windows locks block readers too, so it locks
+                                                               // a byte beyond any file's end
 
-SRWLOCK makers = SRWLOCK_INIT; // HeldSignals lock it shared, removeAllOnEnd exclusively
+SRWLOCK creationLock = SRWLOCK_INIT; // DeferredSignals lock it shared, removeFilesOnSignal exclusively
 
 HANDLE handleOf(std::intptr_t handle) noexcept { return reinterpret_cast<HANDLE>(handle); }
 
-OVERLAPPED placeOf(std::int64_t position) noexcept {
-    OVERLAPPED place{};
-    place.Offset = static_cast<DWORD>(position & 0xffff'ffff);
-    place.OffsetHigh = static_cast<DWORD>(position >> 32);
-    return place;
+OVERLAPPED overlappedAt(std::int64_t position) noexcept {
+    OVERLAPPED overlapped{};
+    overlapped.Offset = static_cast<DWORD>(position & 0xffff'ffff);
+    overlapped.OffsetHigh = static_cast<DWORD>(position >> 32);
+    return overlapped;
 }
 
 int errnoOf(DWORD error) noexcept {
@@ -47,22 +47,22 @@ int errnoOf(DWORD error) noexcept {
     }
 }
 
-bool identityOf(HANDLE file, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
+bool getIdentity(HANDLE file, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
     return GetFileInformationByHandle(file, &identity) != 0;
 }
 
-bool identityOf(const std::filesystem::path& path, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
-    const HANDLE file = CreateFileW(path.c_str(), 0, othersMay, nullptr, OPEN_EXISTING,
+bool getIdentity(const std::filesystem::path& path, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
+    const HANDLE file = CreateFileW(path.c_str(), 0, shareMode, nullptr, OPEN_EXISTING,
                                     FILE_FLAG_OPEN_REPARSE_POINT | FILE_FLAG_BACKUP_SEMANTICS, nullptr);
     if (file == INVALID_HANDLE_VALUE) return false;
-    const bool isKnown = identityOf(file, identity);
+    const bool hasIdentity = getIdentity(file, identity);
     CloseHandle(file);
-    return isKnown;
+    return hasIdentity;
 }
 
 bool isRegular(HANDLE file, bool followsLinks) noexcept {
     BY_HANDLE_FILE_INFORMATION identity;
-    if (GetFileType(file) != FILE_TYPE_DISK || !identityOf(file, identity)) return false;
+    if (GetFileType(file) != FILE_TYPE_DISK || !getIdentity(file, identity)) return false;
     return followsLinks || (identity.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT) == 0;
 }
 
@@ -73,41 +73,43 @@ bool isFolder(const std::filesystem::path& path) noexcept {
 
 } // namespace
 
-SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening) noexcept {
-    const bool looks = opening == Opening::look, creates = opening == Opening::create;
+SystemFile SystemFile::openWith(const std::filesystem::path& path, Opening opening) noexcept {
+    const bool isLockOnly = opening == Opening::lockOnly, creates = opening == Opening::create;
     SystemFile file;
-    file.handle_ = reinterpret_cast<Handle>(
-        CreateFileW(path.c_str(), looks ? GENERIC_READ : GENERIC_READ | GENERIC_WRITE, othersMay, nullptr,
-                    creates ? CREATE_NEW
-                    : looks ? OPEN_EXISTING
-                            : OPEN_ALWAYS,
-                    FILE_ATTRIBUTE_NORMAL | (looks ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
-    if (!file.note(file.isOpen())) {
+    file.handle_ = reinterpret_cast<Handle>(CreateFileW(
+        path.c_str(), isLockOnly ? GENERIC_READ : GENERIC_READ | GENERIC_WRITE, shareMode, nullptr,
+        creates      ? CREATE_NEW
+        : isLockOnly ? OPEN_EXISTING
+                     : OPEN_ALWAYS,
+        FILE_ATTRIBUTE_NORMAL | (isLockOnly ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
+    if (!file.recordError(file.isOpen())) {
         if (!creates && isFolder(path)) file.error_ = EINVAL; // Windows reports "access denied" for a folder
-    } else if (!isRegular(handleOf(file.handle_), !looks)) {
-        file.refuse();
+    } else if (!isRegular(handleOf(file.handle_), !isLockOnly)) {
+        file.closeAsIrregular();
     }
     return file;
 }
 
-void SystemFile::closeNow() noexcept { CloseHandle(handleOf(handle_)); }
+void SystemFile::closeHandle() noexcept { CloseHandle(handleOf(handle_)); }
 
 SystemFile::Lock SystemFile::lock() noexcept {
-    OVERLAPPED place = placeOf(lockedByte);
-    if (LockFileEx(handleOf(handle_), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) !=
-        0)
-        return Lock::taken;
+    OVERLAPPED overlapped = overlappedAt(lockedPosition);
+    if (LockFileEx(handleOf(handle_), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0,
+                   &overlapped) != 0)
+        return Lock::acquired;
     const DWORD error = GetLastError();
-    return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? Lock::others : Lock::none;
+    return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? Lock::heldByOthers
+                                                                      : Lock::unsupported;
 }
 
 bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept {
-    constexpr std::size_t most = 1u << 30;
+    constexpr std::size_t maxBlockBytes = 1u << 30;
     while (error_ == 0 && !bytes.empty()) {
-        OVERLAPPED place = placeOf(position);
+        OVERLAPPED overlapped = overlappedAt(position);
         DWORD written = 0;
-        if (!note(WriteFile(handleOf(handle_), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)),
-                            &written, &place) != 0))
+        if (!recordError(WriteFile(handleOf(handle_), bytes.data(),
+                                   static_cast<DWORD>(std::min(bytes.size(), maxBlockBytes)), &written,
+                                   &overlapped) != 0))
             break;
         if (written == 0) error_ = ENOSPC; // otherwise it would loop forever
         bytes.remove_prefix(written);
@@ -116,53 +118,56 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     return error_ == 0;
 }
 
-bool SystemFile::sync() noexcept { return error_ == 0 && note(FlushFileBuffers(handleOf(handle_)) != 0); }
+bool SystemFile::sync() noexcept {
+    return error_ == 0 && recordError(FlushFileBuffers(handleOf(handle_)) != 0);
+}
 
 int SystemFile::syncFolder(const std::filesystem::path&) noexcept { return 0; } // NTFS journals its names
 
 bool SystemFile::resize(std::int64_t bytes) noexcept {
     FILE_END_OF_FILE_INFO end{};
     end.EndOfFile.QuadPart = bytes;
-    return error_ == 0 &&
-           note(SetFileInformationByHandle(handleOf(handle_), FileEndOfFileInfo, &end, sizeof(end)) != 0);
+    return error_ == 0 && recordError(SetFileInformationByHandle(handleOf(handle_), FileEndOfFileInfo, &end,
+                                                                 sizeof(end)) != 0);
 }
 
 std::int64_t SystemFile::size() noexcept {
     LARGE_INTEGER bytes{};
-    return error_ == 0 && note(GetFileSizeEx(handleOf(handle_), &bytes) != 0) ? bytes.QuadPart : 0;
+    return error_ == 0 && recordError(GetFileSizeEx(handleOf(handle_), &bytes) != 0) ? bytes.QuadPart : 0;
 }
 
 bool SystemFile::isAt(Handle handle, const std::filesystem::path& path) noexcept {
-    BY_HANDLE_FILE_INFORMATION mine, there;
-    return identityOf(handleOf(handle), mine) && identityOf(path, there) &&
-           mine.dwVolumeSerialNumber == there.dwVolumeSerialNumber &&
-           mine.nFileIndexHigh == there.nFileIndexHigh && mine.nFileIndexLow == there.nFileIndexLow;
+    BY_HANDLE_FILE_INFORMATION ownIdentity, pathIdentity;
+    return getIdentity(handleOf(handle), ownIdentity) && getIdentity(path, pathIdentity) &&
+           ownIdentity.dwVolumeSerialNumber == pathIdentity.dwVolumeSerialNumber &&
+           ownIdentity.nFileIndexHigh == pathIdentity.nFileIndexHigh &&
+           ownIdentity.nFileIndexLow == pathIdentity.nFileIndexLow;
 }
 
-void SystemFile::removeNow(const std::filesystem::path& path) noexcept { DeleteFileW(path.c_str()); }
+void SystemFile::removePath(const std::filesystem::path& path) noexcept { DeleteFileW(path.c_str()); }
 
-void SystemFile::takePermissionsOf(const std::filesystem::path&) const noexcept {}
+void SystemFile::copyPermissionsFrom(const std::filesystem::path&) const noexcept {}
 
-bool SystemFile::note(bool isGood) noexcept {
-    if (!isGood && error_ == 0) error_ = errnoOf(GetLastError());
-    return isGood;
+bool SystemFile::recordError(bool isOk) noexcept {
+    if (!isOk && error_ == 0) error_ = errnoOf(GetLastError());
+    return isOk;
 }
 
-HeldSignals::HeldSignals() noexcept { AcquireSRWLockShared(&makers); }
-HeldSignals::~HeldSignals() { ReleaseSRWLockShared(&makers); }
+DeferredSignals::DeferredSignals() noexcept { AcquireSRWLockShared(&creationLock); }
+DeferredSignals::~DeferredSignals() { ReleaseSRWLockShared(&creationLock); }
 
 std::span<const int> endingSignals() noexcept {
     static constexpr int ending[]{SIGINT, SIGTERM, SIGBREAK};
     return ending;
 }
 
-void removeAllOnEnd() noexcept {
-    AcquireSRWLockExclusive(&makers);
-    RemovedOnEnd::removeAll();
-    ReleaseSRWLockExclusive(&makers);
+void removeFilesOnSignal() noexcept {
+    AcquireSRWLockExclusive(&creationLock);
+    RemoveOnSignal::removeAll();
+    ReleaseSRWLockExclusive(&creationLock);
 }
 
-std::FILE* openReadable(const std::filesystem::path& path) noexcept { return openStream(path, "rb"); }
+std::FILE* openForReading(const std::filesystem::path& path) noexcept { return openStream(path, "rb"); }
 
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept {
     wchar_t wide[8]{};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads and writes objects as JSON by their tables (FieldTable.h). Unknown fields are refused before any
-// value is read; ranges are checked while reading. For the .cpp files of modules with files.
+// value is read; ranges are checked while reading. Included by .cpp files only, because JSON compiles slowly.
 //
-// A module can add kinds: readKind(json, kind) and writeKind(kind, value).
+// A module adds kinds of values by its own readCustom(json, kind) and writeCustom(kind, value).
 #pragma once
 #include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
@@ -20,7 +20,7 @@ auto readAs(const JsonField& json, const Kind& kind) {
     if constexpr (requires { kind(json); })
         return kind(json);
     else
-        return readKind(json, kind);
+        return readCustom(json, kind);
 }
 template <class Kind, class Value>
 OrderedJson writeAs(const Kind& kind, const Value& value) {
@@ -29,18 +29,18 @@ OrderedJson writeAs(const Kind& kind, const Value& value) {
     else if constexpr (requires(const JsonField& json) { kind(json); })
         return value;
     else
-        return writeKind(kind, value);
+        return writeCustom(kind, value);
 }
 
-// A table calls, of its visitor:
-//   version(name, newest)            the version of the format, first of all
-//   field(name, member, kind, Need)  member: anything that std::invoke makes a reference of
-//   formerly(name, member, kind)     what older versions called the next field
-//   has(name, member)                true if fields that only occur with that one follow
-//   part(name, Need)                 a list that is read and written apart: it only has its place here
-// and may read v.object, in which the fields before are known.
+// A table visitFields(v, FieldsOf<T>{}) calls these functions of its visitor v, in the order of the file:
+//   version(name, newest)            the version of the format; called first
+//   field(name, member, kind, Need)  a field; `member` gives std::invoke a reference to its value
+//   legacyField(name, member, kind)  the name of the next field in older versions
+//   has(name, member)                returns true if the fields that depend on this one follow
+//   part(name, Need)                 a list that other code reads and writes; the call only fixes its place
+// It may use v.object, whose earlier fields have been read already.
 
-/// Checks the version, and collects the fields that an object may have.
+/// Visitor that checks the version, and collects the names of the fields that an object may have.
 template <class T>
 struct FieldNames {
     const JsonField& json;
@@ -54,7 +54,7 @@ struct FieldNames {
     void field(std::string_view name, const auto&, const auto&, Need = Need::required) {
         names.push_back(name);
     }
-    void formerly(std::string_view name, const auto&, const auto&) { names.push_back(name); }
+    void legacyField(std::string_view name, const auto&, const auto&) { names.push_back(name); }
     void part(std::string_view name, Need = Need::required) { names.push_back(name); }
     bool has(std::string_view, const auto&) const { return true; }
 };
@@ -67,15 +67,15 @@ struct TableReader {
     void version(std::string_view, int) const {}
     void field(std::string_view name, const auto& member, const auto& kind,
                Need need = Need::required) const {
-        if (need.mayBeLeftOut && !json.has(name)) return;
-        auto&& place = std::invoke(member, object);
-        using Place = std::remove_reference_t<decltype(place)>;
-        if constexpr (std::is_scalar_v<Place>)
-            place = static_cast<Place>(readAs(json[name], kind));
+        if (need.isOptional && !json.has(name)) return;
+        auto&& target = std::invoke(member, object);
+        using Target = std::remove_reference_t<decltype(target)>;
+        if constexpr (std::is_scalar_v<Target>)
+            target = static_cast<Target>(readAs(json[name], kind));
         else
-            place = readAs(json[name], kind);
+            target = readAs(json[name], kind);
     }
-    void formerly(std::string_view name, const auto& member, const auto& kind) const {
+    void legacyField(std::string_view name, const auto& member, const auto& kind) const {
         field(name, member, kind, Need::optional);
     }
     void part(std::string_view, Need = Need::required) const {}
@@ -94,7 +94,7 @@ struct TableWriter {
         if (need.isAlwaysWritten || value != writeAs(kind, std::invoke(member, defaults)))
             json[std::string(name)] = std::move(value);
     }
-    void formerly(std::string_view, const auto&, const auto&) const {}
+    void legacyField(std::string_view, const auto&, const auto&) const {}
     void part(std::string_view name, Need need = Need::required) {
         if (need.isAlwaysWritten) json[std::string(name)] = OrderedJson::array();
     }
@@ -106,9 +106,9 @@ struct TableWriter {
 template <class T, class Table>
 void readTable(const JsonField& json, T& object) {
     json.expectObject();
-    FieldNames<T> known{json, object};
-    visitFields(known, FieldsOf<Table>{});
-    json.expectOnly(known.names);
+    FieldNames<T> fieldNames{json, object};
+    visitFields(fieldNames, FieldsOf<Table>{});
+    json.expectOnly(fieldNames.names);
     TableReader<T> reader{json, object};
     visitFields(reader, FieldsOf<Table>{});
 }

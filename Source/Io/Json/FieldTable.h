@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables of fields: of each its name in files, its place in a struct, its kind, and whether a file may leave
-// it out. A table stands beside its struct and needs no JSON; readers, writers and checks visit it.
+// Tables of fields: a field's name in files, its member in a struct, the kind of its value, and whether a
+// file may omit it. A table stands beside its struct and needs no JSON; readers, writers and checks visit it.
 #pragma once
 #include <functional>
 #include <limits>
@@ -17,34 +17,33 @@ namespace physvib {
 template <class T>
 struct FieldsOf {};
 
-/// Reads and writes every field of `object` by the table of T, or another one; throws JsonError. In
-/// FieldJson.h.
+/// Reads or writes all fields of `object` by a table (FieldJson.h); throws JsonError.
 template <class T, class Table = T>
 void readTable(const class JsonField& json, T& object);
 template <class T, class Table = T>
 nlohmann::ordered_json writeTable(const T& object);
 
-/// Whether a file may leave a field out, which then has the struct's default.
+/// Whether files must have a field; one that a file omits has the struct's default.
 struct Need {
-    bool mayBeLeftOut = false, isAlwaysWritten = true;
+    bool isOptional = false, isAlwaysWritten = true;
     int since = 1; ///< the version of the format that brought the field
 
     static const Need required; ///< in every file
-    static const Need filled;   ///< always written
-    static const Need optional; ///< written unless it has its default
+    static const Need filled;   ///< always written, but may be missing in files that are read
+    static const Need optional; ///< may be missing; not written if it equals its default
 
-    /// The same for a field that files before `version` lack.
+    /// The same for a field that files of versions before `version` do not have.
     constexpr Need from(int version) const { return {true, isAlwaysWritten, version}; }
     bool operator==(const Need&) const = default;
 };
 inline constexpr Need Need::required{}, Need::filled{true}, Need::optional{true, false};
 
-/// The accessor of a member's member, for a field.
+/// Accessor of the member `inner` of the member `outer`, for one field.
 constexpr auto in(auto outer, auto inner) {
     return [=](auto& object) -> auto& { return std::invoke(inner, std::invoke(outer, object)); };
 }
 
-/// The accessor of two members, for one field.
+/// Accessor of two members as a tuple of references, for one field.
 constexpr auto both(auto first, auto second) {
     return [=](auto& object) { return std::tie(std::invoke(first, object), std::invoke(second, object)); };
 }
@@ -53,29 +52,29 @@ constexpr auto both(auto first, auto second) {
 /// value back if files spell it differently.
 namespace kinds {
 
-inline constexpr auto truth = [](const auto& json) { return json.truth(); };
+inline constexpr auto boolean = [](const auto& json) { return json.boolean(); };
 inline constexpr auto text = [](const auto& json) { return json.text(); };
 inline constexpr auto number = [](const auto& json) { return json.number(); };
 inline constexpr auto positive = [](const auto& json) { return json.positiveNumber(); };
 inline constexpr auto name = [](const auto& json) {
-    auto found = json.text();
-    if (found.empty()) json.fail("expected a name, found an empty string");
-    return found;
+    auto value = json.text();
+    if (value.empty()) json.fail("expected a name, found an empty string");
+    return value;
 };
-constexpr auto upTo(double most) {
-    return [=](const auto& json) { return json.numberUpTo(most); };
+constexpr auto upTo(double max) {
+    return [=](const auto& json) { return json.numberUpTo(max); };
 }
-constexpr auto within(double least, double most) {
-    return [=](const auto& json) { return json.numberWithin(least, most); };
+constexpr auto within(double min, double max) {
+    return [=](const auto& json) { return json.numberWithin(min, max); };
 }
-constexpr auto whole(int least, int most) {
-    return [=](const auto& json) { return json.wholeWithin(least, most); };
+constexpr auto wholeNumber(int min, int max) {
+    return [=](const auto& json) { return json.wholeNumberWithin(min, max); };
 }
 
-/// An index from 0 that files count from 1; the range is that in files.
-struct FromOne {
-    int least, most;
-    int operator()(const auto& json) const { return static_cast<int>(json.numberWithin(least, most)) - 1; }
+/// An index that counts from 0 in memory and from 1 in files; `min` and `max` are as in files.
+struct OneBased {
+    int min, max;
+    int operator()(const auto& json) const { return static_cast<int>(json.numberWithin(min, max)) - 1; }
     int write(int value) const { return value + 1; }
 };
 
@@ -100,12 +99,12 @@ struct Object {
 /// A list of structs by their table.
 template <class T>
 struct Objects {
-    std::size_t most = std::numeric_limits<std::size_t>::max();
-    const char* items = ""; ///< what they are called in errors
+    std::size_t max = std::numeric_limits<std::size_t>::max();
+    const char* items = ""; ///< their plural noun in error messages
 
     std::vector<T> operator()(const auto& json) const {
         std::vector<T> list;
-        if (json.arraySize() > most) json.fail("expected at most " + std::to_string(most) + ' ' + items);
+        if (json.arraySize() > max) json.fail("expected at most " + std::to_string(max) + ' ' + items);
         for (std::size_t i = 0; i < json.arraySize(); ++i) readTable(json.item(i), list.emplace_back());
         return list;
     }
@@ -118,9 +117,9 @@ struct Objects {
 
 } // namespace kinds
 
-/// Kinds that the module's readKind() and writeKind() convert: a T, or a T with an item per channel.
+/// Kinds that a module's own readCustom() and writeCustom() convert: a T, or a T with one item per channel.
 template <class T>
-struct Own {};
+struct Custom {};
 template <class T>
 struct PerChannel {
     int channels;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Type and range checks of JSON values, with their error messages.
+// Checks type and range of JSON values, with error messages; and the strict parser, on nlohmann's SAX
+// interface, which refuses repeated fields and deep nesting while it parses.
 #include "Io/Json/JsonField.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CleanText.h"
@@ -14,24 +15,24 @@
 namespace physvib {
 void JsonField::fail(const std::string& message) const { throw JsonError(path_, message); }
 
-void JsonField::failType(const std::string& expected) const {
+void JsonField::failWrongType(const std::string& expected) const {
     const std::string found = value_.type_name();
     const char* const article = value_.is_null() ? "" : value_.is_structured() ? "an " : "a ";
     fail("expected " + expected + ", found " + article + found);
 }
 
 void JsonField::expectObject() const {
-    if (!value_.is_object()) failType("an object");
+    if (!value_.is_object()) failWrongType("an object");
 }
 
-void JsonField::expectObject(std::initializer_list<std::string_view> known) const {
+void JsonField::expectObject(std::initializer_list<std::string_view> allowed) const {
     expectObject();
-    expectOnly({known.begin(), known.size()});
+    expectOnly({allowed.begin(), allowed.size()});
 }
 
-void JsonField::expectOnly(std::span<const std::string_view> known) const {
+void JsonField::expectOnly(std::span<const std::string_view> allowed) const {
     for (const auto& item : value_.items())
-        if (std::ranges::find(known, item.key()) == known.end())
+        if (std::ranges::find(allowed, item.key()) == allowed.end())
             fail("unknown field " + inQuotes(item.key()));
 }
 
@@ -44,7 +45,7 @@ JsonField JsonField::operator[](std::string_view key) const {
 }
 
 std::size_t JsonField::arraySize() const {
-    if (!value_.is_array()) failType("an array");
+    if (!value_.is_array()) failWrongType("an array");
     return value_.size();
 }
 
@@ -53,7 +54,7 @@ JsonField JsonField::item(std::size_t index) const {
 }
 
 double JsonField::number() const {
-    if (!value_.is_number()) failType("a number");
+    if (!value_.is_number()) failWrongType("a number");
     return value_.get<double>();
 }
 
@@ -63,55 +64,56 @@ double JsonField::positiveNumber() const {
     return found;
 }
 
-double JsonField::numberUpTo(double most) const {
+double JsonField::numberUpTo(double max) const {
     const double found = number();
-    if (!(found >= 0.0 && found <= most))
-        fail("expected a number from 0 to " + numberText(most) + ", found " + value_.dump());
+    if (!(found >= 0.0 && found <= max))
+        fail("expected a number from 0 to " + numberText(max) + ", found " + value_.dump());
     return found;
 }
 
-double JsonField::numberWithin(double least, double most) const {
+double JsonField::numberWithin(double min, double max) const {
     const double found = number();
-    if (!(found >= least && found <= most))
-        fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
+    if (!(found >= min && found <= max))
+        fail("expected " + numberText(min) + " to " + numberText(max) + ", found " + numberText(found));
     return found;
 }
 
-int JsonField::wholeOf(double most) const {
+int JsonField::wholeNumberUpTo(double max) const {
     const double found = number();
-    if (!(std::abs(found) <= most) || found != std::floor(found))
+    if (!(std::abs(found) <= max) || found != std::floor(found))
         fail("expected a whole number, found " + value_.dump());
     return static_cast<int>(found);
 }
 
-int JsonField::wholeNumber() const { return wholeOf(1.0e9); }
+int JsonField::wholeNumber() const { return wholeNumberUpTo(1.0e9); }
 
-int JsonField::wholeWithin(int least, int most) const {
-    const int found = wholeOf(std::numeric_limits<int>::max()); // as sounds and parts do
-    if (found < least || found > most)
-        fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
+int JsonField::wholeNumberWithin(int min, int max) const {
+    const int found = wholeNumberUpTo(std::numeric_limits<int>::max()); // numbers of sounds and parts use all
+                                                                        // of it
+    if (found < min || found > max)
+        fail("expected " + std::to_string(min) + " to " + std::to_string(max) + ", found " +
              std::to_string(found));
     return found;
 }
 
-bool JsonField::truth() const {
-    if (!value_.is_boolean()) failType("true or false");
+bool JsonField::boolean() const {
+    if (!value_.is_boolean()) failWrongType("true or false");
     return value_.get<bool>();
 }
 
-std::string JsonField::text(std::size_t mostBytes) const {
-    if (!value_.is_string()) failType("a string");
-    const auto& words = value_.get_ref<const std::string&>();
-    if (words.size() > mostBytes)
-        fail("expected at most " + std::to_string(mostBytes) + " bytes, found " +
-             std::to_string(words.size()));
-    if (std::ranges::any_of(words, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-        fail("expected text without control characters, found " + inQuotes(words));
-    return words;
+std::string JsonField::text(std::size_t maxBytes) const {
+    if (!value_.is_string()) failWrongType("a string");
+    const auto& string = value_.get_ref<const std::string&>();
+    if (string.size() > maxBytes)
+        fail("expected at most " + std::to_string(maxBytes) + " bytes, found " +
+             std::to_string(string.size()));
+    if (std::ranges::any_of(string, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+        fail("expected text without control characters, found " + inQuotes(string));
+    return string;
 }
 
 std::string JsonField::line() const {
-    if (!value_.is_string()) failType("a string");
+    if (!value_.is_string()) failWrongType("a string");
     return cleanLine(value_.get_ref<const std::string&>().substr(0, limits::maxNameBytes));
 }
 
@@ -129,40 +131,39 @@ std::vector<std::string> JsonField::names() const {
     return names;
 }
 
-bool JsonField::is(std::string_view word) const {
+bool JsonField::isString(std::string_view word) const {
     return value_.is_string() && value_.get_ref<const std::string&>() == word;
 }
 } // namespace physvib
-
-// Strict JSON parser on nlohmann's SAX interface: refuses repeated fields and deep nesting while parsing;
-// positions are counted as in editors.
 
 template class nlohmann::basic_json<>;
 
 namespace physvib {
 namespace {
 
-std::string toldPath(const std::string& path) {
-    constexpr std::size_t end = 60;
-    if (path.size() <= 2 * end + 3) return path;
-    return path.substr(0, end) + "..." + path.substr(path.size() - end);
+std::string shortenedPath(const std::string& path) {
+    constexpr std::size_t endLength = 60;
+    if (path.size() <= 2 * endLength + 3) return path;
+    return path.substr(0, endLength) + "..." + path.substr(path.size() - endLength);
 }
 
-/// "line 3, column 7" of the byte where the parser stopped, counted from 1.
-std::string placeOf(std::string_view text, std::size_t byte) {
+/// "line 3, column 7" of byte number `byte` (from 1), where the parser stopped; counted as in editors.
+std::string positionText(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte == 0 ? 0 : std::min(byte - 1, text.size()));
     const auto line = std::ranges::count(before, '\n') + 1;
-    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // npos + 1 is 0
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // rfind() without a result,
+                                                                             // npos, plus 1 is 0
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
 /// The parser's message without its number and position, at most 120 characters.
-std::string detailOf(const std::exception& error) {
-    constexpr std::size_t longest = 120;
-    std::string_view words = error.what();
-    words.remove_prefix(std::min(words.find("] ") + 2, words.size()));
-    if (words.starts_with("parse error")) words.remove_prefix(std::min(words.find(": ") + 2, words.size()));
-    return std::string(words.substr(0, longest)) + (words.size() > longest ? "..." : "");
+std::string shortMessage(const std::exception& error) {
+    constexpr std::size_t maxLength = 120;
+    std::string_view message = error.what();
+    message.remove_prefix(std::min(message.find("] ") + 2, message.size()));
+    if (message.starts_with("parse error"))
+        message.remove_prefix(std::min(message.find(": ") + 2, message.size()));
+    return std::string(message.substr(0, maxLength)) + (message.size() > maxLength ? "..." : "");
 }
 
 /// Builds the value while the parser runs, and throws JsonError at a repeated field or too deep a nesting.
@@ -172,21 +173,21 @@ public:
     explicit StrictBuilder(std::string_view text)
         : text_{text} {}
 
-    Json take() { return std::move(root_); }
+    Json result() { return std::move(root_); }
 
-    bool null() override { return put(nullptr); }
-    bool boolean(bool value) override { return put(value); }
-    bool number_integer(number_integer_t value) override { return put(value); }
-    bool number_unsigned(number_unsigned_t value) override { return put(value); }
-    bool number_float(number_float_t value, const string_t&) override { return put(value); }
-    bool string(string_t& value) override { return put(std::move(value)); }
+    bool null() override { return addValue(nullptr); }
+    bool boolean(bool value) override { return addValue(value); }
+    bool number_integer(number_integer_t value) override { return addValue(value); }
+    bool number_unsigned(number_unsigned_t value) override { return addValue(value); }
+    bool number_float(number_float_t value, const string_t&) override { return addValue(value); }
+    bool string(string_t& value) override { return addValue(std::move(value)); }
     bool binary(binary_t&) override { return false; } // does not occur in text
-    bool start_object(std::size_t) override { return open(Json::object()); }
-    bool start_array(std::size_t) override { return open(Json::array()); }
-    bool end_object() override { return close(); }
-    bool end_array() override { return close(); }
+    bool start_object(std::size_t) override { return openContainer(Json::object()); }
+    bool start_array(std::size_t) override { return openContainer(Json::array()); }
+    bool end_object() override { return closeContainer(); }
+    bool end_array() override { return closeContainer(); }
     bool key(string_t& name) override {
-        Level& object = open_.back();
+        Level& object = levels_.back();
         const auto [field, isNew] = object.value->emplace(name, nullptr);
         if (!isNew) throw JsonError(path(), "field " + inQuotes(name) + " appears twice");
         object.field = &*field;
@@ -194,83 +195,85 @@ public:
         return true;
     }
     bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
-        const auto* const placed = dynamic_cast<const Json::parse_error*>(&error);
-        throw JsonError(placed != nullptr ? placeOf(text_, placed->byte) : std::string{}, detailOf(error));
+        const auto* const parseError = dynamic_cast<const Json::parse_error*>(&error);
+        throw JsonError(parseError != nullptr ? positionText(text_, parseError->byte) : std::string{},
+                        shortMessage(error));
     }
 
 private:
     /// An object or array that is still open.
     struct Level {
         Json* value;
-        Json* field = nullptr; ///< of an object: the field that comes next, and its name
+        Json* field = nullptr; ///< of an object: the field whose value is read next, and its name
         std::string name{};
     };
 
-    Json& place(Json value) {
-        if (open_.empty()) return root_ = std::move(value);
-        if (Level& parent = open_.back(); !parent.value->is_array()) return *parent.field = std::move(value);
-        auto& list = open_.back().value->get_ref<Json::array_t&>();
+    Json& insert(Json value) {
+        if (levels_.empty()) return root_ = std::move(value);
+        if (Level& parent = levels_.back(); !parent.value->is_array())
+            return *parent.field = std::move(value);
+        auto& list = levels_.back().value->get_ref<Json::array_t&>();
         list.push_back(std::move(value));
         return list.back();
     }
-    bool put(Json value) {
-        place(std::move(value));
+    bool addValue(Json value) {
+        insert(std::move(value));
         return true;
     }
-    bool open(Json container) {
-        if (open_.size() == limits::maxJsonDepth)
+    bool openContainer(Json container) {
+        if (levels_.size() == limits::maxJsonDepth)
             throw JsonError({}, "nested deeper than " + std::to_string(limits::maxJsonDepth) + " levels");
-        open_.push_back({&place(std::move(container))});
+        levels_.push_back({&insert(std::move(container))});
         return true;
     }
-    bool close() {
-        open_.pop_back();
+    bool closeContainer() {
+        levels_.pop_back();
         return true;
     }
-    /// Of the innermost container.
+    /// Path of the innermost open container.
     std::string path() const {
-        std::string words;
-        for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
-            const Level& level = open_[i];
+        std::string text;
+        for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
+            const Level& level = levels_[i];
             if (level.value->is_array())
-                words += "[" + std::to_string(level.value->size() - 1) + "]";
+                text += "[" + std::to_string(level.value->size() - 1) + "]";
             else
-                words.append(words.empty() ? "" : ".").append(printable(level.name));
+                text.append(text.empty() ? "" : ".").append(printable(level.name));
         }
-        return words;
+        return text;
     }
 
     std::string_view text_;
     Json root_;
-    std::vector<Level> open_;
+    std::vector<Level> levels_;
 };
 
 } // namespace
 
 JsonError::JsonError(const std::string& path, const std::string& message)
-    : std::runtime_error(path.empty() ? message : toldPath(path) + ": " + message) {}
+    : std::runtime_error(path.empty() ? message : shortenedPath(path) + ": " + message) {}
 
 namespace {
 
-/// Each value or field has such a mark. In memory a value takes up to thirty times its bytes in the text.
-void expectFewMarks(std::string_view text) {
-    const std::size_t most = limits::maxJsonMarks + text.size() / limits::jsonBytesPerMark;
+/// Limits the number of values: in memory one takes up to thirty times its bytes in the text.
+void checkMarkCount(std::string_view text) {
+    const std::size_t max = limits::maxJsonMarks + text.size() / limits::jsonBytesPerMark;
     const auto found = static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return c == ',' || c == ':' || c == '[' || c == '{'; }));
-    if (found > most)
-        throw JsonError({}, "expected at most " + std::to_string(most) +
+    if (found > max)
+        throw JsonError({}, "expected at most " + std::to_string(max) +
                                 " values and fields in so many bytes, found more");
 }
 
 } // namespace
 
 Json parseStrictly(std::string_view text) {
-    expectFewMarks(text);
-    if (const auto nul = text.find('\0'); nul != std::string_view::npos) // for the parser, the end
+    checkMarkCount(text);
+    if (const auto nul = text.find('\0'); nul != std::string_view::npos) // the parser would end there
         throw JsonError({}, "expected text, found a NUL after " + std::to_string(nul) + " bytes");
     StrictBuilder builder{text};
     Json::sax_parse(text, &builder);
-    return builder.take();
+    return builder.result();
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Typed access to a JSON value, with errors that name its path. For .cpp files that read JSON.
+// Strict parser of JSON, and typed access to its values with errors that name a value's path.
 #pragma once
 #include "Io/Disk/ReadFile.h"
 #include <cstddef>
@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-// Strict JSON parsing: no repeated fields, no deep nesting, and errors that name the field. For .cpp files.
-
-// Instantiated once, in JsonField.cpp, because it dominates the compile time of every file that uses it.
+// Instantiated once, in JsonField.cpp, because it dominates compile times. Include this in .cpp files only.
 extern template class nlohmann::basic_json<>;
 
 namespace physvib {
@@ -27,10 +25,10 @@ struct JsonError : std::runtime_error {
     JsonError(const std::string& path, const std::string& message);
 };
 
-/// The parsed value. Throws JsonError.
+/// The parsed value; repeated fields and deep nesting are errors. Throws JsonError.
 Json parseStrictly(std::string_view text);
 
-/// A value and its path. Missing or wrong values are thrown as JsonError.
+/// A value and its path, such as bodies[3].name. Missing and wrong values throw JsonError with the path.
 class JsonField {
 public:
     JsonField(const Json& value, std::string path)
@@ -41,8 +39,8 @@ public:
     [[noreturn]] void fail(const std::string& message) const;
 
     void expectObject() const;
-    void expectObject(std::initializer_list<std::string_view> known) const;
-    void expectOnly(std::span<const std::string_view> known) const;
+    void expectObject(std::initializer_list<std::string_view> allowed) const;
+    void expectOnly(std::span<const std::string_view> allowed) const;
 
     bool has(std::string_view key) const;
     std::vector<std::string> names() const; ///< of an object's fields
@@ -52,28 +50,28 @@ public:
 
     double number() const;
     double positiveNumber() const;
-    double numberUpTo(double most) const; ///< from 0
-    double numberWithin(double least, double most) const;
-    int wholeNumber() const; ///< within 1e9
-    int wholeWithin(int least, int most) const;
-    bool truth() const;
-    /// One line of at most `mostBytes` bytes.
-    std::string text(std::size_t mostBytes = limits::maxNameBytes) const;
-    /// Any text made displayable as one line; for titles in imported files.
+    double numberUpTo(double max) const; ///< from 0
+    double numberWithin(double min, double max) const;
+    int wholeNumber() const; ///< -1e9 to 1e9
+    int wholeNumberWithin(int min, int max) const;
+    bool boolean() const;
+    /// A string of at most `maxBytes` bytes without control characters.
+    std::string text(std::size_t maxBytes = limits::maxNameBytes) const;
+    /// Any string, cut and escaped to one displayable line; for titles in imported files.
     std::string line() const;
-    /// Its index in `names`.
+    /// Index of this string in `names`; an error if it is not one of them.
     std::size_t oneOf(std::span<const std::string_view> names) const;
-    /// The value as a file of its own.
+    /// The value as JSON text on one line.
     std::string fileText() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }
     bool isNull() const { return value_.is_null(); }
     bool isText() const { return value_.is_string(); }
     bool isNumber() const { return value_.is_number(); }
     bool isArray() const { return value_.is_array(); }
-    bool is(std::string_view word) const;
+    bool isString(std::string_view word) const; ///< true if the value is this string
 
 private:
-    int wholeOf(double most) const;
-    [[noreturn]] void failType(const std::string& expected) const;
+    int wholeNumberUpTo(double max) const;
+    [[noreturn]] void failWrongType(const std::string& expected) const;
 
     const Json& value_;
     std::string path_;

@@ -17,18 +17,18 @@ std::string jsonNumber(double number) {
 
 namespace {
 
-void appendLine(std::string& out, const OrderedJson& value);
+void appendCompact(std::string& out, const OrderedJson& value);
 
 void appendName(std::string& out, const std::string& name) {
     const auto isPlain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
     if (std::ranges::all_of(name, isPlain))
         out.append(1, '"').append(name).append("\": ");
     else
-        appendLine(out, OrderedJson(name)), out += ": ";
+        appendCompact(out, OrderedJson(name)), out += ": ";
 }
 
 // Invalid UTF-8 is replaced by U+FFFD, because JSON does not allow it.
-void appendLine(std::string& out, const OrderedJson& value) {
+void appendCompact(std::string& out, const OrderedJson& value) {
     if (value.is_number_float())
         out += jsonNumber(value.get<double>());
     else if (!value.is_structured())
@@ -38,20 +38,22 @@ void appendLine(std::string& out, const OrderedJson& value) {
     for (auto item = value.begin(); item != value.end(); ++item) {
         if (item != value.begin()) out += ", ";
         if (value.is_object()) appendName(out, item.key());
-        appendLine(out, *item);
+        appendCompact(out, *item);
     }
     out += value.is_array() ? "]" : " }";
 }
 
-void appendLines(std::string& out, const OrderedJson& value, std::size_t indent, std::size_t column) {
-    constexpr std::size_t longestLine = 140;
-    const bool holdsObjects = value.is_array() && !value.empty() && value.front().is_object();
-    const bool isTop = indent == 0 || (indent == 2 && holdsObjects); // a list of objects at the top, such as
-                                                                     // bodies, is always broken into lines
-    const bool isList = value.is_structured() && !value.empty();
-    if (!isList || !isTop) {
+/// Appends the value on one line if it fits behind `usedColumns`; else one item per line, at `indent` + 2.
+void appendIndented(std::string& out, const OrderedJson& value, std::size_t indent, std::size_t usedColumns) {
+    constexpr std::size_t maxLineLength = 140;
+    const bool isObjectList = value.is_array() && !value.empty() && value.front().is_object();
+    const bool isOuterLevel = indent == 0 || (indent == 2 && isObjectList); // the root, and lists of objects
+                                                                            // in it such as bodies: never on
+                                                                            // one line
+    const bool hasItems = value.is_structured() && !value.empty();
+    if (!hasItems || !isOuterLevel) {
         const std::string line = jsonLine(value);
-        if (!isList || column + line.size() < longestLine) {
+        if (!hasItems || usedColumns + line.size() < maxLineLength) {
             out += line;
             return;
         }
@@ -62,7 +64,7 @@ void appendLines(std::string& out, const OrderedJson& value, std::size_t indent,
         std::string name;
         if (value.is_object()) appendName(name, item.key());
         out += margin + name;
-        appendLines(out, *item, indent + 2, margin.size() + name.size());
+        appendIndented(out, *item, indent + 2, margin.size() + name.size());
         out += std::next(item) == value.end() ? "\n" : ",\n";
     }
     out += std::string(indent, ' ') + (value.is_array() ? "]" : "}");
@@ -72,13 +74,13 @@ void appendLines(std::string& out, const OrderedJson& value, std::size_t indent,
 
 std::string jsonLine(const OrderedJson& value) {
     std::string line;
-    appendLine(line, value);
+    appendCompact(line, value);
     return line;
 }
 
 std::string jsonLines(const OrderedJson& value) {
     std::string out;
-    appendLines(out, value, 0, 0);
+    appendIndented(out, value, 0, 0);
     return out + "\n";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads JSON texts with a size limit, checks the version of PhysVib's own files, and formats JSON for people.
-// For .cpp files that read or write JSON.
+// Reads JSON texts with a size limit, checks the version of PhysVib's own files, and formats JSON readably.
+// Included by .cpp files only.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Result.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 /// The result of `read` for the parsed value, or a one-line error that begins with `name`. `read` takes a
-/// Json& and throws JsonError. Any thread.
+/// Json& and throws JsonError.
 template <class Read>
 Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::string_view name,
                                                    std::size_t maxBytes, Read read) {
@@ -26,7 +26,7 @@ Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::s
     }
 }
 
-/// Fails unless `root` is an object whose field `name` is a version from 1 to `newest`.
+/// Throws JsonError unless `root` is an object whose field `name` is a version from 1 to `newest`.
 inline void checkVersion(const JsonField& root, std::string_view name, int newest) {
     root.expectObject();
     const JsonField field = root[name];
@@ -38,21 +38,19 @@ inline void checkVersion(const JsonField& root, std::string_view name, int newes
 }
 } // namespace physvib
 
-// Human-readable JSON output: short values on one line, numbers with the fewest digits that read back.
-
 extern template class nlohmann::basic_json<nlohmann::ordered_map>; // compiled once, in JsonText.cpp
 
 namespace physvib {
 
 using OrderedJson = nlohmann::ordered_json; // fields stay in the order they were added
 
-/// The shortest text that JSON reads back as the same bits: "-0" would be read as an integer. Any thread.
+/// The shortest text that reads back as the same bits; "-0.0", because "-0" reads as an integer.
 std::string jsonNumber(double number);
 
-/// The value on one line, without a newline. Any thread.
+/// The value on one line, without a newline.
 std::string jsonLine(const OrderedJson& value);
 
-/// The value in lines of up to 140 characters, where its parts allow it; a newline at the end. Any thread.
+/// The value over several lines of up to 140 characters, longer only for long strings. Ends in a newline.
 std::string jsonLines(const OrderedJson& value);
 
 } // namespace physvib

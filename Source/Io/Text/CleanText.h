@@ -8,13 +8,13 @@
 
 namespace physvib {
 
-/// The first character of a text; 0 bytes: invalid UTF-8.
+/// The first character of a text: its code point and length; 0 bytes: none, or invalid UTF-8.
 struct Utf8Character {
     std::uint32_t code = 0;
     std::size_t bytes = 0;
 };
 
-/// Any thread.
+/// Decodes the first character of `text`. Any thread.
 constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
     if (text.empty()) return {};
     const auto lead = static_cast<unsigned char>(text.front());
@@ -27,14 +27,14 @@ constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
         if ((next & 0xc0) != 0x80) return {};
         code = code << 6 | (next & 0x3f);
     }
-    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool isHalfOfAPair = code >= 0xd800 && code < 0xe000;
-    return code < least[bytes] || code > 0x10ffff || isHalfOfAPair ? Utf8Character{}
+    constexpr std::uint32_t minCode[] = {0, 0, 0x80, 0x800, 0x10000};
+    const bool isSurrogate = code >= 0xd800 && code < 0xe000;
+    return code < minCode[bytes] || code > 0x10ffff || isSurrogate ? Utf8Character{}
                                                                    : Utf8Character{code, bytes};
 }
 
-/// Whether a terminal or a text box would do something instead of showing it: control characters (both sets),
-/// line and paragraph ends, marks that turn the direction of what follows.
+/// True for characters that a terminal or text box acts on instead of showing them: control characters, line
+/// and paragraph separators, and marks of writing direction.
 constexpr bool isControl(std::uint32_t code) noexcept {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x200e || code == 0x200f ||
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
@@ -46,19 +46,19 @@ inline std::string cleanLine(std::string_view text) {
     std::string out;
     while (!text.empty()) {
         const auto [code, bytes] = firstCharacter(text);
-        const bool isShown = bytes > 0 && !isControl(code);
-        const std::string_view taken = text.substr(0, bytes > 0 ? bytes : 1);
-        text.remove_prefix(taken.size());
-        if (isShown)
-            out += taken;
+        const bool isPrintable = bytes > 0 && !isControl(code);
+        const std::string_view character = text.substr(0, bytes > 0 ? bytes : 1);
+        text.remove_prefix(character.size());
+        if (isPrintable)
+            out += character;
         else
-            for (const char c : taken)
+            for (const char c : character)
                 out.append("\\x").append(1, hex[static_cast<unsigned char>(c) >> 4]).append(1, hex[c & 15]);
     }
     return out;
 }
 
-/// A to Z as a to z. Any thread.
+/// The text with A to Z as a to z; other characters stay. Any thread.
 inline std::string lowerCase(std::string text) {
     for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
     return text;

@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 /// Removes a cell from the front of `rest`; false if its quotes do not match.
-bool takeCell(std::string_view& rest, std::string& cell, char separator) {
+bool readCell(std::string_view& rest, std::string& cell, char separator) {
     const std::size_t start = std::min(rest.find_first_not_of(separator == '\t' ? " " : " \t"), rest.size());
     if (start == rest.size() || rest[start] != '"') {
         cell = trimmed(takeUntil(separator, rest));
@@ -31,8 +31,8 @@ bool takeCell(std::string_view& rest, std::string& cell, char separator) {
     return trimmed(takeUntil(separator, rest)).empty();
 }
 
-/// A number with a decimal comma, as spreadsheets write where no comma separates cells: with a point.
-void takeDecimalComma(std::string& cell) {
+/// Replaces a decimal comma, which spreadsheets write where other characters separate cells, by a point.
+void convertDecimalComma(std::string& cell) {
     const std::size_t comma = cell.find(',');
     if (comma == std::string::npos || cell.find('.') != std::string::npos) return;
     std::string number = cell;
@@ -40,9 +40,9 @@ void takeDecimalComma(std::string& cell) {
     if (parseNumber<double>(number)) cell = std::move(number);
 }
 
-/// A spreadsheet would evaluate such text as a formula; a leading apostrophe keeps it text. Text that begins
-/// with an apostrophe gets a second one, so that reading restores it.
-bool isTakenForFormula(std::string_view text) noexcept {
+/// True if a spreadsheet would evaluate the text as a formula, which a leading apostrophe prevents. Also true
+/// if it has apostrophes before that: it gets one more, so that reading restores it.
+bool isFormula(std::string_view text) noexcept {
     const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
     constexpr std::string_view signs = "=+-@";
     return first < text.size() && signs.find(text[first]) != std::string_view::npos &&
@@ -52,22 +52,22 @@ bool isTakenForFormula(std::string_view text) noexcept {
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view name, CsvHeader header)
-        : rest_{text}
+        : unread_{text}
         , header_{header} {
         table_.name = name;
-        dropByteOrderMark(rest_);
+        dropByteOrderMark(unread_);
     }
     Result<CsvTable> read() {
-        if (!readHeader()) return Failure{placed()};
-        for (CsvRow row; readRow(row) && keep(row);) row.cells.reserve(table_.columns.size());
+        if (!readHeader()) return Failure{errorLine()};
+        for (CsvRow row; readRow(row) && addRow(row);) row.cells.reserve(table_.columns.size());
         if (error_.empty() && !table_.columns.empty() && table_.columns.back().empty()) dropLastColumn();
         if (error_.empty() && table_.rows.empty()) fail("expected rows after the header, found none");
-        if (!error_.empty()) return Failure{placed()};
+        if (!error_.empty()) return Failure{errorLine()};
         return std::move(table_);
     }
 
 private:
-    std::string placed() const {
+    std::string errorLine() const {
         return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_;
     }
 
@@ -83,24 +83,24 @@ private:
         }
         table_.columns.pop_back();
     }
-    /// The separator of a header, or of the line sep= before it.
-    void takeSeparator(std::string_view line) {
-        for (const char one : {',', ';', '\t'})
-            if (line.find(one) != std::string_view::npos) {
-                separator_ = one;
+    /// Sets the separator to the first of , ; and tab that the header has.
+    void detectSeparator(std::string_view line) {
+        for (const char candidate : {',', ';', '\t'})
+            if (line.find(candidate) != std::string_view::npos) {
+                separator_ = candidate;
                 return;
             }
     }
     bool readHeader() {
         std::string_view header;
-        if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF") ||
-            rest_.substr(0, 2).find('\0') < 2)
+        if (unread_.starts_with("\xFF\xFE") || unread_.starts_with("\xFE\xFF") ||
+            unread_.substr(0, 2).find('\0') < 2)
             return fail("expected UTF-8, found UTF-16: save it as CSV UTF-8");
         while (header.empty()) {
-            if (rest_.empty()) return fail("expected a header line, found the end of the file");
+            if (unread_.empty()) return fail("expected a header line, found the end of the file");
             header = nextLine();
             if (table_.columns.empty() && header.starts_with("sep=") && header.size() == 5) {
-                isTold_ = true;
+                isSeparatorStated_ = true;
                 separator_ = header.back();
                 header = {};
             }
@@ -109,8 +109,8 @@ private:
                 table_.comments.emplace_back(trimmed(header.substr(1)));
             header = {};
         }
-        if (!isTold_) takeSeparator(header);
-        if (!takeCells(header, table_.columns)) return false;
+        if (!isSeparatorStated_) detectSeparator(header);
+        if (!readCells(header, table_.columns)) return false;
         for (const std::string& column : table_.columns) {
             if (header_ == CsvHeader::loose) break;
             if (column.empty() && &column != &table_.columns.back())
@@ -121,16 +121,16 @@ private:
         return true;
     }
     bool readRow(CsvRow& row) {
-        if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
+        if (unread_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
         const std::string_view line = nextLine();
         row.cells.clear();
         row.line = line_;
-        if (!takeCells(line, row.cells)) return false;
+        if (!readCells(line, row.cells)) return false;
         return row.cells.size() == table_.columns.size() ||
                fail("expected " + std::to_string(table_.columns.size()) + " cells, found " +
                     std::to_string(row.cells.size()) + " (a cell with a comma stands in quotes)");
     }
-    bool keep(CsvRow& row) {
+    bool addRow(CsvRow& row) {
         if (table_.rows.size() == limits::maxTableRows)
             return fail("expected at most " + std::to_string(limits::maxTableRows) + " rows");
         if ((table_.rows.size() + 1) * table_.columns.size() > limits::maxTableCells)
@@ -138,26 +138,26 @@ private:
         table_.rows.push_back({row.line, std::exchange(row.cells, {})});
         return true;
     }
-    bool takeCells(std::string_view line, std::vector<std::string>& cells) {
-        for (bool another = !line.empty(); another;) {
+    bool readCells(std::string_view line, std::vector<std::string>& cells) {
+        for (bool hasMore = !line.empty(); hasMore;) {
             if (cells.size() == limits::maxTableColumns)
                 return fail("expected at most " + std::to_string(limits::maxTableColumns) +
                             " cells in a row");
-            const std::string_view whole = line;
-            if (!takeCell(line, cells.emplace_back(), separator_))
+            const std::string_view unread = line;
+            if (!readCell(line, cells.emplace_back(), separator_))
                 return fail("expected quotes around whole cells, and in pairs");
-            if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
-            if (separator_ != ',') takeDecimalComma(cells.back());
+            if (cells.back().starts_with('\'') && isFormula(cells.back())) cells.back().erase(0, 1);
+            if (separator_ != ',') convertDecimalComma(cells.back());
             if (cells.back().size() > limits::maxCellBytes)
                 return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
-            const std::size_t taken = whole.size() - line.size();
-            another = taken > 0 && whole[taken - 1] == separator_;
+            const std::size_t cellBytes = unread.size() - line.size();
+            hasMore = cellBytes > 0 && unread[cellBytes - 1] == separator_;
         }
         return true;
     }
     std::string_view nextLine() {
         ++line_;
-        std::string_view line = takeUntil('\n', rest_);
+        std::string_view line = takeUntil('\n', unread_);
         if (separator_ != '\t') return trimmed(line);
         if (line.ends_with('\r')) line.remove_suffix(1);
         return line;
@@ -167,10 +167,10 @@ private:
         return false;
     }
 
-    std::string_view rest_;
+    std::string_view unread_;
     CsvHeader header_;
     char separator_ = ',';
-    bool isTold_ = false; // by a line sep=
+    bool isSeparatorStated_ = false; // by a first line sep=;
     std::size_t line_ = 0;
     CsvTable table_;
     std::string error_;
@@ -178,21 +178,21 @@ private:
 
 } // namespace
 
-std::optional<std::size_t> CsvTable::column(std::string_view wanted) const noexcept {
-    const auto found = std::ranges::find(columns, wanted);
+std::optional<std::size_t> CsvTable::column(std::string_view columnName) const noexcept {
+    const auto found = std::ranges::find(columns, columnName);
     if (found == columns.end()) return std::nullopt;
     return static_cast<std::size_t>(found - columns.begin());
 }
 
-const std::string& CsvTable::cell(const CsvRow& row, std::string_view wanted) const {
-    static const std::string none;
-    const auto at = column(wanted);
-    return at ? row.cells[*at] : none;
+const std::string& CsvTable::cell(const CsvRow& row, std::string_view columnName) const {
+    static const std::string noCell;
+    const auto index = column(columnName);
+    return index ? row.cells[*index] : noCell;
 }
 
-std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view expected) const {
-    return name + ":" + std::to_string(row.line) + ": column " + printable(columns[at]) + ": expected " +
-           std::string(expected) + ", found " + inQuotes(row.cells[at]);
+std::string CsvTable::cellError(const CsvRow& row, std::size_t index, std::string_view expected) const {
+    return name + ":" + std::to_string(row.line) + ": column " + printable(columns[index]) + ": expected " +
+           std::string(expected) + ", found " + inQuotes(row.cells[index]);
 }
 
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header) {
@@ -208,7 +208,7 @@ void appendCell(std::string& line, std::string_view text) {
     const bool needsQuotes =
         text.find_first_of(",\"#") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
     if (needsQuotes) line += '"';
-    if (isTakenForFormula(text)) line += '\'';
+    if (isFormula(text)) line += '\'';
     for (const char c : text) {
         if (c == '"') line += '"';
         line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

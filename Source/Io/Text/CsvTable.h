@@ -23,17 +23,18 @@ struct CsvTable {
     std::vector<std::string> columns;
     std::vector<CsvRow> rows; ///< each with as many cells as there are columns
 
-    std::optional<std::size_t> column(std::string_view wanted) const noexcept;
+    /// Index of the column; nullopt: there is none of that name.
+    std::optional<std::size_t> column(std::string_view columnName) const noexcept;
 
-    /// The row's cell of that column; an empty one if there is no such column.
-    const std::string& cell(const CsvRow& row, std::string_view wanted) const;
+    /// The row's cell of that column; empty if there is no such column.
+    const std::string& cell(const CsvRow& row, std::string_view columnName) const;
 
-    /// `name:17: column x: expected what, found "cell"`.
-    std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
+    /// The error line `NAME:17: column x: expected EXPECTED, found "CELL"`.
+    std::string cellError(const CsvRow& row, std::size_t column, std::string_view expected) const;
 };
 
-/// Whether column names must be present and unique. Experiment programs repeat names: with loose, unused
-/// columns may be faulty, and of equal names the first counts.
+/// named: every column has a unique name. loose: names may be missing or repeated, as in files of experiment
+/// programs; the first column of a name counts.
 enum class CsvHeader { named, loose };
 
 /// The table in `text`, or a one-line error naming file, line and expectation. A header line names the
@@ -44,14 +45,14 @@ enum class CsvHeader { named, loose };
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name,
                               CsvHeader header = CsvHeader::named);
 
-/// The same for a file. Message thread (M) only.
+/// The same for a file. Message thread only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
 
 /// Appends `text` as a cell, quoted if necessary, with an apostrophe if a spreadsheet would evaluate it as a
 /// formula (the reader removes it); control characters become spaces. Any thread.
 void appendCell(std::string& line, std::string_view text);
 
-/// These cells as a line with its end. Any thread.
+/// The cells as a line of CSV with its newline. Any thread.
 inline std::string csvLine(const auto& cells) {
     std::string line;
     bool isFirst = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formats lists of names for help texts and error messages: "linear, log or energy"; and words of a shell.
+// Finds table entries by name, and joins names to text: with a separator, as a list of a message ("linear,
+// log or energy"), with numbered names as ranges; and quotes a word for a shell.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>
     return names;
 }
 
-/// The first item of that name; nullptr: none. Any thread.
+/// The first item whose member `name` equals `name`; nullptr: none. Any thread.
 template <class List>
 auto* findNamed(List& list, std::string_view name) noexcept {
     const auto found =
@@ -27,15 +28,15 @@ auto* findNamed(List& list, std::string_view name) noexcept {
     return found == list.end() ? nullptr : &*found;
 }
 
-/// The names with `between` in between. Any thread.
+/// The names with `separator` in between. Any thread.
 template <class Names>
-std::string joined(const Names& names, std::string_view between) {
+std::string joined(const Names& names, std::string_view separator) {
     std::string all;
-    for (const auto& name : names) all.append(all.empty() ? std::string_view{} : between).append(name);
+    for (const auto& name : names) all.append(all.empty() ? std::string_view{} : separator).append(name);
     return all;
 }
 
-/// `text` in quotes, as one word of a shell. Any thread (allocates).
+/// `text` as one word of a shell: in apostrophes, which themselves become '\''. Any thread (allocates).
 inline std::string shellWord(std::string_view text) {
     std::string out(1, '\'');
     for (const char c : text) {
@@ -48,30 +49,31 @@ inline std::string shellWord(std::string_view text) {
 
 /// "linear, log, energy", or with another separator before the last: "linear, log or energy". Any thread.
 template <class Names>
-std::string listed(const Names& names, std::string_view last = ", ") {
+std::string listed(const Names& names, std::string_view lastSeparator = ", ") {
     std::string all;
     for (std::size_t i = 0; i < std::size(names); ++i) {
-        if (i > 0) all.append(i + 1 < std::size(names) ? ", " : last);
+        if (i > 0) all.append(i + 1 < std::size(names) ? ", " : lastSeparator);
         all.append(std::data(names)[i]);
     }
     return all;
 }
 
-/// Abbreviates consecutively numbered names: "phone1..phone4, ring1..ring4". Any thread.
-inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view to = "..",
-                                  std::string_view last = ", ") {
-    const auto follows = [&](std::size_t i) {
+/// The same list with names that differ by the next last digit as ranges: "phone1..phone4, ring1". Any
+/// thread.
+inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view rangeMark = "..",
+                                  std::string_view lastSeparator = ", ") {
+    const auto isConsecutive = [&](std::size_t i) {
         const std::string_view a = names[i], b = names[i + 1];
         return a.size() == b.size() && a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1) &&
                a.back() + 1 == b.back();
     };
-    std::vector<std::string> runs;
+    std::vector<std::string> ranges;
     for (std::size_t first = 0, end = 0; first < names.size(); first = ++end) {
-        while (end + 1 < names.size() && follows(end)) ++end;
-        runs.emplace_back(names[first]);
-        if (end > first) runs.back().append(to).append(names[end]);
+        while (end + 1 < names.size() && isConsecutive(end)) ++end;
+        ranges.emplace_back(names[first]);
+        if (end > first) ranges.back().append(rangeMark).append(names[end]);
     }
-    return listed(runs, last);
+    return listed(ranges, lastSeparator);
 }
 
 } // namespace physvib

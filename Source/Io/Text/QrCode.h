@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-/// Any thread.
+/// The square pattern of modules, light or dark, that encodes a text. One thread at a time.
 class QrCode {
 public:
     static constexpr int quietModules = 4; ///< light modules around the code that readers need
@@ -19,7 +19,7 @@ public:
                                   qrcodegen_VERSION_MIN, qrcodegen_VERSION_MAX, qrcodegen_Mask_AUTO, true))
             modules_.clear();
     }
-    /// Modules per side; 0: the text is too long.
+    /// Number of modules per side; 0: the text is too long for a QR code.
     int side() { return modules_.empty() ? 0 : qrcodegen_getSize(bytes(modules_)); }
     bool isDark(int x, int y) { return qrcodegen_getModule(bytes(modules_), x, y); }
 

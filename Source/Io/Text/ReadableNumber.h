@@ -9,9 +9,9 @@ namespace physvib::readable {
 std::string number(double value, int decimals);
 /// At most three significant digits, no trailing zeros. Any thread.
 std::string shortNumber(double value);
-/// 20 log10 |x|, or minus infinity. Any thread.
+/// 20 log10 |amplitude|; minus infinity for 0. Any thread.
 double decibels(double amplitude);
-/// "-6.0 dBFS", or "silent". Any thread.
+/// "-6.0 dBFS", or "silent" below the level at which voices end. Any thread.
 std::string decibelText(double amplitude);
 
 } // namespace physvib::readable

@@ -8,12 +8,13 @@
 
 namespace physvib {
 
+/// Text and file must outlive it. One thread at a time.
 class TextLines {
 public:
-    static constexpr std::size_t mostBytes = 1'000'000; // limit for a line of a file
+    static constexpr std::size_t maxLineBytes = 1'000'000; ///< limit for a line of a file
 
     explicit TextLines(std::string_view text)
-        : rest_{text} {}
+        : unread_{text} {}
     /// Reads from the current position; does not close the file.
     explicit TextLines(std::FILE* file)
         : file_{file} {}
@@ -23,32 +24,32 @@ public:
 
     /// The next line without its end, until the next call; false if there is none, or it is too long.
     bool next(std::string_view& line) {
-        while (file_ != nullptr && rest_.find('\n') == std::string_view::npos)
+        while (file_ != nullptr && unread_.find('\n') == std::string_view::npos)
             if (!readMore()) return false;
-        if (rest_.empty()) return false;
-        line = takeUntil('\n', rest_);
+        if (unread_.empty()) return false;
+        line = takeUntil('\n', unread_);
         return true;
     }
 
-    bool isTooLong() const noexcept { return isTooLong_; }
+    bool isTooLong() const noexcept { return isTooLong_; } ///< why next() returned false
 
 private:
     bool readMore() {
-        constexpr std::size_t most = 65536;
-        isTooLong_ = rest_.size() > mostBytes;
+        constexpr std::size_t blockBytes = 65536;
+        isTooLong_ = unread_.size() > maxLineBytes;
         if (isTooLong_) return false;
-        block_.erase(0, block_.size() - rest_.size()); // the unread rest
-        const std::size_t begun = block_.size();
-        block_.resize(begun + most);
-        const std::size_t count = std::fread(block_.data() + begun, 1, most, file_);
+        block_.erase(0, block_.size() - unread_.size()); // the unread rest
+        const std::size_t unreadBytes = block_.size();
+        block_.resize(unreadBytes + blockBytes);
+        const std::size_t count = std::fread(block_.data() + unreadBytes, 1, blockBytes, file_);
         if (count == 0) file_ = nullptr; // end of file, or a read error
-        block_.resize(begun + count);
-        rest_ = block_;
+        block_.resize(unreadBytes + count);
+        unread_ = block_;
         return true;
     }
 
-    std::string_view rest_;
-    std::string block_; // of a file; rest_ is its end
+    std::string_view unread_;
+    std::string block_; // of a file; unread_ is its end
     std::FILE* file_ = nullptr;
     bool isTooLong_ = false;
 };

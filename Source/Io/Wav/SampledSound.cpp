@@ -1,53 +1,53 @@
 // SPDX-License-Identifier: MIT
-// Checks a sound against the limits of recordings, and collects its samples.
+// Checks a sound's format against the limits of recordings, and collects its samples.
 #include "Io/Wav/SampledSound.h"
 #include "Io/Disk/ReadFile.h"
 
 namespace physvib {
 namespace {
 
-std::string expectedSound(const std::string& words, std::int64_t found, const char* unit) {
-    return "expected " + words + ", found " + std::to_string(found) + unit;
+std::string expectedButFound(const std::string& expected, std::int64_t found, const char* unit) {
+    return "expected " + expected + ", found " + std::to_string(found) + unit;
 }
 
-std::string faultWithin(const SoundShape& shape, std::int64_t mostSeconds) {
+std::string formatError(const SoundFormat& format, std::int64_t maxSeconds) {
     using namespace limits;
-    if (shape.channels < 1 || shape.channels > maxRecordingChannels)
-        return expectedSound("1 to " + std::to_string(maxRecordingChannels) + " channels", shape.channels,
-                             "");
-    if (shape.sampleRateHz < minRecordingRateHz || shape.sampleRateHz > maxRecordingRateHz)
-        return expectedSound("a rate of " + std::to_string(minRecordingRateHz) + " to " +
-                                 std::to_string(maxRecordingRateHz) + " Hz",
-                             shape.sampleRateHz, " Hz");
-    if (shape.frames < 1) return "expected samples, found none";
-    if (shape.frames > mostSeconds * shape.sampleRateHz)
-        return expectedSound("at most " + std::to_string(mostSeconds) + " s",
-                             shape.frames / shape.sampleRateHz, " s");
+    if (format.channels < 1 || format.channels > maxRecordingChannels)
+        return expectedButFound("1 to " + std::to_string(maxRecordingChannels) + " channels", format.channels,
+                                "");
+    if (format.sampleRateHz < minRecordingRateHz || format.sampleRateHz > maxRecordingRateHz)
+        return expectedButFound("a rate of " + std::to_string(minRecordingRateHz) + " to " +
+                                    std::to_string(maxRecordingRateHz) + " Hz",
+                                format.sampleRateHz, " Hz");
+    if (format.frames < 1) return "expected samples, found none";
+    if (format.frames > maxSeconds * format.sampleRateHz)
+        return expectedButFound("at most " + std::to_string(maxSeconds) + " s",
+                                format.frames / format.sampleRateHz, " s");
     return {};
 }
 
 } // namespace
 
-std::string streamFault(const SoundShape& shape) { return faultWithin(shape, limits::maxMusicSeconds); }
+std::string streamError(const SoundFormat& format) { return formatError(format, limits::maxMusicSeconds); }
 
-std::string soundFault(const SoundShape& shape) {
+std::string soundError(const SoundFormat& format) {
     using namespace limits;
-    if (auto fault = faultWithin(shape, maxRecordingSeconds); !fault.empty()) return fault;
-    if (shape.frames > maxRecordingSamples / shape.channels)
-        return expectedSound("at most " + std::to_string(maxRecordingSamples) + " samples in all channels",
-                             shape.frames * shape.channels, "");
+    if (auto error = formatError(format, maxRecordingSeconds); !error.empty()) return error;
+    if (format.frames > maxRecordingSamples / format.channels)
+        return expectedButFound("at most " + std::to_string(maxRecordingSamples) + " samples in all channels",
+                                format.frames * format.channels, "");
     return {};
 }
 
-std::string SoundKeeper::begin(const SoundShape& shape) {
-    if (auto fault = soundFault(shape); !fault.empty()) return fault;
-    sound = {static_cast<int>(shape.sampleRateHz),
-             std::vector<std::vector<float>>(static_cast<std::size_t>(shape.channels))};
-    for (auto& channel : sound.channels) channel.reserve(static_cast<std::size_t>(shape.frames));
+std::string SoundBuffer::begin(const SoundFormat& format) {
+    if (auto error = soundError(format); !error.empty()) return error;
+    sound = {static_cast<int>(format.sampleRateHz),
+             std::vector<std::vector<float>>(static_cast<std::size_t>(format.channels))};
+    for (auto& channel : sound.channels) channel.reserve(static_cast<std::size_t>(format.frames));
     return {};
 }
 
-std::string SoundKeeper::take(const float* const* channels, int frames) {
+std::string SoundBuffer::receive(const float* const* channels, int frames) {
     for (std::size_t j = 0; j < sound.channels.size(); ++j)
         sound.channels[j].insert(sound.channels[j].end(), channels[j], channels[j] + frames);
     return {};

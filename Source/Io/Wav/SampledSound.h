@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples of a recording, independent of its file format, and the limits that apply to it.
+// Samples of a recording, independent of its file format, the receivers of its blocks, and its limits.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,36 +13,36 @@ struct SampledSound {
     std::vector<std::vector<float>> channels;
 };
 
-/// Format according to a file's header, which is not trusted.
-struct SoundShape {
+/// Format as a file's header states it, unchecked; `frames` are samples per channel.
+struct SoundFormat {
     std::int64_t sampleRateHz = 0;
     std::int64_t channels = 0;
     std::int64_t frames = 0;
 };
 
 /// Empty, or why such a sound is refused; checked before memory is allocated. Any thread.
-std::string soundFault(const SoundShape& shape);
+std::string soundError(const SoundFormat& format);
 
 /// The same for a sound that is read block by block and not stored. Any thread.
-std::string streamFault(const SoundShape& shape);
+std::string streamError(const SoundFormat& format);
 
-/// Receiver of a sound, block by block.
-class SoundTaker {
+/// Receives a sound from a reader, block by block. One thread at a time.
+class SoundReceiver {
 public:
     /// Called once with the header, before all samples. Returns empty, or why the sound is refused.
-    virtual std::string begin(const SoundShape& shape) = 0;
+    virtual std::string begin(const SoundFormat& format) = 0;
     /// channels[channel][0..frames), the next samples. Returns empty, or why reading is to stop.
-    virtual std::string take(const float* const* channels, int frames) = 0;
+    virtual std::string receive(const float* const* channels, int frames) = 0;
 
 protected:
-    ~SoundTaker() = default;
+    ~SoundReceiver() = default;
 };
 
 /// Stores the whole sound.
-class SoundKeeper final : public SoundTaker {
+class SoundBuffer final : public SoundReceiver {
 public:
-    std::string begin(const SoundShape& shape) override;
-    std::string take(const float* const* channels, int frames) override;
+    std::string begin(const SoundFormat& format) override;
+    std::string receive(const float* const* channels, int frames) override;
     SampledSound sound;
 };
 

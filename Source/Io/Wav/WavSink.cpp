@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the samples first, and the header before them at the end; it has equal length for RIFF and RF64.
+// Writes the samples first and the header, of known length, last, when their number is known.
 #include "Io/Wav/WavSink.h"
 #include <bit>
 #include <cstring>
@@ -22,42 +22,42 @@ WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRate
     setComment(comment);
 }
 
-void WavSink::setComment(const std::string& comment) { info_ = wavInfo(comment); }
+void WavSink::setComment(const std::string& comment) { infoChunk_ = wavInfoChunk(comment); }
 
 bool WavSink::write(const float* const* channels, int frames) {
     if (!error().empty() || isComplete_) return false;
-    const std::size_t before = waiting_.size();
-    waiting_.resize(before +
-                    static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels_) * sizeof(float));
-    char* to = waiting_.data() + before;
+    const std::size_t oldSize = buffer_.size();
+    buffer_.resize(oldSize +
+                   static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels_) * sizeof(float));
+    char* next = buffer_.data() + oldSize;
     for (int n = 0; n < frames; ++n)
-        for (int j = 0; j < channels_; ++j, to += sizeof(float))
-            std::memcpy(to, channels[j] + n, sizeof(float));
-    if (waiting_.size() >= bufferBytes) empty();
+        for (int j = 0; j < channels_; ++j, next += sizeof(float))
+            std::memcpy(next, channels[j] + n, sizeof(float));
+    if (buffer_.size() >= bufferBytes) flushBuffer();
     return error().empty();
 }
 
-void WavSink::empty() {
-    if (file_.writeAt(wavHeadBytes + std::ssize(info_) + dataBytes_, waiting_))
-        dataBytes_ += std::ssize(waiting_);
-    waiting_.clear();
+void WavSink::flushBuffer() {
+    if (file_.writeAt(wavHeaderBytes + std::ssize(infoChunk_) + dataBytes_, buffer_))
+        dataBytes_ += std::ssize(buffer_);
+    buffer_.clear();
 }
 
-// After the samples, so that it never claims more than was written.
-void WavSink::writeHead() {
-    empty();
-    file_.writeAt(0, wavHead(channels_, sampleRateHz_, dataBytes_, info_));
+// Written after the samples, so that the header never claims more than the file has.
+void WavSink::writeHeader() {
+    flushBuffer();
+    file_.writeAt(0, wavHeader(channels_, sampleRateHz_, dataBytes_, infoChunk_));
 }
 
-const std::string& WavSink::show() {
+const std::string& WavSink::publish() {
     if (isComplete_) return error();
-    writeHead();
-    return file_.show();
+    writeHeader();
+    return file_.publish();
 }
 
 const std::string& WavSink::complete() {
     if (std::exchange(isComplete_, true)) return error();
-    writeHead();
+    writeHeader();
     return error();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Analyses of identification: confusion matrices, information transfer and icons, as text and tables.
+// Analyses of identification (confusion matrices, information transfer, icons) and of pointing (errors,
+// perceptual resolution, percent counts), as text and tables.
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Summaries.h"
@@ -9,15 +10,15 @@
 
 namespace physvib {
 
-Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& o) {
-    auto data = readStudyFiles(o, readIdentification);
-    if (!data || o.tolerance == 0) return data;
-    for (auto& condition : data.value.conditions) {
+Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& job) {
+    auto data = readStudyFiles(job, readIdentification);
+    if (!data || job.tolerance == 0) return data;
+    for (auto& condition : data.value.groups) {
         for (const auto& trial : condition.trials)
             if (!parseGridCell(trial.stimulus))
-                return Failure{o.files.front() + ": --tolerance: expected grid labels r,c, found " +
+                return Failure{job.files.front() + ": --tolerance: expected grid labels r,c, found " +
                                inQuotes(trial.stimulus)};
-        condition.trials = withTolerance(std::move(condition.trials), o.tolerance);
+        condition.trials = withTolerance(std::move(condition.trials), job.tolerance);
     }
     return data;
 }
@@ -26,28 +27,28 @@ namespace {
 
 std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
 
-std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& it) {
+std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& transfer) {
     std::vector<std::string> words;
     const auto totals = matrix.stimulusTotals();
-    const auto [fewest, most] = std::ranges::minmax(totals);
-    if (fewest != most) {
-        const auto at = static_cast<std::size_t>(std::ranges::find(totals, fewest) - totals.begin());
+    const auto [minTotal, maxTotal] = std::ranges::minmax(totals);
+    if (minTotal != maxTotal) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(totals, minTotal) - totals.begin());
         words.push_back("stimuli have unequal numbers of answers: " + cleanLine(matrix.label(at)) + " " +
-                        std::to_string(fewest) + ", others up to " + std::to_string(most));
+                        std::to_string(minTotal) + ", others up to " + std::to_string(maxTotal));
     }
     if (matrix.responses() > matrix.stimuli())
         words.push_back(
             "responses that are no stimulus count as wrong: " + cleanLine(matrix.label(matrix.stimuli())) +
             (matrix.responses() > matrix.stimuli() + 1 ? " and others" : ""));
     if (matrix.stimuli() == 1) words.emplace_back("one stimulus");
-    if (!it.canBeCorrected())
-        words.push_back(fixedNumber(it.trialsPerCell, 2) + " trials per cell, fewer than " +
+    if (!transfer.canBeCorrected())
+        words.push_back(fixedNumber(transfer.trialsPerCell, 2) + " trials per cell, fewer than " +
                         fixedNumber(trialsPerCellForCorrection, 0) + ": IT is not corrected");
     return words;
 }
 
 /// Percent correct by guessing, where answers within `tolerance` steps count.
-double chanceOf(const ConfusionMatrix& matrix, int tolerance) {
+double guessingPercent(const ConfusionMatrix& matrix, int tolerance) {
     std::vector<IdentificationTrial> guessed;
     for (std::size_t i = 0; i < matrix.stimuli(); ++i)
         for (std::size_t j = 0; j < matrix.stimuli(); ++j)
@@ -58,91 +59,94 @@ double chanceOf(const ConfusionMatrix& matrix, int tolerance) {
 
 /// A row of the summary: all trials together, and over participants, whose interval is cut at 0 and 100 %.
 void summarise(ExportTable& summary, const std::string& condition, const ConfusionMatrix& matrix,
-               const InformationTransfer& it, const std::vector<ParticipantTransfer>& people,
+               const InformationTransfer& transfer, const std::vector<ParticipantTransfer>& people,
                double chancePercent) {
     const Proportion all = proportion(matrix.correct(), matrix.trials());
     std::vector<double> shares, bits;
-    for (const ParticipantTransfer& own : people) {
-        shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
-                         static_cast<double>(own.matrix.trials()));
-        if (own.matrix.stimuli() == matrix.stimuli()) bits.push_back(own.transfer.bits);
+    for (const ParticipantTransfer& person : people) {
+        shares.push_back(100.0 * static_cast<double>(person.matrix.correct()) /
+                         static_cast<double>(person.matrix.trials()));
+        if (person.matrix.stimuli() == matrix.stimuli()) bits.push_back(person.transfer.bits);
     }
     const Moments moments{shares}, transferred{bits};
-    const bool hasSpread = moments.deviation > 0.0, isAlone = people.size() < 2;
-    summary.row(condition, matrix.stimuli(), std::size_t{matrix.trials()}, chancePercent, 100.0 * all.share,
-                people.size(), onlyIf(!isAlone, moments.mean), onlyIf(hasSpread, moments.deviation),
-                onlyIf(isAlone || hasSpread, isAlone ? 100.0 * all.least : std::max(0.0, moments.least())),
-                onlyIf(isAlone || hasSpread, isAlone ? 100.0 * all.most : std::min(100.0, moments.most())),
-                isAlone     ? "over trials, Wilson's"
-                : hasSpread ? "t, cut at 0 and 100"
-                            : "",
-                it.bits, onlyIf(it.canBeCorrected(), it.correctedBits()), it.mostBits, it.leastBits,
-                onlyIf(transferred.n > 1, transferred.mean),
-                onlyIf(transferred.n > 1, transferred.deviation));
+    const bool hasSpread = moments.deviation > 0.0, isSingle = people.size() < 2;
+    summary.row(
+        condition, matrix.stimuli(), std::size_t{matrix.trials()}, chancePercent, 100.0 * all.share,
+        people.size(), valueIf(!isSingle, moments.mean), valueIf(hasSpread, moments.deviation),
+        valueIf(isSingle || hasSpread, isSingle ? 100.0 * all.lower : std::max(0.0, moments.lowerLimit())),
+        valueIf(isSingle || hasSpread, isSingle ? 100.0 * all.upper : std::min(100.0, moments.upperLimit())),
+        isSingle    ? "over trials, Wilson's"
+        : hasSpread ? "t, cut at 0 and 100"
+                    : "",
+        transfer.bits, valueIf(transfer.canBeCorrected(), transfer.correctedBits()), transfer.maxBits,
+        transfer.minBits, valueIf(transferred.n > 1, transferred.mean),
+        valueIf(transferred.n > 1, transferred.deviation));
 }
 
 /// Writes each participant to both tables; returns the names of those who lack stimuli.
-std::string exportPeople(const std::string& condition, const std::vector<ParticipantTransfer>& people,
-                         std::size_t stimuli, bool isOfAll, ExportTable& counts, ExportTable& each) {
-    std::string lacking;
+std::string exportParticipants(const std::string& condition, const std::vector<ParticipantTransfer>& people,
+                               std::size_t stimuli, bool includesAll, ExportTable& countTable,
+                               ExportTable& eachTable) {
+    std::string incomplete;
     for (const auto& [participant, matrix, transfer] : people) {
         for (std::size_t i = 0; i < matrix.stimuli(); ++i)
             for (std::size_t j = 0; j < matrix.responses(); ++j)
-                counts.row(condition, participant, matrix.label(i), matrix.label(j),
-                           std::size_t{matrix.count(i, j)});
-        const bool isWhole = matrix.stimuli() == stimuli;
+                countTable.row(condition, participant, matrix.label(i), matrix.label(j),
+                               std::size_t{matrix.count(i, j)});
+        const bool hasAllStimuli = matrix.stimuli() == stimuli;
         const double share = static_cast<double>(matrix.correct()) / static_cast<double>(matrix.trials());
-        each.row(condition, participant, std::size_t{matrix.trials()},
-                 onlyIf(isWhole || isOfAll, 100.0 * share), transfer.bits,
-                 onlyIf(transfer.canBeCorrected(), transfer.correctedBits()));
-        if (!isWhole) lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
+        eachTable.row(condition, participant, std::size_t{matrix.trials()},
+                      valueIf(hasAllStimuli || includesAll, 100.0 * share), transfer.bits,
+                      valueIf(transfer.canBeCorrected(), transfer.correctedBits()));
+        if (!hasAllStimuli) incomplete += (incomplete.empty() ? "" : ", ") + cleanLine(participant);
     }
-    return lacking;
+    return incomplete;
 }
 
-std::string patternsOf(const ConfusionMatrix& matrix) {
+std::string stimuliText(const ConfusionMatrix& matrix) {
     int enchanters = 0;
     for (std::size_t i = 0; i < matrix.stimuli(); ++i) {
         const auto pattern = parsePatternLabel(matrix.label(i));
         if (!pattern) return std::to_string(matrix.stimuli()) + " stimuli";
         for (int k = 0; k < pattern->count; ++k)
-            enchanters = std::max(enchanters, pattern->enchanters[static_cast<std::size_t>(k)] + 1);
+            enchanters = std::max(enchanters, pattern->actuators[static_cast<std::size_t>(k)] + 1);
     }
     return std::to_string(matrix.stimuli()) + " patterns on " +
            counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
-std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
+std::string nameOr(const std::string& name, const char* fallback) { return name.empty() ? fallback : name; }
 
 } // namespace
 
-void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings& to) {
-    auto& [job, report, out, table] = to;
-    ExportTable each{"confusion-participants", data.isSimulated,
-                     "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
+void analyseConfusion(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output) {
+    auto& [job, report, out, table] = output;
+    ExportTable eachTable{"confusion-participants", data.isSimulated,
+                          "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
     ExportTable summary{
         "confusion", data.isSimulated,
         "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
         "deviation,least_percent,most_percent,interval,it_bits,corrected_it_bits,most_bits,fano_bits,mean_"
         "own_bits,deviation_own_bits"};
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
-    for (const auto& condition : data.conditions) {
+    for (const auto& condition : data.groups) {
         const ConfusionMatrix matrix{condition.trials};
-        const InformationTransfer it = informationTransfer(matrix);
+        const InformationTransfer transfer = informationTransfer(matrix);
         const std::string prefix = condition.name.empty() ? "" : cleanLine(condition.name) + ": ";
-        for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
+        for (const auto& words : matrixWarnings(matrix, transfer)) report.warnings.push_back(prefix + words);
         const auto people = transferByParticipant(condition.trials),
-                   compared = comparable(people, matrix.stimuli());
-        summarise(summary, condition.name, matrix, it, compared, chanceOf(matrix, job.tolerance));
-        const bool isOfAll = compared.size() == people.size();
-        const std::string lacking =
-            exportPeople(condition.name, people, matrix.stimuli(), isOfAll, table, each);
-        if (!lacking.empty())
-            report.warnings.push_back(prefix + "stimuli are lacking of " + lacking +
-                                      (isOfAll ? "" : ", left out of means of participants"));
+                   compared = withAllStimuli(people, matrix.stimuli());
+        summarise(summary, condition.name, matrix, transfer, compared,
+                  guessingPercent(matrix, job.tolerance));
+        const bool includesAll = compared.size() == people.size();
+        const std::string incomplete =
+            exportParticipants(condition.name, people, matrix.stimuli(), includesAll, table, eachTable);
+        if (!incomplete.empty())
+            report.warnings.push_back(prefix + "stimuli are lacking of " + incomplete +
+                                      (includesAll ? "" : ", left out of means of participants"));
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
-    report.participants = each.text();
+    report.participants = eachTable.text();
     report.summary = summary.text();
     report.picture = [matrices, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
@@ -152,37 +156,36 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
     };
 }
 
-void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to) {
-    auto& [job, report, out, table] = to;
-    out << job.meanings << " meanings need " << bits(bitsFor(job.meanings)) << '\n';
+void analyseIcons(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output) {
+    auto& [job, report, out, table] = output;
+    out << job.meanings << " meanings need " << bits(bitsForMeanings(job.meanings)) << '\n';
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
-    for (const auto& condition : data.conditions)
+    for (const auto& condition : data.groups)
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
     BarChart icons{{chartName(0), "Tactile icons: ", data.isSimulated}, "stimulus", "correct (%)"};
-    icons.most = 100.0;
+    icons.max = 100.0;
     for (const auto& [name, matrix] : matrices) {
-        const InformationTransfer it = informationTransfer(matrix);
-        const bool isEnough = it.bestBits() >= bitsFor(job.meanings);
-        out << cleanLine(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
-            << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
-        if (!isEnough || !icons.groups.empty()) continue;
+        const InformationTransfer transfer = informationTransfer(matrix);
+        const bool transfersEnough = transfer.bestBits() >= bitsForMeanings(job.meanings);
+        out << cleanLine(nameOr(name, "all trials")) << ": " << stimuliText(matrix) << ", "
+            << bits(transfer.bestBits()) << ": " << (transfersEnough ? "enough" : "too little") << '\n';
+        if (!transfersEnough || !icons.groups.empty()) continue;
         icons.frame.title += nameOr(name, "all trials");
         for (const std::size_t i : leastConfused(matrix, job.meanings)) {
             const double share = shareCorrect(matrix, i);
-            out << "  " << cleanLine(matrix.label(i)) << "  " << percent(share) << " % correct\n";
+            out << "  " << cleanLine(matrix.label(i)) << "  " << percentNumber(share) << " % correct\n";
             table.row(name, matrix.label(i), 100.0 * share);
-            icons.add(matrix.label(i), ChartValue::around(100.0 * share));
+            icons.add(matrix.label(i), ChartValue::withMargin(100.0 * share));
         }
     }
     if (icons.groups.empty())
         report.error = job.files.front() + ": expected a condition that transfers " +
-                       bits(bitsFor(job.meanings)) + ", found none";
+                       bits(bitsForMeanings(job.meanings)) + ", found none";
     report.picture = [icons] { return barChart(icons); };
 }
 
-// Analyses of pointing as text and tables: errors (means over participants of means over targets), perceptual
-// resolution, percent counts.
+// Pointing. Errors are means over participants of means over targets.
 
 namespace {
 
@@ -197,53 +200,55 @@ void summarise(ExportTable& summary, const std::string& condition, const std::ve
     struct Measure {
         const char* name;
         double ParticipantError::*value;
-        bool ParticipantError::*has = nullptr;
+        bool ParticipantError::*hasValue = nullptr;
         bool isOfY = false;
     };
     using P = ParticipantError;
-    for (const auto& [name, value, has, isOfY] :
+    for (const auto& [name, value, hasValue, isOfY] :
          {Measure{"distance from the target", &P::distance}, Measure{"constant error, x", &P::constantX},
           Measure{"constant error, y", &P::constantY, nullptr, true},
           Measure{"variable error", &P::variable, &P::hasVariable},
           Measure{"gain, x", &P::gainX, &P::hasGainX}, Measure{"gain, y", &P::gainY, &P::hasGainY, true}}) {
         std::vector<double> values;
-        for (const P& one : people)
-            if (has == nullptr || one.*has) values.push_back(one.*value);
+        for (const P& person : people)
+            if (hasValue == nullptr || person.*hasValue) values.push_back(person.*value);
         if (values.empty() || (isOfY && !hasY)) continue;
-        const Moments own{values};
-        const bool hasSpread = own.deviation > 0.0;
-        summary.row(condition, name, trials.size(), own.n, own.mean, onlyIf(hasSpread, own.deviation),
-                    onlyIf(hasSpread, own.least()), onlyIf(hasSpread, own.most()));
+        const Moments moments{values};
+        const bool hasSpread = moments.deviation > 0.0;
+        summary.row(condition, name, trials.size(), moments.n, moments.mean,
+                    valueIf(hasSpread, moments.deviation), valueIf(hasSpread, moments.lowerLimit()),
+                    valueIf(hasSpread, moments.upperLimit()));
     }
 }
 
 } // namespace
 
 Result<StudyData<PlaceTrial>> readTargets(const AnalysisJob& job) {
-    if (auto fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
+    if (auto error = unitError(job.columns); !error.empty()) return Failure{std::move(error)};
     return readStudyFiles(job, readPlaces);
 }
 
-void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
+void analysePlaces(const StudyData<PlaceTrial>& data, const AnalysisOutput& output) {
     ExportTable summary{"places", data.isSimulated,
                         "condition,measure,trials,participants,mean,standard_deviation,interval_"
                         "least,interval_most"};
-    for (const auto& condition : data.conditions) {
+    for (const auto& condition : data.groups) {
         summarise(summary, condition.name, condition.trials);
-        for (const TargetError& one : targetErrors(condition.trials)) {
-            to.table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
-                         one.constantX, one.constantY, onlyIf(one.trials > 1, one.variable), one.distance);
+        for (const TargetError& error : targetErrors(condition.trials)) {
+            output.table.row(condition.name, error.participant, error.target, error.trials, error.trueX,
+                             error.trueY, error.constantX, error.constantY,
+                             valueIf(error.trials > 1, error.variable), error.distance);
         }
     }
-    to.report.summary = summary.text();
+    output.report.summary = summary.text();
 }
 
 namespace {
 
-constexpr std::size_t mostTiesTold = 20;
+constexpr std::size_t maxTiesShown = 20;
 
 /// "1+2 | 3 | 4" of {2, 1, 1}.
-std::string groupWords(const std::vector<std::size_t>& groups) {
+std::string groupText(const std::vector<std::size_t>& groups) {
     std::string words;
     std::size_t line = 1;
     for (const std::size_t size : groups) {
@@ -253,106 +258,111 @@ std::string groupWords(const std::vector<std::size_t>& groups) {
     return words;
 }
 
-std::string sizeWords(const GridMerge& merge) {
+std::string sizeText(const GridMerge& merge) {
     return std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size());
 }
 
 constexpr const char* gridColumns =
     "condition,resolution,columns,rows,sum_percent,standard_deviation"; ///< a row for each tie
 
-void tell(ExportTable& summary, const PercentCounts& counts, const PerceptualResolution& resolution) {
+void addResolution(ExportTable& summary, const PercentCounts& counts,
+                   const PerceptualResolution& resolution) {
     if (resolution.ties.empty()) summary.row(counts.condition, "0 x 0", "", "", "", "");
-    for (std::size_t i = 0; i < std::min(resolution.ties.size(), mostTiesTold); ++i) {
+    for (std::size_t i = 0; i < std::min(resolution.ties.size(), maxTiesShown); ++i) {
         const GridMerge& merge = resolution.ties[i];
-        summary.row(counts.condition, sizeWords(merge), groupWords(merge.columnGroups),
-                    groupWords(merge.rowGroups), counts.sum(), counts.standardDeviation());
+        summary.row(counts.condition, sizeText(merge), groupText(merge.columnGroups),
+                    groupText(merge.rowGroups), counts.sum(), counts.standardDeviation());
     }
 }
 
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
     if (resolution.ties.empty()) return;
-    const PercentCounts grid = merged(counts, resolution.ties.front());
+    const PercentCounts grid = mergedCounts(counts, resolution.ties.front());
     for (std::size_t r = 0; r < grid.rows; ++r)
         for (std::size_t c = 0; c < grid.columns; ++c) table.row(grid.condition, r + 1, c + 1, grid.at(r, c));
 }
 
-void exportNormals(ExportTable& table, const ConditionResolution& made) {
-    for (std::size_t i = 0; i < made.normals.normals.size(); ++i) {
-        const PlaceNormal& n = made.normals.normals[i];
+void exportNormals(ExportTable& table, const ConditionResolution& result) {
+    for (std::size_t i = 0; i < result.normals.normals.size(); ++i) {
+        const PlaceNormal& n = result.normals.normals[i];
         if (n.responses == 0) continue;
-        table.row(made.condition, i % made.normals.columns + 1, i / made.normals.columns + 1, n.responses,
-                  n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i],
-                  std::size_t{n.isBorrowed});
+        table.row(result.condition, i % result.normals.columns + 1, i / result.normals.columns + 1,
+                  n.responses, n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance,
+                  result.counts.percent[i], std::size_t{n.usesPooledCovariance});
     }
 }
 
-void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
-    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // rounding to two decimals
-    if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
+void checkPercentSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
+    const double tolerance = 0.005 * static_cast<double>(counts.percent.size()); // rounding to two decimals
+    if (std::abs(counts.sum() - 100.0) > tolerance + 1e-9)
         warnings.push_back(cleanLine(counts.condition) + ": percent counts sum to " +
-                           fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
+                           fixedNumber(counts.sum(), 2) + ", expected 100 within " +
+                           fixedNumber(tolerance, 2));
 }
 
-ChartFrame frameOf(const ConditionResolution& one, const std::vector<std::string>& charts, bool isSimulated) {
-    return {chartName(charts.size()), one.condition, isSimulated};
+ChartFrame frameOf(const ConditionResolution& result, const std::vector<std::string>& charts,
+                   bool isSimulated) {
+    return {chartName(charts.size()), result.condition, isSimulated};
 }
 
-void addCounts(std::vector<std::string>& charts, const ConditionResolution& one, bool isSimulated) {
-    charts.push_back(countsChart(frameOf(one, charts, isSimulated), one.counts));
-    if (!one.resolution.ties.empty()) charts.push_back(mergedChart(frameOf(one, charts, isSimulated), one));
+void addCounts(std::vector<std::string>& charts, const ConditionResolution& result, bool isSimulated) {
+    charts.push_back(countsChart(frameOf(result, charts, isSimulated), result.counts));
+    if (!result.resolution.ties.empty())
+        charts.push_back(mergedChart(frameOf(result, charts, isSimulated), result));
 }
 
 } // namespace
 
-void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to) {
-    auto& [job, report, out, table] = to;
-    std::vector<ConditionResolution> made;
+void analyseResolution(const StudyData<LocationTrial>& data, const AnalysisOutput& output) {
+    auto& [job, report, out, table] = output;
+    std::vector<ConditionResolution> results;
     std::vector<PercentCounts> counts;
-    for (const auto& condition : data.conditions) {
-        made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name,
-                                        condition.trials, job.thresholdPercent));
-        const auto& one = made.back();
-        for (const auto& words : one.normals.warnings)
-            report.warnings.push_back(cleanLine(one.condition) + ": " + words);
-        if (!one.normals.fault.empty())
-            return void(report.error =
-                            job.files.front() + ": " + cleanLine(one.condition) + ": " + one.normals.fault);
-        counts.push_back(one.counts);
-        exportNormals(table, one);
+    for (const auto& condition : data.groups) {
+        results.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name,
+                                           condition.trials, job.thresholdPercent));
+        const auto& result = results.back();
+        for (const auto& words : result.normals.warnings)
+            report.warnings.push_back(cleanLine(result.condition) + ": " + words);
+        if (!result.normals.error.empty())
+            return void(report.error = job.files.front() + ": " + cleanLine(result.condition) + ": " +
+                                       result.normals.error);
+        counts.push_back(result.counts);
+        exportNormals(table, result);
     }
     ExportTable summary{"resolution", data.isSimulated, gridColumns};
-    for (const ConditionResolution& one : made) tell(summary, one.counts, one.resolution);
+    for (const ConditionResolution& result : results)
+        addResolution(summary, result.counts, result.resolution);
     report.summary = summary.text();
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.counts = percentCountsCsv(counts, provenance);
-    report.picture = [made, conditions = data.conditions, isSimulated = data.isSimulated] {
+    report.picture = [results, conditions = data.groups, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
-        for (std::size_t c = 0; c < made.size(); ++c) {
-            const auto frame = [&] { return frameOf(made[c], charts, isSimulated); };
-            charts.push_back(responsesChart(frame(), made[c], conditions[c].trials));
-            charts.push_back(territoryChart(frame(), made[c]));
-            addCounts(charts, made[c], isSimulated);
+        for (std::size_t c = 0; c < results.size(); ++c) {
+            const auto frame = [&] { return frameOf(results[c], charts, isSimulated); };
+            charts.push_back(responsesChart(frame(), results[c], conditions[c].trials));
+            charts.push_back(territoryChart(frame(), results[c]));
+            addCounts(charts, results[c], isSimulated);
         }
         return chartSheet(charts);
     };
 }
 
-void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& to) {
-    const double threshold = to.job.thresholdPercent;
+void analysePercentCounts(const StudyData<PercentCounts>& data, const AnalysisOutput& output) {
+    const double threshold = output.job.thresholdPercent;
     ExportTable summary{"percent-counts", data.isSimulated, gridColumns};
-    std::vector<ConditionResolution> made;
-    for (const auto& condition : data.conditions) {
+    std::vector<ConditionResolution> results;
+    for (const auto& condition : data.groups) {
         const PercentCounts& counts = condition.trials.front();
-        warnOfSum(counts, to.report.warnings);
-        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, threshold)});
-        tell(summary, counts, made.back().resolution);
-        exportMerged(to.table, counts, made.back().resolution);
+        checkPercentSum(counts, output.report.warnings);
+        results.push_back({counts.condition, {}, counts, perceptualResolution(counts, threshold)});
+        addResolution(summary, counts, results.back().resolution);
+        exportMerged(output.table, counts, results.back().resolution);
     }
-    to.report.summary = summary.text();
-    to.report.picture = [made, isSimulated = data.isSimulated] {
+    output.report.summary = summary.text();
+    output.report.picture = [results, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
-        for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);
+        for (const ConditionResolution& result : results) addCounts(charts, result, isSimulated);
         return chartSheet(charts);
     };
 }

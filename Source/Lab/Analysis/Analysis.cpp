@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-std::string shownCell(const std::string& cell) {
+std::string displayCell(const std::string& cell) {
     const auto number = parseNumber<double>(cell);
     if (!number || cell.find_first_of(".e") == std::string::npos) return cell;
     if (std::abs(*number) >= 1000.0) return fixedNumber(*number, 1);
@@ -37,30 +37,31 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
             const auto trials =
                 readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, job.protocol);
             if (!data || !trials) continue;
-            if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
+            if (job.memoryTables == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
                 data.value.warnings.push_back(
                     std::string{file.name} + ": of no built-in protocol: unfinished staircases are not known "
                                              "(physvib report --protocol)");
-            const auto isOf = [](const LevelTrial& trial, const std::string& session) {
+            const auto isOfSession = [](const LevelTrial& trial, const std::string& session) {
                 return trial.session.substr(0, trial.session.find('/')) == session;
             };
-            auto& levels = data.value.conditions.front().trials;
+            auto& levels = data.value.groups.front().trials;
             for (const SessionPlan& plan : trials.value.sessions())
                 for (LevelTrial& trial : levels)
-                    if (plan.staircase && isOf(trial, plan.name))
-                        trial.range = {plan.staircase->leastDb, plan.staircase->mostDb};
+                    if (plan.staircase && isOfSession(trial, plan.name))
+                        trial.range = {plan.staircase->minDb, plan.staircase->maxDb};
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
-                if (run.isAdaptive && !run.isOver &&
+                if (run.isAdaptive && !run.isComplete &&
                     std::erase_if(levels,
                                   [&](const LevelTrial& trial) {
                                       return trial.participant == run.participant &&
                                              (trial.condition == run.condition ||
-                                              trial.condition == inSession(run.condition, run.session)) &&
-                                             isOf(trial, run.session);
+                                              trial.condition == nameInSession(run.condition, run.session)) &&
+                                             isOfSession(trial, run.session);
                                   }) > 0 &&
-                    job.made == nullptr) // a report has told them
-                    data.value.warnings.push_back("participant " + run.participant + " left out: " +
-                                                  inSession(run.session, run.condition) + ": " + run.why());
+                    job.memoryTables == nullptr) // a report lists them itself
+                    data.value.warnings.push_back("participant " + run.participant +
+                                                  " left out: " + nameInSession(run.session, run.condition) +
+                                                  ": " + run.reason());
         }
         return data;
     });
@@ -75,7 +76,7 @@ std::string aligned(const std::string& csv) {
     std::vector<std::vector<std::string>> rows{table.columns};
     for (const CsvRow& row : table.rows) {
         auto& cells = rows.emplace_back();
-        for (const std::string& cell : row.cells) cells.push_back(cleanLine(shownCell(cell)));
+        for (const std::string& cell : row.cells) cells.push_back(cleanLine(displayCell(cell)));
     }
     std::vector<std::size_t> widths(table.columns.size(), 0);
     for (const auto& row : rows)
@@ -90,18 +91,18 @@ std::string aligned(const std::string& csv) {
     return text;
 }
 
-/// What `analyse` finds in the trials that `read` finds.
+/// Report of `analyse` on the trials that `read` returns; its error if it fails.
 template <auto read, auto analyse>
-AnalysisReport analysed(const Analysis& which, const AnalysisJob& job) {
+AnalysisReport analysed(const Analysis& entry, const AnalysisJob& job) {
     const auto data = read(job);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    ExportTable table{which.name, report.isSimulated, which.columns};
+    ExportTable table{entry.name, report.isSimulated, entry.columns};
     std::ostringstream out;
-    analyse(data.value, Findings{job, report, out, table});
+    analyse(data.value, AnalysisOutput{job, report, out, table});
     report.table = table.text();
     if (report.summary.empty()) report.summary = report.table;
-    report.words = out.str().empty() ? aligned(report.summary) : out.str();
+    report.text = out.str().empty() ? aligned(report.summary) : out.str();
     return report;
 }
 
@@ -143,35 +144,35 @@ std::span<const Analysis> allAnalyses() noexcept { return analyses; }
 
 std::vector<std::string> analysesFor(const CsvTable& table) {
     std::set<std::string> found;
-    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
+    const auto hasColumn = [&](std::string_view column) { return table.column(column).has_value(); };
     if (const auto task = table.column(trialColumns::task)) {
         const auto phase = table.column(trialColumns::phase), correct = table.column("correct"),
-                   level = table.column("level_db"), ranOut = table.column(trialColumns::ranOut);
+                   level = table.column("level_db"), timedOut = table.column(trialColumns::timedOut);
         for (const CsvRow& row : table.rows) {
-            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
-            if (did == nullptr || (ranOut && row.cells[*ranOut] == "1")) continue;
+            const StudyTaskDescription* const rowTask = findStudyTask(row.cells[*task]);
+            if (rowTask == nullptr || (timedOut && row.cells[*timedOut] == "1")) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            const bool isAdapted = did->answer == AnswerKind::choice && correct &&
+            const bool isAdapted = rowTask->answer == AnswerKind::choice && correct &&
                                    !row.cells[*correct].empty() && !(level && row.cells[*level].empty());
-            if (did->answer == AnswerKind::level || (isAdapted && !isTraining))
-                found.insert("levels"); // matches before a study stand for themselves
+            if (rowTask->answer == AnswerKind::level || (isAdapted && !isTraining))
+                found.insert("levels"); // levels that are set in trainings count too
             else if (!isTraining && !isAdapted)
-                found.emplace(did->analysis);
+                found.emplace(rowTask->analysis);
         }
     } else {
-        if (has("stimulus") && has("response")) found.insert("confusion");
-        const bool isGrid = has("target_column") && (has("target_row") || !has("target_x"));
-        if (isGrid && has("x"))
+        if (hasColumn("stimulus") && hasColumn("response")) found.insert("confusion");
+        const bool isGrid = hasColumn("target_column") && (hasColumn("target_row") || !hasColumn("target_x"));
+        if (isGrid && hasColumn("x"))
             found.insert("resolution");
-        else if (has("target_x") && has("x"))
+        else if (hasColumn("target_x") && hasColumn("x"))
             found.insert("places");
-        if (has("c1")) found.insert("percent-counts");
-        if (has("choice")) found.insert("choices");
-        if (has("value") || (has("level_db") && has("correct"))) found.insert("levels");
+        if (hasColumn("c1")) found.insert("percent-counts");
+        if (hasColumn("choice")) found.insert("choices");
+        if (hasColumn("value") || (hasColumn("level_db") && hasColumn("correct"))) found.insert("levels");
         const bool hasScale =
             std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
-        if (found.empty() && has("participant") && (has("stimulus") || has("condition") || has("group")) &&
-            hasScale)
+        if (found.empty() && hasColumn("participant") &&
+            (hasColumn("stimulus") || hasColumn("condition") || hasColumn("group")) && hasScale)
             found.insert("ratings");
     }
     std::vector<std::string> names;
@@ -182,26 +183,27 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
 
 namespace {
 
-/// Of a table that an analysis rejected, the call that reads its trials; empty if that is unknown, or the
-/// kind was right and the error is another.
-std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
-    if (job.files.empty() || job.made != nullptr) return {};
+/// Text on the calls that read the trials of a table that `requested` rejected. Empty if there are none, or
+/// if the analysis fits the trials and failed for another reason.
+std::string otherKindText(const Analysis& requested, const AnalysisJob& job) {
+    if (job.files.empty() || job.memoryTables != nullptr) return {};
     std::vector<std::string> names;
-    bool hasPlaces = false, isOwn = false;
-    const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
-        RowsLeftOut leftOut;
-        const auto table = readStudyTable(files[0].text, files[0].name, job.columns, leftOut);
+    bool hasPlaces = false, hasTasks = false;
+    const auto inspect = [&](const std::vector<NamedText>& files) -> Result<bool> {
+        ExcludedRows excluded;
+        const auto table = readStudyTable(files[0].text, files[0].name, job.columns, excluded);
         if (table) names = analysesFor(table.value);
         hasPlaces = table.value.column("target_x").has_value();
-        isOwn = table.value.column(trialColumns::task).has_value();
+        hasTasks = table.value.column(trialColumns::task).has_value();
         return true;
     };
-    readStudyFiles(job, look);
+    readStudyFiles(job, inspect);
     std::string words;
     for (const std::string& name : names) {
-        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels" && !isOwn) ||
-            (asked.name == "icons" && name == "confusion") ||
-            (asked.name == "places" && name == "resolution" && hasPlaces))
+        if (name == requested.name ||
+            (requested.kind == Analysis::Kind::fit && name == "levels" && !hasTasks) ||
+            (requested.name == "icons" && name == "confusion") ||
+            (requested.name == "places" && name == "resolution" && hasPlaces))
             return {};
         words +=
             (words.empty() ? "; the file has trials that `physvib analyse " : ", `analyse ") + name + "`";
@@ -215,7 +217,7 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
     const auto found = std::ranges::find(analyses, name, &Analysis::name);
     if (found == std::end(analyses)) return AnalysisReport{"no analysis " + inQuotes(name)};
     AnalysisReport report = found->run(*found, job);
-    if (!report.error.empty()) report.error += otherKindWords(*found, job);
+    if (!report.error.empty()) report.error += otherKindText(*found, job);
     return report;
 }
 

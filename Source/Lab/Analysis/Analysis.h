@@ -23,36 +23,35 @@
 
 namespace physvib {
 
-// Helpers of the analyses: reading input files, formatting text, and writing tables.
+/// A share as a percentage with one decimal, without the sign. Any thread.
+inline std::string percentNumber(double share) { return fixedNumber(100.0 * share, 1); }
 
-inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
-
-/// A number of a table as a page or terminal shows it: of four significant digits. Any thread.
-std::string shownCell(const std::string& cell);
+/// A cell as a page or terminal shows it: numbers have four significant digits. Any thread.
+std::string displayCell(const std::string& cell);
 
 /// Input files of an analysis.
 struct StudySources {
     std::vector<std::string> files;
     std::vector<ColumnName> columns{}; ///< column mapping for tables of another program
     /// tables in memory by name, with our columns; used instead of files
-    const std::map<std::string, std::string>* made = nullptr;
+    const std::map<std::string, std::string>* memoryTables = nullptr;
     bool operator==(const StudySources&) const = default;
 };
 
 /// Reads all files, then calls `reader` once with their texts.
 template <class Reader>
-auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes)
+auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t maxBytes = limits::maxTableBytes)
     -> decltype(reader(std::vector<NamedText>{})) {
     std::vector<std::string> texts(sources.files.size());
     std::vector<NamedText> files;
     for (std::size_t i = 0; i < texts.size(); ++i) {
         const std::string& path = sources.files[i];
-        if (sources.made)
-            if (const auto found = sources.made->find(path); found != sources.made->end()) {
+        if (sources.memoryTables)
+            if (const auto found = sources.memoryTables->find(path); found != sources.memoryTables->end()) {
                 files.push_back({found->second, path});
                 continue;
             }
-        auto text = readFile(path, mostBytes);
+        auto text = readFile(path, maxBytes);
         if (!text) return Failure{text.error};
         texts[i] = std::move(text.value);
         files.push_back({texts[i], path, sources.columns});
@@ -60,8 +59,8 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
     return reader(files);
 }
 
-/// A cell's number, where it is known.
-inline std::optional<double> onlyIf(bool isKnown, double number) {
+/// The number of a cell; nullopt for an empty cell.
+inline std::optional<double> valueIf(bool isKnown, double number) {
     return isKnown ? std::optional{number} : std::nullopt;
 }
 
@@ -93,7 +92,7 @@ public:
     ExportTable& cells(const Values&... values) {
         return (cell(values), ...);
     }
-    /// The last cells of a row, or all.
+    /// Writes the remaining cells of a row, and ends it.
     template <class... Values>
     void row(const Values&... values) {
         cells(values...).endRow();
@@ -121,20 +120,20 @@ struct AnalysisJob : StudySources {
     std::string picturePath, exportPath, countsPath;   ///< output files; empty: none
     std::string participantsPath; ///< confusion: output file with one row per participant
     // Fits to each participant's trials:
-    std::string level, measure; ///< columns; empty: those of our own files
+    std::string level, measure; ///< columns of levels and of answers; empty: those of our own files
     PsychometricModel model{};
-    std::optional<Protocol> protocol{}; ///< of the trials; else a built-in one is looked up
+    std::optional<Protocol> protocol{}; ///< of the trials; none: a built-in one is looked up
 
     bool operator==(const AnalysisJob&) const = default;
 };
 
 /// Result of an analysis.
 struct AnalysisReport {
-    std::string error;                             ///< one line; if set, only `words` may be set too
+    std::string error;                             ///< one line; if set, only `text` may be set too
     bool isSimulated = false;                      ///< trials are of a simulated observer
     std::vector<std::string> warnings{};           ///< one line each
-    std::string words{};                           ///< text result, in lines
-    std::string summary{};                         ///< CSV of what `words` shows; else `table` is shown
+    std::string text{};                            ///< text result, in lines
+    std::string summary{};                         ///< CSV of what `text` shows; else `table` is shown
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
 };
@@ -147,20 +146,21 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
 /// Entry of the list of all analyses.
 struct Analysis {
-    enum class Kind { results, fit }; ///< of trials, or fitted to each participant's trials
+    enum class Kind { results, fit }; ///< computed from all trials, or fitted to each participant's
     std::string_view name;
     const char *purpose, *columns; ///< columns: of its table
     AnalysisReport (*run)(const Analysis&, const AnalysisJob&);
     Kind kind = Kind::results;
 };
 
-/// Any thread.
+/// The list of all analyses. Any thread.
 std::span<const Analysis> allAnalyses() noexcept;
 
-// What the list in Analysis.cpp refers to: readers, and the analyses of their trials.
+// Readers of trials, which return an error line if they fail, and the analyses of these trials. Analysis.cpp
+// lists them. Message thread only.
 
-/// Where an analysis puts what it finds: `out` becomes the words of the report, `table` its table.
-struct Findings {
+/// Outputs of an analysis: `out` becomes the report's text, `table` its table.
+struct AnalysisOutput {
     const AnalysisJob& job;
     AnalysisReport& report;
     std::ostream& out;
@@ -169,29 +169,29 @@ struct Findings {
 
 // Labels: confusion matrices, information transfer, icons.
 Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& job);
-void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings& to);
-void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to);
+void analyseConfusion(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output);
+void analyseIcons(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output);
 
 // Places: perceptual resolution from pointing responses or percent counts, and pointing errors.
 Result<StudyData<PlaceTrial>> readTargets(const AnalysisJob& job);
-void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to);
-void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to);
-void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& to);
+void analyseResolution(const StudyData<LocationTrial>& data, const AnalysisOutput& output);
+void analysePlaces(const StudyData<PlaceTrial>& data, const AnalysisOutput& output);
+void analysePercentCounts(const StudyData<PercentCounts>& data, const AnalysisOutput& output);
 
 // Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
-void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to);
-void analyseRatings(const RatingData& data, const Findings& to);
+void analyseChoices(const StudyData<ChoiceTrial>& data, const AnalysisOutput& output);
+void analyseRatings(const RatingData& data, const AnalysisOutput& output);
 /// Sets the intervals of scales in points to 0, since their scores are ordinal. Any thread.
-std::vector<RatingSummary> withoutIntervalsOfPoints(std::vector<RatingSummary> summaries,
-                                                    const AnalysisJob& job, const RatingData& data);
+std::vector<RatingSummary> withoutOrdinalIntervals(std::vector<RatingSummary> summaries,
+                                                   const AnalysisJob& job, const RatingData& data);
 /// Reads levels without unfinished staircases and QUEST+ runs, if the protocol is known.
 Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job);
-void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to);
+void analyseLevels(const StudyData<LevelTrial>& data, const AnalysisOutput& output);
 
 // Functions fitted to each participant's trials.
 Result<StudyData<LevelAnswer>> readAnswers(const AnalysisJob& job);
 Result<StudyData<LevelAnswer>> readMagnitudes(const AnalysisJob& job);
-void analysePsychometric(const StudyData<LevelAnswer>& data, const Findings& to);
-void analysePowerLaw(const StudyData<LevelAnswer>& data, const Findings& to);
+void analysePsychometric(const StudyData<LevelAnswer>& data, const AnalysisOutput& output);
+void analysePowerLaw(const StudyData<LevelAnswer>& data, const AnalysisOutput& output);
 
 } // namespace physvib

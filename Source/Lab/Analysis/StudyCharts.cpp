@@ -10,9 +10,9 @@
 namespace physvib {
 namespace {
 
-PlaceChart fieldOf(ChartFrame frame, const ConditionResolution& one) {
-    PlaceChart chart{std::move(frame), one.normals.rows, one.normals.columns};
-    const auto& normals = one.normals.normals;
+PlaceChart placeChartOf(ChartFrame frame, const ConditionResolution& condition) {
+    PlaceChart chart{std::move(frame), condition.normals.rows, condition.normals.columns};
+    const auto& normals = condition.normals.normals;
     for (std::size_t i = 0; i < normals.size(); ++i)
         if (normals[i].responses > 0)
             chart.ellipses.push_back({i, normals[i].meanX, normals[i].meanY, normals[i].varianceX,
@@ -20,9 +20,9 @@ PlaceChart fieldOf(ChartFrame frame, const ConditionResolution& one) {
     return chart;
 }
 
-std::vector<std::string> numbersTo(std::size_t most) {
+std::vector<std::string> numbersTo(std::size_t count) {
     std::vector<std::string> numbers;
-    for (std::size_t i = 1; i <= most; ++i) numbers.push_back(std::to_string(i));
+    for (std::size_t i = 1; i <= count; ++i) numbers.push_back(std::to_string(i));
     return numbers;
 }
 
@@ -38,13 +38,13 @@ std::string confusionChart(ChartFrame frame, const ConfusionMatrix& matrix) {
             const double share = 100.0 * matrix.count(i, j) / static_cast<double>(totals[i]);
             chart.values.push_back(share > 0.0 ? std::optional{share} : std::nullopt);
         }
-    chart.most = 100.0;
+    chart.max = 100.0;
     return gridChart(chart);
 }
 
-std::string responsesChart(ChartFrame frame, const ConditionResolution& one,
+std::string responsesChart(ChartFrame frame, const ConditionResolution& condition,
                            const std::vector<LocationTrial>& trials) {
-    PlaceChart chart = fieldOf(std::move(frame), one);
+    PlaceChart chart = placeChartOf(std::move(frame), condition);
     for (const LocationTrial& trial : trials)
         chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns +
                                     static_cast<std::size_t>(trial.targetColumn - 1),
@@ -52,10 +52,11 @@ std::string responsesChart(ChartFrame frame, const ConditionResolution& one,
     return placeChart(chart);
 }
 
-std::string territoryChart(ChartFrame frame, const ConditionResolution& one) {
+std::string territoryChart(ChartFrame frame, const ConditionResolution& condition) {
     constexpr std::size_t columns = 164, rows = 85; // enough for a page; percent counts use every pixel
-    PlaceChart chart = fieldOf(std::move(frame), one);
-    for (const auto owner : likelihoodMap(one.normals, columns, rows)) chart.territory.push_back(owner);
+    PlaceChart chart = placeChartOf(std::move(frame), condition);
+    for (const auto target : likelihoodMap(condition.normals, columns, rows))
+        chart.territory.push_back(target);
     chart.mapColumns = columns;
     for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
     chart.ellipses.clear();
@@ -69,18 +70,18 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts) {
                     numbersTo(counts.rows),
                     numbersTo(counts.columns),
                     {counts.percent.begin(), counts.percent.end()}};
-    chart.most = 10.0;
-    chart.shape = 0.6;
+    chart.max = 10.0;
+    chart.cellAspect = 0.6;
     chart.decimals = 2;
-    chart.markedBelow = defaultPercentThreshold;
+    chart.framedBelow = defaultPercentThreshold;
     return gridChart(chart);
 }
 
-std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
-    const GridMerge& merge = one.resolution.ties.front();
+std::string mergedChart(ChartFrame frame, const ConditionResolution& condition) {
+    const GridMerge& merge = condition.resolution.ties.front();
     frame.title +=
         ": " + std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size());
-    return countsChart(std::move(frame), merged(one.counts, merge));
+    return countsChart(std::move(frame), mergedCounts(condition.counts, merge));
 }
 
 std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries) {
@@ -92,12 +93,13 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
     for (const ChoiceSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
         for (BarSeries& series : chart.series) {
-            const ChoiceShare* const share = summary.of(series.name);
+            const ChoiceShare* const share = summary.shareOf(series.name);
             auto& bar = series.bars.emplace_back(); // none: not offered
-            if (share != nullptr && !std::isnan(share->share)) bar = ChartValue::around(100.0 * share->share);
+            if (share != nullptr && !std::isnan(share->share))
+                bar = ChartValue::withMargin(100.0 * share->share);
         }
     }
-    chart.most = 100.0;
+    chart.max = 100.0;
     return barChart(chart);
 }
 
@@ -111,13 +113,13 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
             chart.series[s].bars.push_back(
                 std::isnan(summary.means[s])
                     ? std::nullopt
-                    : std::optional{ChartValue::around(summary.means[s], summary.halfIntervals[s])});
+                    : std::optional{ChartValue::withMargin(summary.means[s], summary.halfIntervals[s])});
         // scores of some points have an axis of their own
-        if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
+        if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.max = 100.0;
     }
-    if (points > 0) chart.least = 1.0, chart.most = points;
-    std::erase_if(chart.series, [](const BarSeries& one) { // not asked in this session
-        return std::ranges::none_of(one.bars, [](const auto& bar) { return bar.has_value(); });
+    if (points > 0) chart.min = 1.0, chart.max = points;
+    std::erase_if(chart.series, [](const BarSeries& series) { // not asked in this session
+        return std::ranges::none_of(series.bars, [](const auto& bar) { return bar.has_value(); });
     });
     return barChart(chart);
 }
@@ -130,7 +132,7 @@ std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
             chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                      ChartValue::around(s.estimate, s.halfInterval));
+                      ChartValue::withMargin(s.estimate, s.halfInterval));
     return chart.groups.empty() ? std::string{} : barChart(chart);
 }
 
@@ -138,16 +140,18 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
     // axis, layer, frequency -> gammas of all voltages; of one layer: axis, voltage, frequency
     std::map<std::string, std::map<std::string, std::map<double, std::vector<double>>>> axes;
     std::map<std::string, std::size_t> styles;
-    const auto layerOf = [](const IsolationCondition& c) {
+    const auto layerName = [](const IsolationCondition& c) {
         return c.material + (c.softener.empty() ? "" : ", " + c.softener + " %") +
                (c.thickness.empty() ? "" : ", " + c.thickness + " mm");
     };
-    const bool isOne = std::ranges::all_of(results, [&](const IsolationResult& r) { // as thesis Fig. 3.5
-        return layerOf(r.condition) == layerOf(results.front().condition);
+    const bool hasOneLayer = std::ranges::all_of(results, [&](const IsolationResult& r) { // as thesis
+                                                                                          // Fig. 3.5
+        return layerName(r.condition) == layerName(results.front().condition);
     });
     for (const IsolationResult& r : results) {
         const auto& c = r.condition;
-        const std::string layer = layerOf(c) + (isOne && !c.voltage.empty() ? ", " + c.voltage + " V" : "");
+        const std::string layer =
+            layerName(c) + (hasOneLayer && !c.voltage.empty() ? ", " + c.voltage + " V" : "");
         styles.try_emplace(layer, styles.size());
         axes[c.axis][layer][c.frequencyHz].push_back(r.mean);
     }
@@ -159,7 +163,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
             LineSeries series{layer};
             series.style = styles.at(layer);
             for (const auto& [hz, gammas] : curve)
-                series.points.push_back({hz, ChartValue::around(Moments(gammas).mean)});
+                series.points.push_back({hz, ChartValue::withMargin(Moments(gammas).mean)});
             chart.series.push_back(std::move(series));
         }
         charts.push_back(lineChart(chart));
@@ -171,11 +175,12 @@ namespace {
 
 constexpr int curvePoints = 80;
 
-LineSeries curve(const PsychometricFunction& f, double least, double most) {
+LineSeries curve(const PsychometricFunction& f, double minLevel, double maxLevel) {
     LineSeries series{{}};
-    series.isMarked = false;
+    series.hasMarkers = false;
     for (int i = 0; i <= curvePoints; ++i) {
-        const double level = least + (most - least) * i / curvePoints, p = 100.0 * f.probability(level);
+        const double level = minLevel + (maxLevel - minLevel) * i / curvePoints,
+                     p = 100.0 * f.probability(level);
         series.points.push_back({level, {p, p, p}});
     }
     return series;
@@ -185,61 +190,63 @@ double meanOf(const std::vector<double>& values) { return Moments(values).mean; 
 
 } // namespace
 
-FitWords fitWords(std::span<const ColumnName> columns, const std::string& level, const std::string& measure) {
-    FitWords words;
+FitLabels fitLabels(std::span<const ColumnName> columns, const std::string& level,
+                    const std::string& measure) {
+    FitLabels labels;
     for (const ColumnName& column : columns) {
-        if (column.ours == "level_db") words.level = column.theirs;
-        if (column.ours == "correct") words.answer = column.theirs;
+        if (column.ours == "level_db") labels.level = column.theirs;
+        if (column.ours == "correct") labels.answer = column.theirs;
     }
-    if (!level.empty()) words.level = level;
-    if (!measure.empty()) words.answer = measure;
-    return words;
+    if (!level.empty()) labels.level = level;
+    if (!measure.empty()) labels.answer = measure;
+    return labels;
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words,
-                              const LevelSummary* told) {
-    const auto fits = psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model);
-    std::vector<LevelAnswer> shown = trials; // of those who have a function, if somebody has
-    const auto isLeftOut = [](const auto& own) { return !own.fit.fault.empty(); };
-    if (!std::ranges::all_of(fits, isLeftOut))
-        for (const auto& own : fits)
-            if (isLeftOut(own))
-                std::erase_if(shown, [&](const auto& trial) { return trial.participant == own.participant; });
-    const auto counts = countByLevel(shown, [](const LevelAnswer& trial) { return trial.counted(); });
-    const double least = counts.front().level, most = counts.back().level;
-    LineChart chart{std::move(frame), words.level, words.answer + " (%)"};
+                              const PsychometricModel& model, const FitLabels& labels,
+                              const LevelSummary* methodThreshold) {
+    const auto fits = psychometricByParticipant(methodThreshold ? std::vector<LevelAnswer>{} : trials, model);
+    std::vector<LevelAnswer> plotted = trials; // of those who have a function, if somebody has
+    const auto hasNoFit = [](const auto& fitted) { return !fitted.fit.error.empty(); };
+    if (!std::ranges::all_of(fits, hasNoFit))
+        for (const auto& fitted : fits)
+            if (hasNoFit(fitted))
+                std::erase_if(plotted,
+                              [&](const auto& trial) { return trial.participant == fitted.participant; });
+    const auto counts = countByLevel(plotted, [](const LevelAnswer& trial) { return trial.levelAndHit(); });
+    const double minLevel = counts.front().level, maxLevel = counts.back().level;
+    LineChart chart{std::move(frame), labels.level, labels.answer + " (%)"};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    for (const auto& own : fits) {
-        if (isLeftOut(own)) continue;
-        thresholds.push_back(own.fit.function.threshold);
-        if (own.fit.hasJnd) widths.push_back(own.fit.function.width);
-        lapses.push_back(own.fit.function.lapse);
-        chart.series.push_back(curve(own.fit.function, least, most));
+    for (const auto& fitted : fits) {
+        if (hasNoFit(fitted)) continue;
+        thresholds.push_back(fitted.fit.function.threshold);
+        if (fitted.fit.hasJnd) widths.push_back(fitted.fit.function.width);
+        lapses.push_back(fitted.fit.function.lapse);
+        chart.series.push_back(curve(fitted.fit.function, minLevel, maxLevel));
         chart.series.back().isFaint = true;
     }
     LineSeries answers{"trials"};
-    answers.isDrawnThrough = false;
-    const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
+    answers.hasLine = false;
+    const auto maxTrials = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
         const auto n = static_cast<double>(count.trials);
         const double share = 100.0 * static_cast<double>(count.hits) / n;
-        answers.points.push_back({count.level, {share, share, share}, 0.5 + 1.3 * std::sqrt(n / largest)});
+        answers.points.push_back({count.level, {share, share, share}, 0.5 + 1.3 * std::sqrt(n / maxTrials)});
     }
-    if (told != nullptr) {
-        chart.threshold = ChartValue::around(told->estimate);
-        chart.thresholdWords = "mean threshold";
+    if (methodThreshold != nullptr) {
+        chart.threshold = ChartValue::withMargin(methodThreshold->estimate);
+        chart.thresholdLabel = "mean threshold";
     } else if (!thresholds.empty()) {
         if (!widths.empty()) {
-            LineSeries mean =
-                curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
+            LineSeries mean = curve(model.functionWith(meanOf(thresholds), meanOf(widths), meanOf(lapses)),
+                                    minLevel, maxLevel);
             mean.name = "mean function";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }
-        chart.threshold = ChartValue::around(meanOf(thresholds));
-        chart.thresholdWords = std::string{"mean "} + words.half(model);
+        chart.threshold = ChartValue::withMargin(meanOf(thresholds));
+        chart.thresholdLabel = std::string{"mean "} + labels.midpointName(model);
     }
     chart.series.push_back(std::move(answers));
     if (model.guess > 0.0) chart.references = {{100.0 * model.guess, "guessing"}};
@@ -247,41 +254,41 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
 }
 
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                          const std::string& levelWords) {
+                          const std::string& levelLabel) {
     // by participant and level: log10 of magnitudes
     std::map<std::string, std::map<double, std::vector<double>>> people;
     for (const LevelAnswer& trial : trials)
         if (trial.answer > 0.0 && trial.level > 0.0)
             people[trial.participant][trial.level].push_back(std::log10(trial.answer));
     std::map<double, std::vector<double>> relative;
-    std::map<std::string, double> centre;
+    std::map<std::string, double> meanLogs;
     for (const auto& [who, levels] : people) {
         std::vector<double> means;
         for (const auto& [level, values] : levels) means.push_back(meanOf(values));
-        const double own = centre[who] = meanOf(means);
+        const double mean = meanLogs[who] = meanOf(means);
         std::size_t i = 0;
-        for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
+        for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - mean);
     }
-    LineChart chart{std::move(frame), levelWords, "magnitude / participant's geometric mean"};
+    LineChart chart{std::move(frame), levelLabel, "magnitude / participant's geometric mean"};
     chart.isLogarithmic = true;
     LineSeries points{"geometric mean of participants"};
-    points.isDrawnThrough = false;
+    points.hasLine = false;
     for (const auto& [level, values] : relative)
-        points.points.push_back({level, ChartValue::around(std::pow(10.0, meanOf(values)))});
+        points.points.push_back({level, ChartValue::withMargin(std::pow(10.0, meanOf(values)))});
     // each law in units of its participant's geometric mean, as the points are: people may have other levels
-    std::vector<double> exponents, atOne;
-    for (const auto& own : powerLawByParticipant(trials))
-        if (own.fit.fault.empty()) {
-            exponents.push_back(own.fit.exponent);
-            atOne.push_back(std::log10(own.fit.factor) - centre[own.participant]);
+    std::vector<double> exponents, intercepts;
+    for (const auto& fitted : powerLawByParticipant(trials))
+        if (fitted.fit.error.empty()) {
+            exponents.push_back(fitted.fit.exponent);
+            intercepts.push_back(std::log10(fitted.fit.factor) - meanLogs[fitted.participant]);
         }
     if (!exponents.empty() && !points.points.empty()) {
-        const double exponent = meanOf(exponents), first = meanOf(atOne);
+        const double exponent = meanOf(exponents), intercept = meanOf(intercepts);
         LineSeries law{"mean power law"};
-        law.isMarked = false;
+        law.hasMarkers = false;
         law.style = 4;
         for (const double level : {points.points.front().x, points.points.back().x}) {
-            const double y = std::pow(10.0, first + exponent * std::log10(level));
+            const double y = std::pow(10.0, intercept + exponent * std::log10(level));
             law.points.push_back({level, {y, y, y}});
         }
         chart.series.push_back(std::move(law));

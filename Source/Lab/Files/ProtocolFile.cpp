@@ -28,10 +28,10 @@ Protocol readProtocolRoot(Json& root) {
     root.erase(protocolVersionField);
     root.erase("$schema"); // names the schema to editors
     auto protocol = readFields<Protocol>(JsonField(root, {}));
-    if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty())
-        throw JsonError({}, fault);
-    if (const std::string fault = validate(protocol); !fault.empty()) throw JsonError({}, fault);
-    for (const std::string& scale : scalesOf(protocol))
+    if (const std::string error = detail::checkFields("", protocol, 0); !error.empty())
+        throw JsonError({}, error);
+    if (const std::string error = validate(protocol); !error.empty()) throw JsonError({}, error);
+    for (const std::string& scale : protocolScales(protocol))
         if (trialColumns::has(scale))
             throw JsonError({}, "scales: expected names that no other column of a trial file has, found " +
                                     inQuotes(scale));
@@ -42,35 +42,35 @@ Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view text, std
     std::vector<StimulusLevel> levels;
     try {
         const detail::StudyRows rows{text, name};
-        const auto condition = rows.required("condition"), stimulus = rows.required("stimulus"),
-                   alternative = rows.required("alternative"), level = rows.required("level_db");
+        const auto condition = rows.requireColumn("condition"), stimulus = rows.requireColumn("stimulus"),
+                   alternative = rows.requireColumn("alternative"), level = rows.requireColumn("level_db");
         for (const CsvRow& row : rows.table().rows) {
             StimulusLevel next{rows.text(row, condition), rows.text(row, stimulus),
                                rows.text(row, alternative),
                                rows.number(row, level, -limits::maxLevelDb, limits::maxLevelDb)};
-            if (levelOf(levels, next.condition, next.stimulus) != nullptr)
-                throw detail::StudyFault{
-                    rows.table().fault(row, stimulus, "each stimulus of a condition once")};
+            if (findLevel(levels, next.condition, next.stimulus) != nullptr)
+                throw detail::StudyTableError{
+                    rows.table().cellError(row, stimulus, "each stimulus of a condition once")};
             levels.push_back(std::move(next));
         }
-    } catch (const detail::StudyFault& fault) {
-        return Failure{fault.message};
+    } catch (const detail::StudyTableError& error) {
+        return Failure{error.message};
     }
     return levels;
 }
 
 /// Loads the sessions' levels_file. Returns an error line or an empty string.
-std::string takeLevels(Protocol& protocol) {
+std::string loadLevelsFiles(Protocol& protocol) {
     const auto session =
         std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
     if (session == protocol.sessions.end()) return {};
-    const auto path = besideProtocol(protocol.folder, session->levelsFile);
+    const auto path = resolveProtocolPath(protocol.folder, session->levelsFile);
     const auto text = readFile(path, limits::maxTableBytes);
     if (!text) return text.error;
     auto levels = readStimulusLevels(text.value, path);
     if (!levels) return levels.error;
     protocol.levels = std::move(levels.value);
-    return levelsFault(protocol);
+    return levelsError(protocol);
 }
 
 } // namespace
@@ -110,26 +110,28 @@ const std::vector<Protocol>& knownProtocols() {
 
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
     const auto& known = knownProtocols();
-    std::vector<ThesisDeviation> own;
-    if (std::ranges::find(known, protocol) == known.end()) return own;
+    std::vector<ThesisDeviation> deviations;
+    if (std::ranges::find(known, protocol) == known.end()) return deviations;
     const std::string_view name = protocol.name;
     const bool isAsPublished = name.ends_with(thesisSuffix);
     const std::string_view builtIn = isAsPublished ? name.substr(0, name.size() - thesisSuffix.size()) : name;
-    std::ranges::copy_if(thesisDeviations, std::back_inserter(own), [&](const ThesisDeviation& one) {
-        return one.protocol == builtIn && !(isAsPublished && one.edit != ThesisEdit::none);
-    });
-    return own;
+    std::ranges::copy_if(
+        thesisDeviations, std::back_inserter(deviations), [&](const ThesisDeviation& deviation) {
+            return deviation.protocol == builtIn && !(isAsPublished && deviation.edit != ThesisEdit::none);
+        });
+    return deviations;
 }
 
-std::string besideProtocol(const std::string& folder, const std::string& path) {
+std::string resolveProtocolPath(const std::string& folder, const std::string& path) {
     std::error_code none;
     const auto beside = std::filesystem::path{folder} / path;
     return !folder.empty() && std::filesystem::is_regular_file(beside, none) ? beside.string() : path;
 }
 
-std::string linkFault(const std::string& folder, const std::string& path) {
+std::string linkError(const std::string& folder, const std::string& path) {
     std::error_code none;
-    const std::string found = besideProtocol(folder, path), home = found == path ? std::string{} : folder;
+    const std::string found = resolveProtocolPath(folder, path),
+                      home = found == path ? std::string{} : folder;
     if (!isPlainPath(path) || !std::filesystem::exists(found, none) || isWithin(home, found)) return {};
     return found + ": expected a file in " + (home.empty() ? "the folder" : home) +
            " or below, found a link that leads elsewhere";
@@ -137,15 +139,15 @@ std::string linkFault(const std::string& folder, const std::string& path) {
 
 namespace {
 
-/// Checks all paths in a protocol with linkFault(), except those in calls.
-std::string namedLinkFault(const Protocol& protocol) {
-    std::vector<std::string> paths{protocol.words};
+/// Checks all paths in a protocol with linkError(), except those in calls.
+std::string firstLinkError(const Protocol& protocol) {
+    std::vector<std::string> paths{protocol.translation};
     for (const ConditionPlan& condition : protocol.conditions) paths.push_back(condition.layout);
     for (const StudySoundFile& sound : protocol.sounds)
         paths.push_back(sound.file); // a participant's pictures are checked by the mixer's StudyLooks
     for (const SessionPlan& session : protocol.sessions) paths.push_back(session.levelsFile);
     for (const std::string& path : paths)
-        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return fault;
+        if (auto error = linkError(protocol.folder, path); !error.empty()) return error;
     return {};
 }
 
@@ -156,8 +158,8 @@ Result<Protocol> findProtocol(const std::string& nameOrPath) {
         auto protocol = loadProtocol(nameOrPath);
         if (!protocol) return protocol;
         protocol.value.folder = std::filesystem::path{nameOrPath}.parent_path().string();
-        if (auto fault = namedLinkFault(protocol.value); !fault.empty()) return Failure{fault};
-        if (auto fault = takeLevels(protocol.value); !fault.empty()) return Failure{fault};
+        if (auto error = firstLinkError(protocol.value); !error.empty()) return Failure{error};
+        if (auto error = loadLevelsFiles(protocol.value); !error.empty()) return Failure{error};
         return protocol;
     }
     for (const Protocol& protocol : knownProtocols())
@@ -173,15 +175,15 @@ OrderedJson objectSchema();
 OrderedJson schemaOf(const bool&, const Bounds&) { return {{"type", "boolean"}}; }
 OrderedJson schemaOf(const std::string&, const Bounds& bounds) {
     OrderedJson schema{{"type", "string"}};
-    if (bounds.most > 0.0 && bounds.most < Bounds{}.most)
-        schema["maxLength"] = static_cast<std::size_t>(bounds.most);
+    if (bounds.max > 0.0 && bounds.max < Bounds{}.max)
+        schema["maxLength"] = static_cast<std::size_t>(bounds.max);
     return schema;
 }
 template <class Number>
 requires std::is_arithmetic_v<Number> OrderedJson schemaOf(const Number&, const Bounds& bounds) {
     OrderedJson schema{{"type", std::is_integral_v<Number> ? "integer" : "number"}};
-    if (bounds.least > Bounds{}.least) schema["minimum"] = bounds.least;
-    if (bounds.most < Bounds{}.most) schema["maximum"] = bounds.most;
+    if (bounds.min > Bounds{}.min) schema["minimum"] = bounds.min;
+    if (bounds.max < Bounds{}.max) schema["maximum"] = bounds.max;
     return schema;
 }
 template <class T>
@@ -192,12 +194,12 @@ OrderedJson schemaOf(const std::optional<T>&, const Bounds& bounds) {
 }
 template <class T>
 OrderedJson schemaOf(const std::vector<T>&, const Bounds& bounds) {
-    OrderedJson schema{{"type", "array"}, {"items", schemaOf(T{}, bounds)}, {"minItems", bounds.fewestItems}};
-    if (bounds.mostItems > 0) schema["maxItems"] = bounds.mostItems;
+    OrderedJson schema{{"type", "array"}, {"items", schemaOf(T{}, bounds)}, {"minItems", bounds.minItems}};
+    if (bounds.maxItems > 0) schema["maxItems"] = bounds.maxItems;
     return schema;
 }
 
-/// Visits the table of T.
+/// Collects the JSON schema of T from its table of fields.
 template <class T>
 struct SchemaWriter {
     OrderedJson properties = OrderedJson::object(), required = OrderedJson::array(),
@@ -223,11 +225,11 @@ private:
     /// The fields of one kind, and those that it needs.
     template <class Kind>
     void add(const std::string& name, const std::string& kind) {
-        SchemaWriter<Kind> own;
-        visitFields(own, FieldsOf<Kind>{});
-        for (const auto& [key, schema] : own.properties.items()) properties[key] = schema;
-        cases.push_back(
-            {{"if", {{"properties", {{name, {{"const", kind}}}}}}}, {"then", {{"required", own.required}}}});
+        SchemaWriter<Kind> kindWriter;
+        visitFields(kindWriter, FieldsOf<Kind>{});
+        for (const auto& [key, schema] : kindWriter.properties.items()) properties[key] = schema;
+        cases.push_back({{"if", {{"properties", {{name, {{"const", kind}}}}}}},
+                         {"then", {{"required", kindWriter.required}}}});
     }
 };
 
@@ -262,18 +264,18 @@ std::string protocolSchema() {
 namespace {
 
 /// Each call of the protocol, which may be changed.
-template <class Act>
-void eachCall(Protocol& protocol, Act act) {
+template <class EditCall>
+void forEachCall(Protocol& protocol, EditCall editCall) {
     for (ConditionPlan& condition : protocol.conditions)
         std::visit(
-            [&act](auto& set) {
-                if constexpr (requires { set.call; }) act(set.call);
+            [&editCall](auto& set) {
+                if constexpr (requires { set.call; }) editCall(set.call);
             },
             condition.stimuli);
 }
 
-void edit(Protocol& protocol, const ThesisDeviation& one) {
-    switch (one.edit) {
+void edit(Protocol& protocol, const ThesisDeviation& deviation) {
+    switch (deviation.edit) {
     case ThesisEdit::none: break;
     case ThesisEdit::noBreakBefore:
         for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
@@ -282,13 +284,14 @@ void edit(Protocol& protocol, const ThesisDeviation& one) {
         for (ConditionPlan& condition : protocol.conditions) condition.group.clear();
         break;
     case ThesisEdit::addToCalls:
-        eachCall(protocol, [&one](std::string& call) {
-            call.append(" ").append(one.change, addsFrom.size(),
-                                    one.change.size() - addsFrom.size() - addsTo.size());
+        forEachCall(protocol, [&deviation](std::string& call) {
+            call.append(" ").append(deviation.change, addedWordsPrefix.size(),
+                                    deviation.change.size() - addedWordsPrefix.size() -
+                                        addedWordsSuffix.size());
         });
         break;
     case ThesisEdit::matchPeaks:
-        eachCall(protocol, [words = std::string_view{"--sound-match rms"}](std::string& call) {
+        forEachCall(protocol, [words = std::string_view{"--sound-match rms"}](std::string& call) {
             if (const auto at = call.find(words); at != call.npos)
                 call.replace(at, words.size(), "--sound-match peak");
         });
@@ -300,8 +303,8 @@ std::vector<Protocol> makeVersions() {
     std::vector<Protocol> versions;
     for (Protocol protocol : builtInProtocols()) {
         const Protocol builtIn = protocol;
-        for (const ThesisDeviation& one : thesisDeviations)
-            if (one.protocol == builtIn.name) edit(protocol, one);
+        for (const ThesisDeviation& deviation : thesisDeviations)
+            if (deviation.protocol == builtIn.name) edit(protocol, deviation);
         if (protocol == builtIn) continue;
         protocol.name.append(thesisSuffix);
         protocol.title += ", as published";

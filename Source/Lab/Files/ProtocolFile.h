@@ -7,7 +7,7 @@
 #include "Io/Result.h"
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Protocol.h"
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include <array>
 #include <filesystem>
 #include <string>
@@ -24,29 +24,29 @@ enum class ThesisEdit {
     none,          ///< no automatic change exists
     noBreakBefore, ///< removes breaks before sessions
     noGroups,      ///< removes condition groups
-    addToCalls,    ///< adds the words of `change` between addsFrom and addsTo
+    addToCalls,    ///< adds the words of `change` between addedWordsPrefix and addedWordsSuffix
     matchPeaks     ///< matches recordings by their peak, not their strength over 0.25 s
 };
 
-/// Property of a hit, pulse or phantom that a deviation changes; a test plays all and looks for others.
-enum class ThesisPart { none, amplitude, duration, frequency, decay, gains, limiter, guard };
+/// Property of a hit, pulse or phantom that a deviation changes; Tests/Thesis checks that no other changes.
+enum class HitProperty { none, amplitude, duration, frequency, decay, gains, limiter, guard };
 
 /// One deviation of one protocol.
 struct ThesisDeviation {
-    std::string_view protocol; ///< its name
-    std::string_view section;  ///< of the thesis
-    std::string_view thesis;   ///< procedure in the thesis
-    std::string_view here;     ///< procedure in the protocol
-    std::string_view change;   ///< change that makes it run as published; empty: not possible
+    std::string_view protocol;   ///< its name
+    std::string_view section;    ///< of the thesis
+    std::string_view inThesis;   ///< procedure in the thesis
+    std::string_view inProtocol; ///< procedure in the protocol
+    std::string_view change;     ///< change that makes it run as published; empty: not possible
     ThesisEdit edit = ThesisEdit::none;
-    ThesisPart part = ThesisPart::none;
+    HitProperty property = HitProperty::none;
 };
 
-/// Suffix of the names of versions as published (Files/ProtocolFile.h).
+/// Suffix of the names of versions as published.
 inline constexpr std::string_view thesisSuffix = "-thesis";
 
-/// Around the words that ThesisEdit::addToCalls adds.
-inline constexpr std::string_view addsFrom = "add ", addsTo = " to the call";
+/// Text around the words in `change` that ThesisEdit::addToCalls adds.
+inline constexpr std::string_view addedWordsPrefix = "add ", addedWordsSuffix = " to the call";
 
 inline constexpr std::array thesisDeviations{
     ThesisDeviation{"patterns", "3.2.1", "2 minutes of rest after each main session",
@@ -68,7 +68,7 @@ inline constexpr std::array thesisDeviations{
                     "on the mixer's screen, by mouse or touch", ""},
     ThesisDeviation{"phantom-places", "4.2.1", "Eq. 4.3, which diverges as printed",
                     "the law log, a reconstruction that falls from 1 to 0", "", ThesisEdit::none,
-                    ThesisPart::gains},
+                    HitProperty::gains},
     ThesisDeviation{"model-or-sound", "5.2.1", "three experts match the levels before the study",
                     "each participant matches them",
                     "levels_file of three experts in place of levels_from and the session matching"},
@@ -86,12 +86,12 @@ inline constexpr std::array thesisDeviations{
         "model-or-sound", "5.2.1", "levels and actuator as built there",
         "the recorded contact at -8 dB and the model at -2 dB or less of their calls' own levels, "
         "which differ by fall, so that no stimulus needs the limiter",
-        "a layout of your actuator, and its levels", ThesisEdit::none, ThesisPart::amplitude},
+        "a layout of your actuator, and its levels", ThesisEdit::none, HitProperty::amplitude},
     ThesisDeviation{"model-or-sound", "5.2.1",
                     "amplitudes by Eq. 5.4 and 5.7, of a screen as wide as the plate (58 mm, 2.9 m)",
                     "1.5 times as strong, by a field of 8 m and a drive_gain of 4.1",
                     "add --set screen=2.9 --set drive_gain=1 to the call", ThesisEdit::addToCalls,
-                    ThesisPart::amplitude},
+                    HitProperty::amplitude},
     ThesisDeviation{"eight-methods", "5.3.1", "impulses are taken when a contact is released (Eq. 5.2)",
                     "impacts are rendered when a contact begins, with the solver's impulse",
                     "add --timing release to the call", ThesisEdit::addToCalls},
@@ -104,17 +104,17 @@ inline constexpr std::array thesisDeviations{
         "add --fixed-level each to the call", ThesisEdit::addToCalls},
     ThesisDeviation{"eight-methods", "5.3.1", "amplitudes by Eq. 5.4 and 5.7",
                     "1.6 times as strong, by drive_gain of the scene box-study",
-                    "add --set drive_gain=1 to the call", ThesisEdit::addToCalls, ThesisPart::amplitude},
+                    "add --set drive_gain=1 to the call", ThesisEdit::addToCalls, HitProperty::amplitude},
     ThesisDeviation{
         "eight-methods", "5.3.1", "what is added is normalised block by block (5.1.3)",
         "one smooth limiter: hits of AF with --fixed-level each ask for up to 8.5 g together, of the "
         "layout's 2 g; 41 % of hits are weakened, at most to 24 %",
-        "add --limiter blocks to the call", ThesisEdit::addToCalls, ThesisPart::limiter},
+        "add --limiter blocks to the call", ThesisEdit::addToCalls, HitProperty::limiter},
     ThesisDeviation{
         "eight-methods", "5.3.1", "AF-FV-DRF and AF-FV-DRV of rubber: 80 Hz, whose hits have a mean",
         "half a sine over each hit takes its mean off: 0.42 g at 25 Hz, peak 1.92 g for 1.50 g; 0.07 g at "
         "7 Hz, peak 1.34 g for 1.35 g; rms 0.3 and 0.0 dB more",
-        "", ThesisEdit::none, ThesisPart::guard},
+        "", ThesisEdit::none, HitProperty::guard},
     ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m",
                     "walls of 0.3 m outside the same field, through which nothing is pressed",
                     "--set walls=0.02 in the call"},
@@ -160,11 +160,11 @@ std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
 /// Resolves a path in a protocol: the file in the protocol's folder if it exists, else the path itself.
 /// Message thread only.
-std::string besideProtocol(const std::string& folder, const std::string& path);
+std::string resolveProtocolPath(const std::string& folder, const std::string& path);
 
-/// Empty, or an error if the file found by besideProtocol() is behind a link that leads out of the folder.
-/// Message thread only.
-std::string linkFault(const std::string& folder, const std::string& path);
+/// Empty, or an error if the file found by resolveProtocolPath() is behind a link that leads out of the
+/// folder. Message thread only.
+std::string linkError(const std::string& folder, const std::string& path);
 
 /// One of knownProtocols() by name, else that of a file, whose folder becomes `folder`. Message thread only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);

@@ -15,41 +15,41 @@
 
 namespace physvib {
 
-/// The trials of one condition (of choices and ratings: of a session), in the order of the file.
+/// Trials that are analysed together: those of one condition, or, of choices and ratings, of one session.
 template <class Trial>
-struct StudyCondition {
-    std::string name; ///< inSession(); empty if the file has no column `condition`
+struct TrialGroup {
+    std::string name; ///< of the condition or session; empty if there is only one without a name
     std::vector<Trial> trials;
 };
 
 /// Contents of one or more files of the same kind.
 template <class Trial>
 struct StudyData {
-    std::vector<StudyCondition<Trial>> conditions; ///< in the order of first trials
-    std::vector<std::string> warnings;             ///< one line each on omitted data
-    bool isSimulated = false;                      ///< at least one trial comes from a simulated observer
+    std::vector<TrialGroup<Trial>> groups; ///< in the order of first trials
+    std::vector<std::string> warnings;     ///< one line each on omitted data
+    bool isSimulated = false;              ///< at least one trial comes from a simulated observer
 };
 
 struct RatingData : StudyData<RatingTrial> {
     std::vector<std::string> scales; ///< names of a trial's scores
 };
 
-/// The summaries of all sessions, named by them. Any thread (allocates).
+/// Summaries of all sessions; nameInSession() adds a session's name to its conditions. Any thread.
 template <class Trial, class Summarise>
-auto bySession(const StudyData<Trial>& data, Summarise summarise) {
-    decltype(summarise(data.conditions.front().trials)) all;
-    for (const auto& session : data.conditions)
-        for (auto& one : summarise(session.trials)) {
-            one.condition = inSession(std::move(one.condition), session.name);
-            all.push_back(std::move(one));
+auto summariseSessions(const StudyData<Trial>& data, Summarise summarise) {
+    decltype(summarise(data.groups.front().trials)) summaries;
+    for (const auto& session : data.groups)
+        for (auto& summary : summarise(session.trials)) {
+            summary.condition = nameInSession(std::move(summary.condition), session.name);
+            summaries.push_back(std::move(summary));
         }
-    return all;
+    return summaries;
 }
 
 /// Contents and display name of a file.
 struct NamedText {
     std::string_view text, name;
-    std::span<const ColumnName> columns{}; ///< those of another program's table; empty: our names
+    std::span<const ColumnName> columns{}; ///< mapping of another program's columns; empty: our own names
 };
 
 // For all readers: other columns are ignored. Training trials and trials of other tasks in files of `study
@@ -58,25 +58,25 @@ struct NamedText {
 /// Columns stimulus, response; optional condition, participant. Warns of trials without a response.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
-/// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); optional condition.
+/// Columns target_column, target_row (1 to maxGridLines), x, y (0 to 1); optional condition.
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
 
 /// Columns target_x, x; optional target_y and y, stimulus (without it the place identifies the target),
-/// condition, participant; in any unit. Our own files have target_column, target_row and render; their true
-/// places become shares of the field, with a warning.
+/// condition, participant. Coordinates may have any unit. Our own files have target_column, target_row and
+/// render instead; their targets become shares of the field, with a warning.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
-/// Columns choice (or response); optional condition, stimulus, participant. The result's conditions are
-/// sessions, one without a name if it is alone; a trial's names condition and stimulus, "condition=low
-/// stimulus=0.2", or the one that differs.
+/// Columns choice (or response); optional condition, stimulus, participant. The trials are grouped by
+/// session; a single session has no name. The condition of a trial is named by its column condition or
+/// stimulus, or by both if both vary: "condition=low stimulus=0.2".
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
-/// Columns stimulus or condition (as of choices, and sessions too), optional participant. Every column that
-/// trial files do not have is a scale from 0 to 100.
+/// Columns stimulus or condition; optional participant. Sessions and conditions are named as by
+/// readChoices(). Every column that trial files do not have is a scale from 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
-/// Staircases, QUEST+ sessions, adjustments and magnitude estimations of a trial file. Of trainings only
-/// adjustments are read, and only if the file has no other ones. The result has one condition.
+/// Staircases, QUEST+ sessions, adjustments and magnitude estimations, all in one group. Trials of trainings
+/// are omitted, but adjustments are read if the file has no others.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// Column names for a fit of answers to levels.
@@ -93,7 +93,7 @@ Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files
 /// Columns condition, row, c1 to cN. The rows of each condition are 1, 2, 3...; values are 0 to 100.
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);
 
-/// The format of readPercentCounts(), one grid row per line. Any thread.
+/// `counts` as CSV for readPercentCounts(), one grid row per line. Any thread.
 std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance);
 
 } // namespace physvib

@@ -12,15 +12,15 @@ namespace physvib {
 namespace {
 
 template <class Words>
-bool holds(const Words& words, std::string_view cell) {
+bool contains(const Words& words, std::string_view cell) {
     return std::ranges::find(words, cell) != std::end(words);
 }
 
-constexpr std::string_view practice[] = {"practice", "Practice", "practise", "train",   "Training",
-                                         "warmup",   "warm-up",  "warm up",  "training"};
+constexpr std::string_view trainingNames[] = {"practice", "Practice", "practise", "train",   "Training",
+                                              "warmup",   "warm-up",  "warm up",  "training"};
 
 /// Splits "touch_x:0:1230". A name with another ending is a plain column name.
-ColumnName withRange(std::string ours, std::string words) {
+ColumnName parseColumn(std::string ours, std::string words) {
     const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
                                                              ? std::string::npos
                                                              : words.rfind(':', second - 1);
@@ -32,10 +32,10 @@ ColumnName withRange(std::string ours, std::string words) {
 }
 
 /// Converts a column to shares of its range. Returns an error for the first cell that is no number, or "".
-std::string scale(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
+std::string convertToShares(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
     for (CsvRow& row : table.rows) {
         const auto number = parseNumber<double>(row.cells[column]);
-        if (!number) return table.fault(row, column, "a number");
+        if (!number) return table.cellError(row, column, "a number");
         row.cells[column] = numberText((*number - range.first) / (range.second - range.first));
     }
     return {};
@@ -49,10 +49,10 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
     std::set<double> values;
     for (const CsvRow& row : table.rows) {
         const auto place = parseNumber<double>(row.cells[*column]);
-        if (!place) return table.fault(row, *column, "a number");
+        if (!place) return table.cellError(row, *column, "a number");
         values.insert(*place);
     }
-    if (values.size() > mostGridLines) return {};
+    if (values.size() > maxGridLines) return {};
     table.columns.emplace_back(lines);
     for (CsvRow& row : table.rows)
         row.cells.push_back(std::to_string(
@@ -69,26 +69,26 @@ bool isUtf8(std::string_view text) noexcept {
     return true;
 }
 
-constexpr std::string_view yes[] = {"true", "TRUE", "True", "1", "1.0"}; // of other programs
+constexpr std::string_view trueWords[] = {"true", "TRUE", "True", "1", "1.0"}; // of other programs
 
-void takeOthersWords(CsvTable& table, const RowsLeftOut& leftOut) {
-    if (!trialHeadOf(table.comments).empty()) return;
-    constexpr std::string_view wrong[] = {"false", "FALSE", "False", "0.0"};
+void normaliseForeignCells(CsvTable& table, const ExcludedRows& excluded) {
+    if (!parseTrialHead(table.comments).empty()) return;
+    constexpr std::string_view falseWords[] = {"false", "FALSE", "False", "0.0"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
-            if (leftOut.isNoAnswer(table.columns[c], cell)) cell.clear();
-            if (table.columns[c] == trialColumns::phase && holds(practice, cell))
+            if (excluded.isMissingAnswer(table.columns[c], cell)) cell.clear();
+            if (table.columns[c] == trialColumns::phase && contains(trainingNames, cell))
                 cell = trialColumns::training;
-            if (table.columns[c] != "correct" && table.columns[c] != trialColumns::ranOut) continue;
-            if (holds(yes, cell)) cell.assign(1, '1');
-            if (holds(wrong, cell)) cell.assign(1, '0');
+            if (table.columns[c] != "correct" && table.columns[c] != trialColumns::timedOut) continue;
+            if (contains(trueWords, cell)) cell.assign(1, '1');
+            if (contains(falseWords, cell)) cell.assign(1, '0');
         }
 }
 
 /// Error if a trial has two rows: in our files, and in other programs' tables with a column of trials.
-std::string doubledRowFault(const CsvTable& table, bool isNamed) {
-    const bool isOurs = trialHeadOf(table.comments).contains("protocol");
+std::string duplicateRowError(const CsvTable& table, bool isNamed) {
+    const bool isOurs = parseTrialHead(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
     for (const char* name : {"participant", "condition", "session", "phase", "trial"})
         if (const auto column = table.column(name)) columns.push_back(*column);
@@ -100,79 +100,82 @@ std::string doubledRowFault(const CsvTable& table, bool isNamed) {
         if (key.back().empty()) continue;
         const auto [first, isNew] = lines.try_emplace(std::move(key), row.line);
         if (!isNew)
-            return table.fault(row, columns.back(),
-                               "each trial once, not as in line " + std::to_string(first->second));
+            return table.cellError(row, columns.back(),
+                                   "each trial once, not as in line " + std::to_string(first->second));
     }
     return {};
 }
 
 /// Error if two rows of another program's table are equal, also in a time to the thousandth. Only if most
 /// rows differ in their other cells: otherwise equal answers are possible.
-std::string sameRowFault(const CsvTable& table) {
-    if (!trialHeadOf(table.comments).empty()) return {};
-    std::set<std::vector<std::string>> all, others;
-    std::string fault;
+std::string similarRowError(const CsvTable& table) {
+    if (!parseTrialHead(table.comments).empty()) return {};
+    std::set<std::vector<std::string>> all, withoutTimes;
+    std::string error;
     for (const CsvRow& row : table.rows) {
         const auto time = std::ranges::find_if(row.cells, [](const std::string& cell) {
             return cell.size() > 3 + std::min(cell.size(), cell.find('.')) && parseNumber<double>(cell);
         });
         if (time == row.cells.end()) continue;
         const auto c = static_cast<std::size_t>(time - row.cells.begin());
-        if (!all.insert(row.cells).second) fault = table.fault(row, c, "each row once");
-        auto rest = row.cells;
-        rest[c].clear(), others.insert(std::move(rest));
+        if (!all.insert(row.cells).second) error = table.cellError(row, c, "each row once");
+        auto cells = row.cells;
+        cells[c].clear(), withoutTimes.insert(std::move(cells));
     }
-    return 10 * others.size() < 9 * all.size() ? std::string{} : fault;
+    return 10 * withoutTimes.size() < 9 * all.size() ? std::string{} : error; // many equal answers
 }
 
-std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, RowsLeftOut& leftOut) {
+std::string selectColumns(CsvTable& table, std::span<const ColumnName> names, ExcludedRows& excluded) {
     if (names.empty()) return {};
-    std::vector<std::size_t> from;
+    std::vector<std::size_t> sources;
     std::vector<std::string> columns;
     for (const ColumnName& name : names) {
         const auto found = table.column(name.theirs);
         if (!found) return table.name + ": expected a column " + cleanLine(name.theirs) + ", found none";
-        from.push_back(*found);
+        sources.push_back(*found);
         columns.push_back(name.ours);
     }
     if (const auto observer = table.column(trialColumns::observer);
         observer && std::ranges::find(columns, trialColumns::observer) == columns.end()) {
-        from.push_back(*observer);
+        sources.push_back(*observer);
         columns.emplace_back(trialColumns::observer);
     }
     for (const std::string& column : table.columns)
-        if (trialHeadOf(table.comments).empty() && !column.empty() &&
+        if (parseTrialHead(table.comments).empty() && !column.empty() &&
             std::ranges::find(names, column, &ColumnName::theirs) == names.end())
-            leftOut.columns.insert(column);
+            excluded.columns.insert(column);
     const bool hasScales = !std::ranges::all_of(names, trialColumns::has, &ColumnName::ours);
-    const auto who = std::ranges::find(columns, "participant") - columns.begin();
-    const auto phase = std::ranges::find(columns, trialColumns::phase) - columns.begin();
+    const auto participantAt = std::ranges::find(columns, "participant") - columns.begin();
+    const auto phaseAt = std::ranges::find(columns, trialColumns::phase) - columns.begin();
     std::erase_if(table.rows, [&](const CsvRow& row) {
-        bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true, hasTime = true;
+        bool isRated = !hasScales, isAnswered = true, isTrial = false, isComplete = true, hasTime = true;
         for (std::size_t c = 0; c < names.size(); ++c) {
             const std::string& ours = names[c].ours;
-            const bool has = !row.cells[from[c]].empty() && !leftOut.isNoAnswer(ours, row.cells[from[c]]);
-            if (ours == trialColumns::ranOut)
-                hasTime = !holds(yes, row.cells[from[c]]);
+            const bool hasValue =
+                !row.cells[sources[c]].empty() && !excluded.isMissingAnswer(ours, row.cells[sources[c]]);
+            if (ours == trialColumns::timedOut)
+                hasTime = !contains(trueWords, row.cells[sources[c]]);
             else if (!trialColumns::has(ours))
-                isRated |= has; // of scales one is enough
-            else if (holds(answerColumns, ours))
-                isAnswered &= has;
+                isRated |= hasValue; // of scales one is enough
+            else if (contains(answerColumns, ours))
+                isAnswered &= hasValue;
             else if (ours != trialColumns::group) // rows without a group are kept
-                isWhole &= has, isTrial |= ours != "participant";
+                isComplete &= hasValue, isTrial |= ours != "participant";
         }
-        if (isWhole && ((isRated && isAnswered) || !hasTime)) return false;
+        if (isComplete && ((isRated && isAnswered) || !hasTime)) return false;
         const auto cell = [&](std::ptrdiff_t at) {
-            return at < std::ssize(columns) ? row.cells[from[static_cast<std::size_t>(at)]] : std::string{};
+            return at < std::ssize(columns) ? row.cells[sources[static_cast<std::size_t>(at)]]
+                                            : std::string{};
         };
-        const bool isUnanswered = isWhole && isTrial, isTraining = holds(practice, cell(phase));
-        leftOut.rows += !isUnanswered || !isTraining;
-        if (!cell(who).empty()) leftOut.unanswered[cell(who)][isTraining] += isUnanswered;
+        const bool isUnanswered = isComplete && isTrial, isTraining = contains(trainingNames, cell(phaseAt));
+        excluded.rowCount += !isUnanswered || !isTraining;
+        if (!cell(participantAt).empty())
+            excluded.unanswered[cell(participantAt)][isTraining] += isUnanswered;
         return true;
     });
     for (CsvRow& row : table.rows) {
         std::vector<std::string> cells;
-        for (const std::size_t c : from) cells.push_back(row.cells[c]);
+        for (const std::size_t c : sources) cells.push_back(row.cells[c]);
         row.cells = std::move(cells);
     }
     table.columns = std::move(columns);
@@ -180,22 +183,23 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
         return table.name + ": expected rows with something in every named column, found none";
     for (std::size_t c = 0; c < names.size(); ++c)
         if (names[c].range)
-            if (std::string fault = scale(table, c, *names[c].range); !fault.empty()) return fault;
-    if (std::string fault = numberLines(table, "target_x", "target_column"); !fault.empty()) return fault;
+            if (std::string error = convertToShares(table, c, *names[c].range); !error.empty()) return error;
+    if (std::string error = numberLines(table, "target_x", "target_column"); !error.empty()) return error;
     return numberLines(table, "target_y", "target_row");
 }
 
 } // namespace
 
-bool RowsLeftOut::isNoAnswer(std::string_view column, const std::string& cell) const {
-    constexpr std::string_view none[] = {"null", "NaN", "nan", "NA", "n/a", ".", "None"},
-                               codes[] = {"participant", "observer", "condition", "session",
-                                          "phase",       "task",     "stimulus",  "parts"};
-    return holds(none, cell) && !holds(codes, column) && !(column == trialColumns::group && cell == "None") &&
+bool ExcludedRows::isMissingAnswer(std::string_view column, const std::string& cell) const {
+    constexpr std::string_view missingNames[] = {"null", "NaN", "nan", "NA", "n/a", ".", "None"},
+                               codeColumns[] = {"participant", "observer", "condition", "session",
+                                                "phase",       "task",     "stimulus",  "parts"};
+    return contains(missingNames, cell) && !contains(codeColumns, column) &&
+           !(column == trialColumns::group && cell == "None") &&
            !(column == "response" && stimuli.contains(cell));
 }
 
-std::string RowsLeftOut::stimuliWords() const {
+std::string ExcludedRows::stimuliNote() const {
     return stimuli.empty()
                ? std::string{}
                : "stimuli are named " + joined(stimuli, ", ") +
@@ -210,19 +214,20 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
         if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
             return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
                            inQuotes(word)};
-        names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
+        names.push_back(parseColumn(word.substr(0, equals), word.substr(equals + 1)));
         if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
             return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
     }
     return names;
 }
 
-std::string unitFault(std::span<const ColumnName> names) {
+std::string unitError(std::span<const ColumnName> names) {
     using Pair = std::pair<std::string, std::string>;
     for (const auto& [answered, truth] : {Pair{"x", "target_x"}, {"y", "target_y"}, {"x", "y"}}) {
-        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
-                   t = std::ranges::find(names, truth, &ColumnName::ours);
-        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
+        const auto answer = std::ranges::find(names, answered, &ColumnName::ours),
+                   target = std::ranges::find(names, truth, &ColumnName::ours);
+        if (answer != names.end() && target != names.end() &&
+            answer->range.has_value() != target->range.has_value())
             return "--columns: expected a range of both " + answered + " and " + truth +
                    ", or of none of them, as they are compared";
     }
@@ -230,37 +235,37 @@ std::string unitFault(std::span<const ColumnName> names) {
 }
 
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
-                                std::span<const ColumnName> names, RowsLeftOut& leftOut) {
+                                std::span<const ColumnName> names, ExcludedRows& excluded) {
     auto read = readCsvTable(text, name, names.empty() ? CsvHeader::named : CsvHeader::loose);
     if (!read) return read;
     CsvTable& table = read.value;
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
-    if (std::string fault = sameRowFault(table); !fault.empty()) return Failure{std::move(fault)};
+    if (std::string error = similarRowError(table); !error.empty()) return Failure{std::move(error)};
     const auto stimulus = std::ranges::find(names, "stimulus", &ColumnName::ours);
     if (const auto at = table.column(stimulus == names.end() ? "stimulus" : stimulus->theirs);
-        at && trialHeadOf(table.comments).empty())
+        at && parseTrialHead(table.comments).empty())
         for (const CsvRow& row : table.rows)
-            if (leftOut.isNoAnswer("", row.cells[*at])) leftOut.stimuli.insert(row.cells[*at]);
-    if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
-        return Failure{std::move(fault)};
-    takeOthersWords(table, leftOut);
-    if (std::string fault = doubledRowFault(table, !names.empty()); !fault.empty())
-        return Failure{std::move(fault)};
+            if (excluded.isMissingAnswer("", row.cells[*at])) excluded.stimuli.insert(row.cells[*at]);
+    if (std::string error = selectColumns(table, names, excluded); !error.empty())
+        return Failure{std::move(error)};
+    normaliseForeignCells(table, excluded);
+    if (std::string error = duplicateRowError(table, !names.empty()); !error.empty())
+        return Failure{std::move(error)};
     return read;
 }
 
-bool saysSimulated(const CsvTable& table) {
-    const auto holds = [](const std::string& text) {
+bool hasSimulatedAnswers(const CsvTable& table) {
+    const auto contains = [](const std::string& text) {
         return text.find(trialColumns::simulated) != std::string::npos;
     };
     const auto observer = table.column(trialColumns::observer);
     return std::ranges::any_of(table.comments,
                                [&](const auto& line) {
-                                   return line.find(" observer=") != std::string::npos && holds(line);
+                                   return line.find(" observer=") != std::string::npos && contains(line);
                                }) ||
-           (observer &&
-            std::ranges::any_of(table.rows, [&](const CsvRow& row) { return holds(row.cells[*observer]); }));
+           (observer && std::ranges::any_of(
+                            table.rows, [&](const CsvRow& row) { return contains(row.cells[*observer]); }));
 }
 
 // Detects participants in several tables. A trial file has one person, so a second file of the same person is
@@ -268,16 +273,16 @@ bool saysSimulated(const CsvTable& table) {
 
 namespace {
 
-constexpr std::size_t mostNamed = 6; // participants, and tables of one, that a message lists
+constexpr std::size_t maxListed = 6; // participants, and tables of one, that a message lists
 
-std::string tablesOf(const std::vector<std::string>& names) {
-    const std::string words = joined(std::span{names}.first(std::min(names.size(), mostNamed)), ", ");
-    return names.size() > mostNamed ? words + " ..." : words;
+std::string tableList(const std::vector<std::string>& names) {
+    const std::string words = joined(std::span{names}.first(std::min(names.size(), maxListed)), ", ");
+    return names.size() > maxListed ? words + " ..." : words;
 }
 
 } // namespace
 
-TrialHead trialHeadOf(const std::vector<std::string>& comments) {
+TrialHead parseTrialHead(const std::vector<std::string>& comments) {
     TrialHead head;
     for (const std::string& line : comments) {
         std::istringstream words{line};
@@ -292,7 +297,7 @@ TrialHead trialHeadOf(const std::vector<std::string>& comments) {
 }
 
 std::string SharedParticipants::add(const CsvTable& head, const std::set<std::string>& participants) {
-    const auto entries = trialHeadOf(head.comments);
+    const auto entries = parseTrialHead(head.comments);
     if (const auto code = entries.find("participant"), protocol = entries.find("protocol");
         code != entries.end() && protocol != entries.end()) {
         const auto [at, isNew] = trialFiles_.try_emplace({protocol->second, code->second}, head.name);
@@ -314,9 +319,9 @@ std::string SharedParticipants::add(const CsvTable& table, std::string_view colu
             participants.insert(row.cells[*at]);
             for (const std::string& cell : row.cells) all.append(cell).push_back('\n');
         }
-    const auto [same, isNew] = rows_.try_emplace(contentHash(all), table.name);
-    if (!isNew && !all.empty() && trialHeadOf(table.comments).empty())
-        return table.name + ": expected other rows than those of " + same->second + ", found the same";
+    const auto [earlier, isNew] = rows_.try_emplace(contentHash(all), table.name);
+    if (!isNew && !all.empty() && parseTrialHead(table.comments).empty())
+        return table.name + ": expected other rows than those of " + earlier->second + ", found the same";
     return add(table, participants);
 }
 
@@ -324,11 +329,11 @@ std::string SharedParticipants::note() const {
     std::string words;
     std::size_t shared = 0;
     for (const auto& [participant, tables] : tables_) {
-        if (tables.size() < 2 || ++shared > mostNamed) continue;
-        words += (shared > 1 ? "; " : "") + cleanLine(participant) + " in " + tablesOf(tables);
+        if (tables.size() < 2 || ++shared > maxListed) continue;
+        words += (shared > 1 ? "; " : "") + cleanLine(participant) + " in " + tableList(tables);
     }
     if (shared == 0) return {};
-    if (shared > mostNamed) words += "; and " + std::to_string(shared - mostNamed) + " more";
+    if (shared > maxListed) words += "; and " + std::to_string(shared - maxListed) + " more";
     return "participants who are in several tables count as one person each; if they are not, give them "
            "different codes: " +
            words;

@@ -23,10 +23,10 @@
 // Maps column names of other programs' tables to the names used here.
 
 namespace physvib {
-/// A column name used here, and its name in a table.
+/// A column's name in this program, and its name in another program's table.
 struct ColumnName {
     std::string ours, theirs;
-    std::optional<std::pair<double, double>> range{}; ///< what maps to 0 and 1; none: cells are unchanged
+    std::optional<std::pair<double, double>> range{}; ///< numbers that become 0 and 1; none: no change
     bool operator==(const ColumnName&) const = default;
 };
 
@@ -36,159 +36,165 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
 
 /// Empty, or an error if only one of an answered and a true place, or of both axes, has a range, because
 /// their units then differ. Any thread (allocates).
-std::string unitFault(std::span<const ColumnName> names);
+std::string unitError(std::span<const ColumnName> names);
 
 /// Columns of answers, beside those of scales.
 inline constexpr std::string_view answerColumns[] = {"response", "choice", "correct", "value", "x", "y"};
 
 /// What is left out of other programs' tables.
-struct RowsLeftOut {
-    std::size_t rows = 0; ///< instructions, fixations, trials without an answer
+struct ExcludedRows {
+    std::size_t rowCount = 0; ///< instructions, fixations, trials without an answer
     /// Trials without an answer by participant: main trials, and trainings.
     std::map<std::string, std::array<std::size_t, 2>> unanswered;
     std::set<std::string> columns; ///< columns without a mapping
-    std::set<std::string> stimuli; ///< named like a missing answer; such an answer counts
+    std::set<std::string> stimuli; ///< stimuli with a name like NA; such an answer is not missing
     /// True for other programs' words for a missing value (null, NA) in a column without codes.
-    bool isNoAnswer(std::string_view column, const std::string& cell) const;
-    std::string stimuliWords() const; ///< on those; empty: there is none
+    bool isMissingAnswer(std::string_view column, const std::string& cell) const;
+    std::string stimuliNote() const; ///< a note on `stimuli`; empty if there are none
 };
 
-/// A table in UTF-8, one row per trial; otherwise one line on what is not as expected. With `names` it has
-/// these columns alone, under our names, and `observer`; rows that lack a cell of them are dropped and
-/// counted. Numbers target_x and target_y make columns target_column and target_row, ascending from 1, of at
-/// most mostGridLines. Of other programs, answers that are none (null, NA) become empty, right or wrong 1 or
-/// 0, phases like practice training; codes stay. A row twice is an error. Any thread (allocates).
+/// Reads a table in UTF-8 with one row per trial, or returns an error line. With `names` the result has only
+/// these columns, under our names, and `observer`; rows without a value in one of them are dropped and
+/// counted in `excluded`. Values of target_x and target_y, if at most maxGridLines, are numbered from 1 in
+/// target_column and target_row. In other programs' tables, missing answers (null, NA) become empty, right
+/// and wrong 1 and 0, and phases like practice training. Two equal rows are an error. Any thread.
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
-                                std::span<const ColumnName> names, RowsLeftOut& leftOut);
+                                std::span<const ColumnName> names, ExcludedRows& excluded);
 
-/// "low in second": one of several sessions of a kind; analysis.R parts such names. Any thread (allocates).
-inline std::string inSession(std::string condition, const std::string& session) {
+/// "low in second": a condition in one of several sessions; analysis.R splits such names. Any thread.
+inline std::string nameInSession(std::string condition, const std::string& session) {
     return session.empty() ? condition : condition + " in " + session;
 }
 
 /// Whether a simulated observer gave one of the answers. Any thread.
-bool saysSimulated(const CsvTable& table);
+bool hasSimulatedAnswers(const CsvTable& table);
 } // namespace physvib
 namespace physvib::detail {
 /// Error in a study file; caught within Lab/Files.
-struct StudyFault {
+struct StudyTableError {
     std::string message;
 };
 
-/// One table with access by column name. Every member throws StudyFault.
+/// One table with access by column name. Every member throws StudyTableError.
 class StudyRows {
 public:
-    enum class Kept { left, all }; ///< left: without trials that did not leave as planned, or ran out of time
+    enum class RowFilter { answered, all }; ///< answered: without undelivered and timed-out trials
     StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {},
-              Kept kept = Kept::left) {
-        auto read = readStudyTable(text, name, columns, leftOut_);
-        if (!read) throw StudyFault{std::move(read.error)};
+              RowFilter filter = RowFilter::answered) {
+        auto read = readStudyTable(text, name, columns, excluded_);
+        if (!read) throw StudyTableError{std::move(read.error)};
         table_ = std::move(read.value);
-        if (kept == Kept::all) return;
+        if (filter == RowFilter::all) return;
         std::erase_if(table_.rows, [&](const CsvRow& row) {
-            const bool isLate = named(row, trialColumns::ranOut) == "1";
-            ranOut_ += isLate && named(row, trialColumns::phase) != trialColumns::training;
-            return isLate;
+            const bool hasTimedOut = cellOrEmpty(row, trialColumns::timedOut) == "1";
+            timedOutTrials_ += hasTimedOut && cellOrEmpty(row, trialColumns::phase) != trialColumns::training;
+            return hasTimedOut;
         });
-        notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return didNotLeave(table_, row); });
+        undeliveredTrials_ =
+            std::erase_if(table_.rows, [&](const CsvRow& row) { return wasNotDelivered(table_, row); });
     }
 
     /// Appends a line for each kind of rows that are left out.
-    void warn(std::vector<std::string>& warnings) const {
-        if (leftOut_.rows > 0)
+    void addWarnings(std::vector<std::string>& warnings) const {
+        if (excluded_.rowCount > 0)
             warnings.push_back(table_.name + ": rows left out, with nothing in one of the named columns: " +
-                               std::to_string(leftOut_.rows));
-        if (std::string words = leftOut_.stimuliWords(); !words.empty()) warnings.push_back(std::move(words));
-        if (notLeft_ > 0) warnings.push_back(table_.name + ": " + notLeftWords(notLeft_));
-        if (ranOut_ > 0) warnings.push_back(table_.name + ": left out: " + ranOutWords(ranOut_));
+                               std::to_string(excluded_.rowCount));
+        if (std::string words = excluded_.stimuliNote(); !words.empty()) warnings.push_back(std::move(words));
+        if (undeliveredTrials_ > 0)
+            warnings.push_back(table_.name + ": " + undeliveredNote(undeliveredTrials_));
+        if (timedOutTrials_ > 0)
+            warnings.push_back(table_.name + ": left out: " + timeOutNote(timedOutTrials_));
     }
 
     const CsvTable& table() const { return table_; }
 
-    std::optional<std::size_t> optional(std::string_view column) const { return table_.column(column); }
+    std::optional<std::size_t> findColumn(std::string_view column) const { return table_.column(column); }
 
-    std::size_t required(std::string_view column) const {
+    std::size_t requireColumn(std::string_view column) const {
         if (const auto found = table_.column(column)) return *found;
-        throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
+        throw StudyTableError{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Calls `take` for each row outside trainings with this kind of answer; returns the number of such rows.
-    template <class Take>
-    std::size_t each(std::optional<AnswerKind> answer, Take take) const {
-        const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
-        std::size_t taken = 0;
+    /// Calls `visit` for each row outside trainings with this kind of answer; nullopt: rows without a task.
+    /// Returns their number.
+    template <class Visit>
+    std::size_t forEachRow(std::optional<AnswerKind> answer, Visit visit) const {
+        const auto phase = findColumn(trialColumns::phase), tasks = findColumn(trialColumns::task);
+        std::size_t visited = 0;
         for (const CsvRow& row : table_.rows) {
             if (phase && row.cells[*phase] == trialColumns::training) continue;
-            if (tasks && (answer ? answerOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty()))
+            if (tasks && (answer ? answerKindOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty()))
                 continue;
-            take(row);
-            ++taken;
+            visit(row);
+            ++visited;
         }
-        return taken;
+        return visited;
     }
 
-    const std::string& named(const CsvRow& row, std::string_view column) const {
+    const std::string& cellOrEmpty(const CsvRow& row, std::string_view column) const {
         return table_.cell(row, column);
     }
 
-    // Columns are given by index, or by a name that is required.
-    const std::string& cell(const CsvRow& row, auto column) const { return row.cells[placeOf(column)]; }
+    // Columns are given by index, or by a name that must exist. A text must not be empty.
+    const std::string& cell(const CsvRow& row, auto column) const { return row.cells[columnIndex(column)]; }
 
     const std::string& text(const CsvRow& row, auto column) const {
-        if (cell(row, column).empty()) throw StudyFault{table_.fault(row, placeOf(column), "a label")};
+        if (cell(row, column).empty())
+            throw StudyTableError{table_.cellError(row, columnIndex(column), "a label")};
         return cell(row, column);
     }
 
-    double number(const CsvRow& row, auto column, double least, double most) const {
-        return numberIn(row, placeOf(column), least, most, "a number");
+    double number(const CsvRow& row, auto column, double min, double max) const {
+        return numberIn(row, columnIndex(column), min, max, "a number");
     }
 
-    int wholeNumber(const CsvRow& row, auto column, int least, int most) const {
-        return numberIn(row, placeOf(column), least, most, "a whole number");
+    int wholeNumber(const CsvRow& row, auto column, int min, int max) const {
+        return numberIn(row, columnIndex(column), min, max, "a whole number");
     }
 
-    /// Sessions by what their rows are: training, kind of answer, whether answers chose levels, by QUEST+.
+    /// Sessions by the kind of their rows: training, kind of answer, whether levels adapt, whether by QUEST+.
     using Sessions = std::map<std::tuple<bool, std::optional<AnswerKind>, bool, bool>, std::set<std::string>>;
     void addSessions(Sessions& all) const {
-        if (!optional(trialColumns::task)) return; // in tables of other programs it may be a date
-        for (const CsvRow& row : table_.rows) all[kindOf(row)].insert(named(row, "session"));
+        if (!findColumn(trialColumns::task)) return; // in tables of other programs it may be a date
+        for (const CsvRow& row : table_.rows) all[sessionKind(row)].insert(cellOrEmpty(row, "session"));
     }
-    /// If several sessions have rows of one kind, their conditions are kept apart by session.
-    void partBy(const Sessions& all) { sessions_ = all; }
+    /// If several sessions have rows of one kind, conditionOf() adds the session to the condition's name.
+    void separateSessions(const Sessions& all) { sessions_ = all; }
 
-    /// The row's session where there are several; else empty.
+    /// The row's session if several sessions have rows of its kind; else empty.
     std::string sessionOf(const CsvRow& row) const {
-        const auto own = sessions_.find(kindOf(row));
-        return own != sessions_.end() && own->second.size() > 1 ? named(row, "session") : std::string{};
+        const auto found = sessions_.find(sessionKind(row));
+        return found != sessions_.end() && found->second.size() > 1 ? cellOrEmpty(row, "session")
+                                                                    : std::string{};
     }
     /// The name of the row's condition, empty if it has none.
     std::string conditionOf(const CsvRow& row) const {
-        return inSession(named(row, "condition"), sessionOf(row));
+        return nameInSession(cellOrEmpty(row, "condition"), sessionOf(row));
     }
 
 private:
-    static std::size_t placeOf(std::size_t column) { return column; }
-    std::size_t placeOf(std::string_view column) const { return required(column); }
+    static std::size_t columnIndex(std::size_t column) { return column; }
+    std::size_t columnIndex(std::string_view column) const { return requireColumn(column); }
     template <class Number>
-    Number numberIn(const CsvRow& row, std::size_t column, Number least, Number most,
-                    const std::string& what) const {
+    Number numberIn(const CsvRow& row, std::size_t column, Number min, Number max,
+                    const std::string& expected) const {
         const auto found = parseNumber<Number>(row.cells[column]);
-        if (!found || *found < least || *found > most)
-            throw StudyFault{
-                table_.fault(row, column, what + " from " + plainNumber(least) + " to " + plainNumber(most))};
+        if (!found || *found < min || *found > max)
+            throw StudyTableError{table_.cellError(
+                row, column, expected + " from " + plainNumber(min) + " to " + plainNumber(max))};
         return *found;
     }
-    Sessions::key_type kindOf(const CsvRow& row) const {
-        return {named(row, trialColumns::phase) == trialColumns::training,
-                answerOf(named(row, trialColumns::task)),
-                !named(row, "correct").empty() && !named(row, "level_db").empty(),
-                !named(row, trialColumns::quest).empty()};
+    Sessions::key_type sessionKind(const CsvRow& row) const {
+        return {cellOrEmpty(row, trialColumns::phase) == trialColumns::training,
+                answerKindOf(cellOrEmpty(row, trialColumns::task)),
+                !cellOrEmpty(row, "correct").empty() && !cellOrEmpty(row, "level_db").empty(),
+                !cellOrEmpty(row, trialColumns::quest).empty()};
     }
 
     CsvTable table_;
     Sessions sessions_;
-    RowsLeftOut leftOut_;
-    std::size_t notLeft_ = 0, ranOut_ = 0;
+    ExcludedRows excluded_;
+    std::size_t undeliveredTrials_ = 0, timedOutTrials_ = 0;
 };
 } // namespace physvib::detail
 

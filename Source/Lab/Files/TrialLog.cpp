@@ -19,7 +19,7 @@ namespace {
 
 namespace columns = trialColumns;
 
-void appendPart(std::string& text, const std::string& part) {
+void appendValue(std::string& text, const std::string& part) {
     text.append(text.empty() ? "" : "|").append(part);
 }
 
@@ -38,12 +38,13 @@ void addPlace(Cells& cells, const FieldPlace& place) {
 }
 
 void addApparatus(Cells& cells, const Answer& answer) {
-    const Apparatus& with = *answer.apparatus;
+    const Apparatus& apparatus = *answer.apparatus;
     cells[columns::limiterDb] = levelText(answer.limiterDb);
-    cells[columns::masterDb] = levelText(with.masterDb);
-    cells[columns::noiseDb] = with.noiseDb ? levelText(*with.noiseDb) : std::string{columns::noNoise};
-    cells[columns::device] = with.device;
-    cells[columns::version] = with.version;
+    cells[columns::masterDb] = levelText(apparatus.masterDb);
+    cells[columns::noiseDb] =
+        apparatus.noiseDb ? levelText(*apparatus.noiseDb) : std::string{columns::noNoise};
+    cells[columns::device] = apparatus.device;
+    cells[columns::version] = apparatus.version;
 }
 
 Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
@@ -55,34 +56,35 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
                 {"session", session.name}};
     cells["phase"] = session.isTraining ? columns::training : "main";
     cells["trial"] = std::to_string(trial.number);
-    cells["task"] = describe(trial.task).name;
+    cells["task"] = taskDescription(trial.task).name;
     cells["stimulus"] = trial.stimulus;
     cells["parts"] = joined(trial.parts, "|");
-    cells[session.answer() == AnswerKind::choice ? "choice" : "response"] = answer.response;
-    if (const auto target = targetOf(protocol.conditions[trial.condition], trial)) {
+    cells[session.answerKind() == AnswerKind::choice ? "choice" : "response"] = answer.response;
+    if (const auto target = targetCell(protocol.conditions[trial.condition], trial)) {
         cells["target_column"] = std::to_string(target->column);
         cells["target_row"] = std::to_string(target->row);
     }
     if (answer.place) addPlace(cells, *answer.place);
-    if ((session.answer() == AnswerKind::level || session.answer() == AnswerKind::number) && !answer.ranOut)
+    if ((session.answerKind() == AnswerKind::level || session.answerKind() == AnswerKind::number) &&
+        !answer.timedOut)
         cells["value"] = numberText(answer.value);
     if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
     cells["replays"] = std::to_string(answer.plays - 1);
     cells["response_s"] = numberText(answer.seconds);
-    // no level is moved where the protocol says what is right: empty tells these rows from adaptive ones
+    // with a correct alternative no level adapts; the empty cell distinguishes these rows from adaptive ones
     if (session.correct.empty()) cells["level_db"] = numberText(trial.levelDb);
-    cells["render"] = callsOf(protocol, record);
-    if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
+    cells["render"] = resolvedCalls(protocol, record);
+    if (session.quest) cells[columns::quest] = questText(*session.quest, session.guessRate());
     if (trial.staircase > 0) cells[columns::staircase] = std::to_string(trial.staircase);
-    if (session.answerSeconds > 0.0) cells[columns::ranOut] = answer.ranOut ? "1" : "0";
-    for (const FeltLevel& felt : answer.felt) {
-        appendPart(cells[columns::peakG], levelText(felt.peakG));
-        appendPart(cells[columns::rmsG], levelText(felt.rmsG));
+    if (session.answerSeconds > 0.0) cells[columns::timedOut] = answer.timedOut ? "1" : "0";
+    for (const PlayedLevel& played : answer.playedLevels) {
+        appendValue(cells[columns::peakG], levelText(played.peakG));
+        appendValue(cells[columns::rmsG], levelText(played.rmsG));
     }
     if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
     if (answer.apparatus) addApparatus(cells, answer);
-    if (answer.left) cells[columns::left] = *answer.left ? "1" : "0";
-    if (answer.left) cells[columns::again] = std::to_string(answer.again);
+    if (answer.wasDelivered) cells[columns::delivered] = *answer.wasDelivered ? "1" : "0";
+    if (answer.wasDelivered) cells[columns::revoked] = std::to_string(answer.revokedPlays);
     for (std::size_t s = 0; s < answer.scores.size(); ++s)
         cells[session.scores()[s]] = numberText(answer.scores[s]);
     return cells;
@@ -90,14 +92,14 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
 
 /// Columns of the header `line` (with its line end): all of `names`, or those of older versions; else empty.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
-    for (const auto isNewer : {columns::isReceipt, columns::isApparatus, columns::isMeasured}) {
+    for (const auto isNewer : {columns::isDelivery, columns::isApparatus, columns::isMeasured}) {
         if (line == csvLine(names)) return names;
         std::erase_if(names, isNewer);
     }
     return line == csvLine(names) ? names : std::vector<std::string>{};
 }
 
-/// Reads the rows of a table back into records. Throws StudyFault.
+/// Reads the rows of a table back into records. Throws StudyTableError.
 class RecordReader {
 public:
     RecordReader(const detail::StudyRows& rows, const Protocol& protocol)
@@ -114,44 +116,45 @@ public:
         trial.number = rows_.wholeNumber(row, "trial", 1, std::numeric_limits<int>::max());
         trial.stimulus = rows_.cell(row, "stimulus");
         if (session.correct.empty()) trial.levelDb = rows_.number(row, "level_db", -1000.0, 1000.0);
-        answer.response = rows_.cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
+        answer.response = rows_.cell(row, session.answerKind() == AnswerKind::choice ? "choice" : "response");
         answer.plays = 1 + rows_.wholeNumber(row, "replays", 0, 1'000'000);
         answer.seconds = rows_.number(row, "response_s", 0.0, 1e9);
         if (!rows_.cell(row, "x").empty())
             answer.place = FieldPlace{rows_.number(row, "x", 0.0, 1.0), rows_.number(row, "y", 0.0, 1.0)};
         if (!rows_.cell(row, "value").empty())
-            answer.value = rows_.number(row, "value", -mostEstimate, mostEstimate);
-        if (!rows_.named(row, columns::exposure).empty())
+            answer.value = rows_.number(row, "value", -maxEstimate, maxEstimate);
+        if (!rows_.cellOrEmpty(row, columns::exposure).empty())
             answer.exposure = rows_.number(row, columns::exposure, 0.0, 1e6);
         readApparatus(row, answer);
-        if (!rows_.named(row, columns::left).empty()) {
-            answer.left = rows_.wholeNumber(row, columns::left, 0, 1) == 1;
-            answer.again = rows_.wholeNumber(row, columns::again, 0, 1'000'000);
+        if (!rows_.cellOrEmpty(row, columns::delivered).empty()) {
+            answer.wasDelivered = rows_.wholeNumber(row, columns::delivered, 0, 1) == 1;
+            answer.revokedPlays = rows_.wholeNumber(row, columns::revoked, 0, 1'000'000);
         }
-        if (session.answerSeconds > 0.0) answer.ranOut = rows_.wholeNumber(row, columns::ranOut, 0, 1) == 1;
+        if (session.answerSeconds > 0.0)
+            answer.timedOut = rows_.wholeNumber(row, columns::timedOut, 0, 1) == 1;
         for (const auto& scale : session.scores())
-            if (!answer.ranOut) answer.scores.push_back(rows_.number(row, scale, 0.0, 100.0));
+            if (!answer.timedOut) answer.scores.push_back(rows_.number(row, scale, 0.0, 100.0));
         return record;
     }
 
 private:
     void readApparatus(const CsvRow& row, Answer& answer) const {
-        if (rows_.named(row, columns::version).empty()) return;
-        Apparatus& with = answer.apparatus.emplace();
-        with.version = rows_.cell(row, columns::version);
-        with.device = rows_.cell(row, columns::device);
-        with.masterDb = rows_.number(row, columns::masterDb, -1000.0, 1000.0);
+        if (rows_.cellOrEmpty(row, columns::version).empty()) return;
+        Apparatus& apparatus = answer.apparatus.emplace();
+        apparatus.version = rows_.cell(row, columns::version);
+        apparatus.device = rows_.cell(row, columns::device);
+        apparatus.masterDb = rows_.number(row, columns::masterDb, -1000.0, 1000.0);
         if (rows_.cell(row, columns::noiseDb) != columns::noNoise)
-            with.noiseDb = rows_.number(row, columns::noiseDb, -1000.0, 0.0);
+            apparatus.noiseDb = rows_.number(row, columns::noiseDb, -1000.0, 0.0);
         answer.limiterDb = rows_.number(row, columns::limiterDb, 0.0, 1000.0);
     }
     template <class Item>
     std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
-        const auto at = rows_.required(column);
+        const auto at = rows_.requireColumn(column);
         const auto found = std::ranges::find(items, row.cells[at], &Item::name);
         if (found == items.end())
-            throw detail::StudyFault{
-                rows_.table().fault(row, at, std::string("a ") + std::string(column) + " of the protocol")};
+            throw detail::StudyTableError{rows_.table().cellError(
+                row, at, std::string("a ") + std::string(column) + " of the protocol")};
         return static_cast<std::size_t>(found - items.begin());
     }
     const detail::StudyRows& rows_;
@@ -165,19 +168,19 @@ std::string_view withoutVersion(std::string_view header) {
 }
 
 /// The first key whose value differs.
-std::string headFault(std::string_view found, std::string_view expected) {
+std::string headError(std::string_view found, std::string_view expected) {
     const auto headOf = [](std::string_view text) {
-        return trialHeadOf({std::string{text.substr(1, text.find('\n') - 1)}});
+        return parseTrialHead({std::string{text.substr(1, text.find('\n') - 1)}});
     };
-    TrialHead own = headOf(found), wanted = headOf(expected);
+    TrialHead foundHead = headOf(found), expectedHead = headOf(expected);
     for (const std::string key : {"protocol", "participant", "number", "observer", "seed"})
-        if (own[key] != wanted[key])
-            return "expected trials of " + key + " " + cleanLine(wanted[key]) + ", found " +
-                   cleanLine(own[key]);
-    if (own["hash"] == wanted["hash"])
+        if (foundHead[key] != expectedHead[key])
+            return "expected trials of " + key + " " + cleanLine(expectedHead[key]) + ", found " +
+                   cleanLine(foundHead[key]);
+    if (foundHead["hash"] == expectedHead["hash"])
         return "expected the columns of a trial file of this protocol, found others";
-    return "was begun with another version of the protocol " + wanted["protocol"] + " (hash " +
-           cleanLine(own["hash"]) + ", now " + wanted["hash"] +
+    return "was begun with another version of the protocol " + expectedHead["protocol"] + " (hash " +
+           cleanLine(foundHead["hash"]) + ", now " + expectedHead["hash"] +
            "), so it does not go on: keep it, and begin anew in another folder";
 }
 
@@ -196,7 +199,7 @@ std::string trialHeader(const Protocol& protocol, const Participant& participant
 
 std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
     std::vector<std::string> all(columns::names.begin(), columns::names.end());
-    for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
+    for (const auto& scale : protocolScales(protocol)) all.push_back(scale);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
         all.emplace_back(columns::quest);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) {
@@ -204,10 +207,10 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
         }))
         all.emplace_back(columns::staircase);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.answerSeconds > 0.0; }))
-        all.emplace_back(columns::ranOut);
+        all.emplace_back(columns::timedOut);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
-    all.insert(all.end(), columns::receipts.begin(), columns::receipts.end());
+    all.insert(all.end(), columns::delivery.begin(), columns::delivery.end());
     return all;
 }
 
@@ -219,28 +222,28 @@ std::string trialRow(const Protocol& protocol, const Participant& participant, c
 
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
                               const Participant& participant) {
-    const std::string header = trialHeader(protocol, participant, "0"); // of any version
+    const std::string header = trialHeader(protocol, participant, "0"); // the version is not compared
     TrialLog log;
     log.columns = trialColumnsOf(protocol);
     const std::size_t end = text.rfind('\n');
-    const std::string_view whole = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
-    constexpr std::string_view ours = "# physvib ";
-    const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
-    if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // incomplete header: start a new file
-    const std::size_t names = whole.find('\n') + 1, rows = whole.find('\n', names) + 1;
-    if (isOurs) log.columns = columnsIn(whole.substr(names, rows - names), log.columns);
-    if (!isOurs || withoutVersion(whole) != withoutVersion(header) || log.columns.empty())
-        return Failure{
-            std::string(name) + ":1: " +
-            (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
-    log.wholeBytes = whole.size();
-    if (rows == whole.size()) return log;
+    const std::string_view complete = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+    constexpr std::string_view prefix = "# physvib ";
+    const bool isOurs = text.starts_with(prefix) || prefix.starts_with(text);
+    if (isOurs && std::ranges::count(complete, '\n') < 2) return log; // incomplete header: start a new file
+    const std::size_t namesAt = complete.find('\n') + 1, rowsAt = complete.find('\n', namesAt) + 1;
+    if (isOurs) log.columns = columnsIn(complete.substr(namesAt, rowsAt - namesAt), log.columns);
+    if (!isOurs || withoutVersion(complete) != withoutVersion(header) || log.columns.empty())
+        return Failure{std::string(name) + ":1: " +
+                       (isOurs ? headError(complete, header)
+                               : "expected a trial file of physvib, found something else")};
+    log.completeBytes = complete.size();
+    if (rowsAt == complete.size()) return log;
     try {
-        const detail::StudyRows table{whole, name, {}, detail::StudyRows::Kept::all};
+        const detail::StudyRows table{complete, name, {}, detail::StudyRows::RowFilter::all};
         const RecordReader reader{table, protocol};
         for (const CsvRow& row : table.table().rows) log.records.push_back(reader.read(row));
-    } catch (const detail::StudyFault& fault) {
-        return Failure{fault.message};
+    } catch (const detail::StudyTableError& error) {
+        return Failure{error.message};
     }
     return log;
 }
@@ -254,9 +257,9 @@ TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol,
 }
 
 void TrialLogFile::open(std::string_view version) {
-    file_ = SystemFile::grow(path_);
+    file_ = SystemFile::openForAppending(path_);
     if (!file_.isOpen()) return failToWrite();
-    if (file_.lock() == SystemFile::Lock::others)
+    if (file_.lock() == SystemFile::Lock::heldByOthers)
         return fail("another program is writing it: the participant's study runs already");
     const auto text = readFile(path_, limits::maxTableBytes);
     auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_)
@@ -267,10 +270,11 @@ void TrialLogFile::open(std::string_view version) {
     }
     records_ = std::move(log.value.records);
     columns_ = std::move(log.value.columns);
-    const std::size_t kept = log.value.wholeBytes;
-    if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
+    const std::size_t completeBytes = log.value.completeBytes;
+    if (completeBytes < text.value.size() && !file_.resize(static_cast<std::int64_t>(completeBytes)))
+        return failToWrite();
     std::error_code ignored;
-    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
+    if (completeBytes == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
         std::filesystem::remove(path_, ignored);
     else if (const int code = SystemFile::syncFolder(folderOf(path_)); code != 0)
         fail("its folder: " + std::generic_category().message(code));
@@ -290,10 +294,10 @@ std::string twoDigits(auto number) {
     return digits.size() < 2 ? "0" + digits : digits;
 }
 
-StudyMoment momentOf(const detail::StudyRows& rows, const CsvRow& row) {
-    if (!(secondsOf(rows.cell(row, "time_utc")) >= 0.0))
-        throw detail::StudyFault{
-            rows.table().fault(row, rows.required("time_utc"), "a time like 2026-11-24T14:02:31Z")};
+StudyEvent entryOf(const detail::StudyRows& rows, const CsvRow& row) {
+    if (!(unixSeconds(rows.cell(row, "time_utc")) >= 0.0))
+        throw detail::StudyTableError{
+            rows.table().cellError(row, rows.requireColumn("time_utc"), "a time like 2026-11-24T14:02:31Z")};
     return {rows.cell(row, "time_utc"),
             rows.text(row, "event"),
             rows.wholeNumber(row, "trials", 0, std::numeric_limits<int>::max()),
@@ -304,11 +308,11 @@ StudyMoment momentOf(const detail::StudyRows& rows, const CsvRow& row) {
 
 } // namespace
 
-void StudyRests::take(const StudyMoment& m) noexcept {
+void StudyBreakState::apply(const StudyEvent& entry) noexcept {
     namespace events = studyEvents;
-    if (m.event == events::rest) isResting = true;
-    if (m.event == events::end || (m.event == events::goOn && !isPaused)) isResting = false;
-    isPaused = m.event == events::pause; // which go-on and resume end
+    if (entry.event == events::breakStart) isOnBreak = true;
+    if (entry.event == events::end || (entry.event == events::goOn && !isPaused)) isOnBreak = false;
+    isPaused = entry.event == events::pause; // which go-on and resume end
 }
 
 std::filesystem::path timesPathOf(const std::filesystem::path& trialFile) {
@@ -327,7 +331,7 @@ std::string utcNow() {
            twoDigits(time.minutes().count()) + ":" + twoDigits(time.seconds().count()) + "Z";
 }
 
-double secondsOf(std::string_view t) noexcept {
+double unixSeconds(std::string_view t) noexcept {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (t.size() != 20 || t[4] != '-' || t[7] != '-' || t[10] != 'T' || t[13] != ':' || t[16] != ':' ||
         t[19] != 'Z')
@@ -343,28 +347,28 @@ double secondsOf(std::string_view t) noexcept {
            60.0 * part(14, 2) + part(17, 2);
 }
 
-Result<std::vector<StudyMoment>> loadStudyTimes(const std::filesystem::path& path) {
+Result<std::vector<StudyEvent>> loadStudyTimes(const std::filesystem::path& path) {
     std::error_code none;
-    std::vector<StudyMoment> moments;
-    if (!std::filesystem::exists(path, none)) return moments;
+    std::vector<StudyEvent> entries;
+    if (!std::filesystem::exists(path, none)) return entries;
     const auto text = readFile(path, limits::maxTableBytes);
     if (!text) return Failure{text.error};
     try {
         const detail::StudyRows rows{text.value, path.string()};
-        for (const CsvRow& row : rows.table().rows) moments.push_back(momentOf(rows, row));
-    } catch (const detail::StudyFault& fault) {
-        return Failure{fault.message};
+        for (const CsvRow& row : rows.table().rows) entries.push_back(entryOf(rows, row));
+    } catch (const detail::StudyTableError& error) {
+        return Failure{error.message};
     }
-    return moments;
+    return entries;
 }
 
-std::string writeStudyTimes(const std::filesystem::path& path, const std::vector<StudyMoment>& moments) {
+std::string writeStudyTimes(const std::filesystem::path& path, const std::vector<StudyEvent>& entries) {
     std::string text{"time_utc,event,trials,language,outputs,noise_outputs\n"};
-    for (const StudyMoment& m : moments)
-        text += csvLine(
-            std::array{m.timeUtc, m.event, std::to_string(m.trials), m.language, m.outputs, m.noiseOutputs});
+    for (const StudyEvent& entry : entries)
+        text += csvLine(std::array{entry.timeUtc, entry.event, std::to_string(entry.trials), entry.language,
+                                   entry.outputs, entry.noiseOutputs});
     AtomicFile file{path};
-    if (const std::string& fault = file.write(text); !fault.empty()) return fault;
+    if (const std::string& error = file.write(text); !error.empty()) return error;
     return file.commit();
 }
 

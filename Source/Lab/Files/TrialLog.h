@@ -41,7 +41,8 @@ inline std::string trialRow(const Protocol& protocol, const Participant& partici
 struct TrialLog {
     std::vector<TrialRecord> records;
     std::vector<std::string> columns; ///< of the file; those of a new file if it has no complete header
-    std::size_t wholeBytes = 0; ///< size up to the last complete row; the rest was interrupted while writing
+    std::size_t completeBytes = 0;    ///< size up to the last complete row; the rest was interrupted while
+                                      ///< writing
 };
 
 /// The complete rows of this protocol's and participant's file, or one line on the first error. Of each trial
@@ -70,7 +71,7 @@ public:
     /// Forces all rows to disk. Returns false after an error.
     bool sync() {
         if (error_.empty() && !file_.sync()) failToWrite();
-        if (const auto change = file_.changeByOthers(path_, file_.size()); error_.empty() && !change.empty())
+        if (const auto change = file_.externalChange(path_, file_.size()); error_.empty() && !change.empty())
             fail(change);
         return error_.empty();
     }
@@ -100,7 +101,7 @@ namespace physvib::trialColumns {
 constexpr std::string_view observer = "observer", phase = "phase", task = "task", render = "render";
 constexpr std::string_view training = "training", simulated = "simulated";
 
-/// followed by the study's rating scales
+/// Columns of every trial file. The study's rating scales follow them.
 inline constexpr std::array<std::string_view, 21> names{
     "participant", "observer", "condition", "session",       "phase",      "trial",    "task",
     "stimulus",    "parts",    "response",  "target_column", "target_row", "x",        "y",
@@ -109,16 +110,16 @@ inline constexpr std::array<std::string_view, 21> names{
 /// Only in protocols with a QUEST+ session, after the scales: the prior before the first trial.
 constexpr std::string_view quest = "quest";
 
-/// Only in protocols with staircases that are mixed: which one the trial is of.
+/// Only in protocols with mixed staircases: number of the staircase that the trial belongs to.
 constexpr std::string_view staircase = "staircase";
 
-/// Only in protocols with a time for answers: 1 if it was over, so that there is no answer; else 0.
-constexpr std::string_view ranOut = "ran_out";
+/// Only in protocols that limit the time for an answer: 1 if it ran out without an answer; else 0.
+constexpr std::string_view timedOut = "ran_out";
 
 /// Only in other programs' tables: the group of a participant who is compared with those of others.
 constexpr std::string_view group = "group";
 
-/// Measured values of each trial, after those. Files begun without them stay without them.
+/// Measured values of each trial. Files that older versions began without them stay without them.
 constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
 inline constexpr std::array<std::string_view, 3> measured{peakG, rmsG, exposure};
 
@@ -128,20 +129,20 @@ constexpr std::string_view limiterDb = "limiter_db", masterDb = "master_db", noi
 inline constexpr std::array<std::string_view, 5> apparatus{limiterDb, masterDb, noiseDb, device, version};
 constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
 
-/// Delivery of the trial, in the last columns; older files have none. `left`: 1 if every part left as
-/// planned, 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were repeated.
-constexpr std::string_view left = "left", again = "again";
-inline constexpr std::array<std::string_view, 2> receipts{left, again};
+/// Delivery of the trial, in the last columns; older files have none. Column left: 1 if every part left the
+/// device as planned, 0 if one did not, empty if it is unknown. Column again: number of repeated plays.
+constexpr std::string_view delivered = "left", revoked = "again";
+inline constexpr std::array<std::string_view, 2> delivery{delivered, revoked};
 
 constexpr bool isIn(const auto& list, std::string_view name) {
     return std::ranges::find(list, name) != list.end();
 }
-constexpr bool isReceipt(std::string_view name) { return isIn(receipts, name); }
+constexpr bool isDelivery(std::string_view name) { return isIn(delivery, name); }
 constexpr bool isMeasured(std::string_view name) { return isIn(measured, name); }
 constexpr bool isApparatus(std::string_view name) { return isIn(apparatus, name); }
 constexpr bool has(std::string_view name) {
-    return name == quest || name == staircase || name == ranOut || name == group || name == "target_x" ||
-           name == "target_y" || isMeasured(name) || isApparatus(name) || isReceipt(name) ||
+    return name == quest || name == staircase || name == timedOut || name == group || name == "target_x" ||
+           name == "target_y" || isMeasured(name) || isApparatus(name) || isDelivery(name) ||
            isIn(names, name);
 }
 } // namespace physvib::trialColumns
@@ -149,21 +150,22 @@ constexpr bool has(std::string_view name) {
 // First line of a trial file as keys and values.
 
 namespace physvib {
-/// version, protocol, hash, seed, participant ...
+/// Values by key: version, protocol, hash, seed, participant and others.
 using TrialHead = std::map<std::string, std::string>;
 
 /// Parses the first comment line that names this program; empty if there is none. Any thread.
-TrialHead trialHeadOf(const std::vector<std::string>& comments);
+TrialHead parseTrialHead(const std::vector<std::string>& comments);
 
 // Finds rows of trials that were not delivered as planned; they are not analysed.
 
 /// True if the column `left` is 0, or without it if a part has a peak of 0 though a device was open and its
 /// call does not ask for silence. Any thread.
-inline bool didNotLeave(const CsvTable& table, const CsvRow& row) {
-    if (const auto& left = table.cell(row, trialColumns::left); !left.empty()) return left == "0";
+inline bool wasNotDelivered(const CsvTable& table, const CsvRow& row) {
+    if (const auto& delivered = table.cell(row, trialColumns::delivered); !delivered.empty())
+        return delivered == "0";
     const auto& device = table.cell(row, trialColumns::device);
     if (device.empty() || device.starts_with("None:")) return false;
-    const auto asksForSilence = [](std::string_view call) {
+    const auto requestsSilence = [](std::string_view call) {
         constexpr std::string_view option = "--level-db ";
         const auto at = call.find(option);
         if (at == std::string_view::npos) return false;
@@ -175,18 +177,18 @@ inline bool didNotLeave(const CsvTable& table, const CsvRow& row) {
     while (!peaks.empty()) {
         const std::string_view peak = takeUntil('|', peaks), call = calls.substr(0, calls.find(" ; "));
         calls.remove_prefix(std::min(call.size() + 3, calls.size()));
-        if (parseNumber<double>(peak) == 0.0 && !asksForSilence(call)) return true;
+        if (parseNumber<double>(peak) == 0.0 && !requestsSilence(call)) return true;
     }
     return false;
 }
 
 /// "3 trials ran out of time, without an answer". Any thread.
-inline std::string ranOutWords(std::size_t trials) {
+inline std::string timeOutNote(std::size_t trials) {
     return counted(trials, "trial") + " ran out of time, without an answer";
 }
 
 /// "3 trials did not leave as planned and are left out". Any thread.
-inline std::string notLeftWords(std::size_t trials) {
+inline std::string undeliveredNote(std::size_t trials) {
     return counted(trials, "trial") + " did not leave as planned (column left, or a peak of 0 g) and " +
            (trials == 1 ? "is" : "are") + " left out";
 }
@@ -195,39 +197,39 @@ inline std::string notLeftWords(std::size_t trials) {
 // that a trial file has the same bytes whenever it was answered.
 
 namespace studyEvents {
-constexpr std::string_view start = "start", resume = "resume", rest = "break", goOn = "go-on",
+constexpr std::string_view start = "start", resume = "resume", breakStart = "break", goOn = "go-on",
                            pause = "pause", leave = "leave", end = "end";
 } // namespace studyEvents
 
-/// One line of the file. The last three fields are those of start and resume.
-struct StudyMoment {
+/// One line of the file. The last three fields are empty except in start and resume.
+struct StudyEvent {
     std::string timeUtc;                         ///< 2026-11-24T14:02:31Z
     std::string event;                           ///< one of studyEvents
     int trials = 0;                              ///< answered so far
     std::string language, outputs, noiseOutputs; ///< "ko", "1 2 3 4", "5 6"
-    bool operator==(const StudyMoment&) const = default;
-    bool isBegin() const { return event == studyEvents::start || event == studyEvents::resume; }
+    bool operator==(const StudyEvent&) const = default;
+    bool isStartOrResume() const { return event == studyEvents::start || event == studyEvents::resume; }
 };
 
-/// Breaks and pauses, followed event by event. A break stays open while the window is closed in it.
-struct StudyRests {
-    bool isResting = false, isPaused = false;
-    void take(const StudyMoment& moment) noexcept;
+/// Whether the participant is on a break or has paused. Closing the window does not end a break.
+struct StudyBreakState {
+    bool isOnBreak = false, isPaused = false;
+    void apply(const StudyEvent& entry) noexcept;
 };
 
-/// Path of the times of a trial file. Any thread (allocates).
+/// Path of the file of times beside a trial file. Any thread (allocates).
 std::filesystem::path timesPathOf(const std::filesystem::path& trialFile);
 
-/// The current time, to the second. Any thread (allocates).
+/// The current time (UTC) as in StudyEvent, to the second. Any thread (allocates).
 std::string utcNow();
 
-/// Seconds since 1970 of such a time; throws nothing, NaN for other text. Any thread.
-double secondsOf(std::string_view timeUtc) noexcept;
+/// Seconds since 1970 (UTC) of a time as in StudyEvent; NaN for other text. Any thread.
+double unixSeconds(std::string_view timeUtc) noexcept;
 
-/// Reads the file; no moments if there is none, or one error line. Message thread only.
-Result<std::vector<StudyMoment>> loadStudyTimes(const std::filesystem::path& path);
+/// The events of the file, none if it does not exist; or an error line. Message thread only.
+Result<std::vector<StudyEvent>> loadStudyTimes(const std::filesystem::path& path);
 
-/// Replaces the file by these moments. Empty, or why not. Message thread only.
-std::string writeStudyTimes(const std::filesystem::path& path, const std::vector<StudyMoment>& moments);
+/// Replaces the file by these events. Returns an error, or empty. Message thread only.
+std::string writeStudyTimes(const std::filesystem::path& path, const std::vector<StudyEvent>& entries);
 
 } // namespace physvib

@@ -19,18 +19,18 @@ const std::vector<EmbeddedFile>& embeddedScript(); // Source/Lab/Script
 
 namespace {
 
-constexpr std::string_view firstWords = "# Written by physvib, hash ", notebookHead = "---\n";
+constexpr std::string_view originPrefix = "# Written by physvib, hash ", notebookHead = "---\n";
 
 std::string embedded(std::string_view name) {
     return std::string{std::ranges::find(embeddedScript(), name, &EmbeddedFile::name)->text};
 }
 
 std::string withOrigin(const std::string& study, const std::string& text) {
-    return std::string{firstWords} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
+    return std::string{originPrefix} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
 }
 
 /// A quoted R string, in ASCII: other characters are read as their bytes where the locale is C.
-std::string inR(const std::string& words) {
+std::string rString(const std::string& words) {
     std::ostringstream out;
     out << '"' << std::hex;
     const std::string line = cleanLine(words);
@@ -45,20 +45,22 @@ std::string inR(const std::string& words) {
     return out.str() + '"';
 }
 
-std::string vectorInR(const std::vector<std::string>& words) {
+std::string rVector(const std::vector<std::string>& words) {
     std::string out = "c(";
-    for (const std::string& word : words) out.append(out.size() > 2 ? ", " : "").append(inR(word));
+    for (const std::string& word : words) out.append(out.size() > 2 ? ", " : "").append(rString(word));
     return out + ")";
 }
 
 } // namespace
 
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
-                           const std::vector<std::string>& points, const std::string& half, bool isWithin) {
+                           const std::vector<std::string>& ordinalScales, const std::string& midpointName,
+                           bool isWithinSubjects) {
     std::string text = embedded(analysisScriptName);
-    text += "study(" + inR(study) + ", " + vectorInR(scales) +
-            (points.empty() ? "" : ", " + vectorInR(points)) + (half.empty() ? "" : ", half = " + inR(half)) +
-            (isWithin ? ", within = TRUE)\n" : ")\n");
+    text += "study(" + rString(study) + ", " + rVector(scales) +
+            (ordinalScales.empty() ? "" : ", " + rVector(ordinalScales)) +
+            (midpointName.empty() ? "" : ", half = " + rString(midpointName)) +
+            (isWithinSubjects ? ", within = TRUE)\n" : ")\n");
     return withOrigin(study, text);
 }
 
@@ -66,7 +68,7 @@ std::string analysisNotebook(const std::string& study) {
     return std::string{notebookHead} + withOrigin(study, embedded(notebookName));
 }
 
-std::vector<std::string> testsIn(const std::string& table) {
+std::vector<std::string> testNames(const std::string& table) {
     std::vector<std::string> tests;
     const auto read = readCsvTable(table, testsTable);
     const auto test = read.value.column("test"), kind = read.value.column("kind");
@@ -77,15 +79,15 @@ std::vector<std::string> testsIn(const std::string& table) {
     return tests;
 }
 
-std::string keptScriptFault(const std::filesystem::path& path) {
+std::string scriptOverwriteError(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};
     if (const auto text = readFile(path.string(), limits::maxTableBytes)) {
         std::string_view all = text.value;
         if (all.starts_with(notebookHead)) all.remove_prefix(notebookHead.size());
         const std::string_view first = takeUntil('\n', all);
-        if (first.starts_with(firstWords) &&
-            first.substr(firstWords.size()).starts_with(contentHash(std::string{all})))
+        if (first.starts_with(originPrefix) &&
+            first.substr(originPrefix.size()).starts_with(contentHash(std::string{all})))
             return {};
     }
     return path.string() +
@@ -121,29 +123,32 @@ std::string bidsName(const std::string& column) {
     return column == "response_s" ? "response_time" : cellOf(column);
 }
 
-std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsWords& words) {
-    OrderedJson json = {{"TaskName", words.task}, {"TaskDescription", words.name}};
+std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsDescription& dataset) {
+    OrderedJson json = {{"TaskName", dataset.task}, {"TaskDescription", dataset.name}};
     for (std::size_t c = 0; c < trials.columns.size(); ++c) {
         if (c == participant) continue;
         const std::string& column = trials.columns[c];
-        OrderedJson& own = json[bidsName(column)];
-        if (const auto scale = words.columns.find(column); scale != words.columns.end())
-            own["Description"] = cellOf(scale->second);
+        OrderedJson& entry = json[bidsName(column)];
+        if (const auto scale = dataset.columns.find(column); scale != dataset.columns.end())
+            entry["Description"] = cellOf(scale->second);
         else
-            own = meanings().value(column, OrderedJson{{"Description", "Column " + cellOf(column) +
-                                                                           " of the tables that were read"}});
+            entry = meanings().value(
+                column,
+                OrderedJson{{"Description", "Column " + cellOf(column) + " of the tables that were read"}});
         if (column == trialColumns::task)
-            own["Description"] = own["Description"].get<std::string>() + listed(studyTaskNames, " or ");
+            entry["Description"] = entry["Description"].get<std::string>() + listed(studyTaskNames, " or ");
     }
     return jsonLines(json);
 }
 
-std::string description(const BidsWords& words) {
-    OrderedJson json = {{"Name", words.name + (words.isSimulated ? " (SIMULATED: no person answered)" : "")},
-                        {"BIDSVersion", "1.8.0"},
-                        {"DatasetType", "raw"}};
-    json["GeneratedBy"] = OrderedJson::array({OrderedJson{{"Name", "physvib"}, {"Version", words.version}}});
-    for (const auto& [key, value] : words.source) json["PhysVib"][key] = value;
+std::string description(const BidsDescription& dataset) {
+    OrderedJson json = {
+        {"Name", dataset.name + (dataset.isSimulated ? " (SIMULATED: no person answered)" : "")},
+        {"BIDSVersion", "1.8.0"},
+        {"DatasetType", "raw"}};
+    json["GeneratedBy"] =
+        OrderedJson::array({OrderedJson{{"Name", "physvib"}, {"Version", dataset.version}}});
+    for (const auto& [key, value] : dataset.source) json["PhysVib"][key] = value;
     return jsonLines(json);
 }
 
@@ -153,7 +158,7 @@ std::string columnMeaning(std::string_view column) {
     return meanings().at(std::string{column}).at("Description").get<std::string>();
 }
 
-std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words) {
+std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsDescription& dataset) {
     std::map<std::string, std::string> files;
     const std::size_t participant = *trials.column("participant");
     const auto lineOf = [&](auto cellAt) { // of the other columns
@@ -162,7 +167,7 @@ std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const Bid
             if (c != participant) cells.push_back(cellAt(c));
         return joined(cells, "\t") + "\n";
     };
-    const std::string task = labelOf(words.task);
+    const std::string task = labelOf(dataset.task);
     std::map<std::string, std::string> labels; // by code
     std::set<std::string> used;
     std::string people = "participant_id\tcode\tobserver\n";
@@ -176,22 +181,23 @@ std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const Bid
             people += "sub-" + label + "\t" + cellOf(code) + "\t" +
                       cellOf(trials.cell(row, trialColumns::observer)) + "\n";
         }
-        std::string& own = files["sub-" + label + "/beh/sub-" + label + "_task-" + task + "_beh.tsv"];
-        if (own.empty()) own = lineOf([&](std::size_t c) { return bidsName(trials.columns[c]); });
-        own += lineOf([&](std::size_t c) { return cellOf(row.cells[c]); });
+        std::string& table = files["sub-" + label + "/beh/sub-" + label + "_task-" + task + "_beh.tsv"];
+        if (table.empty()) table = lineOf([&](std::size_t c) { return bidsName(trials.columns[c]); });
+        table += lineOf([&](std::size_t c) { return cellOf(row.cells[c]); });
     }
     files["participants.tsv"] = people;
     files["participants.json"] = jsonLines(OrderedJson{
         {"code",
          {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
         {"observer", meanings()["observer"]}});
-    files["dataset_description.json"] = description(words);
-    files["task-" + task + "_beh.json"] = sidecar(trials, participant, words);
-    files["README"] = words.name +
-                      "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was "
-                      "done. Column meanings: task-" +
-                      task + "_beh.json.\n" +
-                      (words.isSimulated ? "SIMULATED: a simulated observer answered, not a person.\n" : "");
+    files["dataset_description.json"] = description(dataset);
+    files["task-" + task + "_beh.json"] = sidecar(trials, participant, dataset);
+    files["README"] =
+        dataset.name +
+        "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was "
+        "done. Column meanings: task-" +
+        task + "_beh.json.\n" +
+        (dataset.isSimulated ? "SIMULATED: a simulated observer answered, not a person.\n" : "");
     return files;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Report sections on what the rows of the trials say, whatever the protocol says: apparatus, levels and
-// exposure, orders of conditions.
+// Report sections that need only the rows of the trials, not the protocol: apparatus, levels and exposure,
+// orders of conditions.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialLog.h"
@@ -14,47 +14,48 @@ namespace {
 namespace columns = trialColumns;
 
 /// Trials that had the same apparatus; those that play nothing, as a questionnaire's, are not counted.
-struct Felt {
-    std::size_t trials = 0, known = 0, limited = 0; ///< known: every part left, by the column left
-    double mostLimitedDb = 0.0;
+struct ApparatusUse {
+    std::size_t trials = 0, delivered = 0, limited = 0; ///< delivered: every part left as planned
+    double maxLimitedDb = 0.0;
 };
 
 /// Key: device, master level, noise and version.
-using Kinds = std::map<std::vector<std::string>, Felt>;
+using ApparatusUses = std::map<std::vector<std::string>, ApparatusUse>;
 
 } // namespace
 
-void tellApparatus(ReportBuilder& report) {
+void addApparatusSection(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
-    report.page.subheading("Apparatus");
-    Kinds kinds;
+    report.page.addSubheading("Apparatus");
+    ApparatusUses uses;
     std::size_t unknown = 0;
     for (const CsvRow& row : all.rows) {
-        if (report.trials.knowTasks() && cell(row, columns::left).empty() && cell(row, "stimulus").empty() &&
-            cell(row, "parts").empty())
+        if (report.trials.hasTasks() && cell(row, columns::delivered).empty() &&
+            cell(row, "stimulus").empty() && cell(row, "parts").empty())
             continue;
         if (cell(row, columns::version).empty()) {
             ++unknown;
             continue;
         }
-        Felt& felt = kinds[{cell(row, columns::device), cell(row, columns::masterDb),
-                            cell(row, columns::noiseDb), cell(row, columns::version)}];
+        ApparatusUse& usage = uses[{cell(row, columns::device), cell(row, columns::masterDb),
+                                    cell(row, columns::noiseDb), cell(row, columns::version)}];
         const double db = parseNumber<double>(cell(row, columns::limiterDb)).value_or(0.0);
-        ++felt.trials;
-        felt.known += cell(row, columns::left) == "1";
-        felt.limited += db > 0.05 ? 1 : 0;
-        felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
+        ++usage.trials;
+        usage.delivered += cell(row, columns::delivered) == "1";
+        usage.limited += db > 0.05 ? 1 : 0;
+        usage.maxLimitedDb = std::max(usage.maxLimitedDb, db);
     }
-    if (unknown > 0) report.page.note(counted(unknown, "trial") + " without a record of device and levels");
-    if (kinds.empty()) return;
+    if (unknown > 0)
+        report.page.addNote(counted(unknown, "trial") + " without a record of device and levels");
+    if (uses.empty()) return;
     ExportTable table{
         "apparatus", report.isSimulated(),
         "device,master_db,noise_db,version,trials,trials_known_to_leave,trials_with_the_limiter,most_"
         "limiter_db"};
-    for (const auto& [kind, felt] : kinds) {
-        for (const std::string& word : kind) table.cell(word);
-        table.row(felt.trials, felt.known, felt.limited, felt.mostLimitedDb);
+    for (const auto& [settings, usage] : uses) {
+        for (const std::string& setting : settings) table.cell(setting);
+        table.row(usage.trials, usage.delivered, usage.limited, usage.maxLimitedDb);
     }
     report.show("apparatus.csv", table);
 }
@@ -71,45 +72,46 @@ std::vector<double> numbersOf(std::string_view cell) {
     return numbers;
 }
 
-struct InOrder {
+struct NumericOrder {
     bool operator()(const auto& a, const auto& b) const {
         return std::ranges::lexicographical_compare(a, b, ByNumbers{});
     }
 };
 
-/// Numbers of a column by condition and session; `isFine`: and by stimulus and part.
-using Levels = std::map<std::array<std::string, 4>, std::vector<double>, InOrder>;
+/// Numbers of a column by condition and session; `isByStimulus`: and by stimulus and part.
+using Levels = std::map<std::array<std::string, 4>, std::vector<double>, NumericOrder>;
 
-Levels levelsIn(const CsvTable& all, std::string_view column, bool isFine) {
+Levels levelsIn(const CsvTable& all, std::string_view column, bool isByStimulus) {
     const Cells cell{all};
     Levels levels;
     for (const CsvRow& row : all.rows) {
         std::string_view parts = cell(row, "parts");
         for (const double value : numbersOf(cell(row, column)))
-            levels[{cell(row, "condition"), cell(row, "session"), isFine ? cell(row, "stimulus") : "",
-                    std::string{isFine ? takeUntil('|', parts) : ""}}]
+            levels[{cell(row, "condition"), cell(row, "session"), isByStimulus ? cell(row, "stimulus") : "",
+                    std::string{isByStimulus ? takeUntil('|', parts) : ""}}]
                 .push_back(value);
     }
     return levels;
 }
 
 /// Table of the levels of every part of every stimulus, where they are in the rows.
-void tellStimuli(ReportBuilder& report) {
+void addStimulusLevels(ReportBuilder& report) {
     ExportTable table{"levels-by-stimulus", report.isSimulated(),
                       "condition,session,stimulus,part,measure,values,least,mean,most"};
     const std::string empty = table.text();
     for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG})
-        for (const auto& [key, own] : levelsIn(report.trials.all, column, true))
-            table.row(key[0], key[1], key[2], key[3], column, own.size(), *std::ranges::min_element(own),
-                      Moments(own).mean, *std::ranges::max_element(own));
+        for (const auto& [key, numbers] : levelsIn(report.trials.all, column, true))
+            table.row(key[0], key[1], key[2], key[3], column, numbers.size(),
+                      *std::ranges::min_element(numbers), Moments(numbers).mean,
+                      *std::ranges::max_element(numbers));
     if (table.text() == empty) return;
     report.show("levels-by-stimulus.csv", table, 200, true);
 }
 
 } // namespace
 
-void tellDoses(ReportBuilder& report) {
-    if (!report.trials.knowTasks()) return; // units of other programs are unknown
+void addExposureSection(ReportBuilder& report) {
+    if (!report.trials.hasTasks()) return; // units of other programs are unknown
     const CsvTable& all = report.trials.all;
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
@@ -122,18 +124,18 @@ void tellDoses(ReportBuilder& report) {
             }))
             continue;
         if (!values.empty()) meanings.push_back(column + ": " + columnMeaning(column));
-        for (const auto& [key, own] : values) {
+        for (const auto& [key, numbers] : values) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.row(key[0], key[1], column, own.size(), *std::ranges::min_element(own),
-                      onlyIf(hasMean, Moments(own).mean), *std::ranges::max_element(own));
+            table.row(key[0], key[1], column, numbers.size(), *std::ranges::min_element(numbers),
+                      valueIf(hasMean, Moments(numbers).mean), *std::ranges::max_element(numbers));
         }
     }
     if (meanings.empty()) return;
-    report.page.subheading("Levels and exposure");
-    report.page.list(meanings);
+    report.page.addSubheading("Levels and exposure");
+    report.page.addList(meanings);
     report.show("levels-and-exposure.csv", table);
-    tellStimuli(report);
+    addStimulusLevels(report);
 }
 
 // Report section on the condition orders as run.
@@ -160,31 +162,31 @@ Orders ordersOf(const CsvTable& all) {
 
 } // namespace
 
-void tellOrders(ReportBuilder& report) {
+void addOrdersSection(ReportBuilder& report) {
     // rows of other programs may be sorted, so their order is unknown
-    if (!report.trials.knowTasks() || !report.trials.all.column("trial")) return;
+    if (!report.trials.hasTasks() || !report.trials.all.column("trial")) return;
     const Orders orders = ordersOf(report.trials.all);
-    std::map<std::string, std::map<std::size_t, std::size_t>> counts; // of a condition by its place
-    std::size_t most = 0;
+    std::map<std::string, std::map<std::size_t, std::size_t>> counts; // by condition and place
+    std::size_t maxPlaces = 0;
     for (const auto& [participant, order] : orders) {
-        most = std::max(most, order.size());
+        maxPlaces = std::max(maxPlaces, order.size());
         for (std::size_t place = 0; place < order.size(); ++place) ++counts[order[place]][place];
     }
-    if (most < 2) return;
+    if (maxPlaces < 2) return;
     std::string header = "condition";
-    for (std::size_t place = 1; place <= most; ++place) header += ",place " + std::to_string(place);
+    for (std::size_t place = 1; place <= maxPlaces; ++place) header += ",place " + std::to_string(place);
     ExportTable balance{"orders", report.isSimulated(), header};
     for (auto& [condition, places] : counts) {
         balance.cell(condition);
-        for (std::size_t place = 0; place < most; ++place) balance.cell(places[place]);
+        for (std::size_t place = 0; place < maxPlaces; ++place) balance.cell(places[place]);
         balance.endRow();
     }
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place)
             table.row(participant, place + 1, order[place]);
-    report.page.subheading("Orders of the conditions");
-    report.page.table(balance.text(), "participants by place");
+    report.page.addSubheading("Orders of the conditions");
+    report.page.addTable(balance.text(), "participants by place");
     report.show("orders.csv", table, 200, true);
 }
 

@@ -63,10 +63,10 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
 
 /// Lets column names break after underscores.
 std::string headHtml(const std::string& column) {
-    const auto* const said = std::ranges::find(headings, std::string_view{column},
-                                               &std::pair<std::string_view, std::string_view>::first);
+    const auto* const heading = std::ranges::find(headings, std::string_view{column},
+                                                  &std::pair<std::string_view, std::string_view>::first);
     std::string out = "<th>";
-    for (const char c : markup(said != std::end(headings) ? said->second : column)) {
+    for (const char c : escapeXml(heading != std::end(headings) ? heading->second : column)) {
         out += c;
         if (c == '_') out += "<wbr>";
     }
@@ -75,7 +75,7 @@ std::string headHtml(const std::string& column) {
 
 std::string cellHtml(const std::string& cell) {
     const bool isNumber = parseNumber<double>(cell).has_value();
-    return (isNumber ? "<td class=\"number\">" : "<td>") + markup(shownCell(cell)) + "</td>";
+    return (isNumber ? "<td class=\"number\">" : "<td>") + escapeXml(displayCell(cell)) + "</td>";
 }
 
 } // namespace
@@ -87,54 +87,61 @@ ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
     if (isSimulated_ && mark_.empty()) mark_ = "SIMULATED: a simulated observer answered, not a person.";
 }
 
-void ReportPage::element(std::string_view tag, std::string_view words) {
+void ReportPage::addElement(std::string_view tag, std::string_view words) {
     const std::string_view name = tag.substr(0, tag.find(' '));
-    body_.append("<").append(tag).append(">").append(markup(words)).append("</").append(name).append(">\n");
+    body_.append("<")
+        .append(tag)
+        .append(">")
+        .append(escapeXml(words))
+        .append("</")
+        .append(name)
+        .append(">\n");
 }
 
-void ReportPage::notes(const std::vector<std::string>& lines) {
+void ReportPage::addNotes(const std::vector<std::string>& lines) {
     if (lines.empty()) return;
     body_ += "<p class=\"note\">";
-    for (const std::string& line : lines) body_ += (&line == &lines.front() ? "" : "<br>\n") + markup(line);
+    for (const std::string& line : lines)
+        body_ += (&line == &lines.front() ? "" : "<br>\n") + escapeXml(line);
     body_ += "</p>\n";
 }
-void ReportPage::lines(std::string_view words) {
+void ReportPage::addPreformatted(std::string_view words) {
     body_ += "<pre>";
-    while (!words.empty()) body_ += markup(takeUntil('\n', words)) + "\n";
+    while (!words.empty()) body_ += escapeXml(takeUntil('\n', words)) + "\n";
     body_ += "</pre>\n";
 }
 
-void ReportPage::table(std::string_view csv, std::string_view file, std::size_t mostRows, bool isFolded) {
+void ReportPage::addTable(std::string_view csv, std::string_view file, std::size_t maxRows, bool isFolded) {
     const auto comments = csv.starts_with('#') ? 1 : 0;
-    if (std::ranges::count(csv, '\n') < comments + 2) return paragraph("none");
+    if (std::ranges::count(csv, '\n') < comments + 2) return addParagraph("none");
     const auto read = readCsvTable(csv, file);
-    if (!read) return note(read.error);
+    if (!read) return addNote(read.error);
     const auto& [name, lines, columns, rows] = read.value;
     const auto isEmpty = [&](std::size_t c) {
         return std::ranges::all_of(rows, [c](const CsvRow& row) { return row.cells[c].empty(); });
     };
-    if (isFolded) body_ += "<details><summary>" + markup(file) + "</summary>\n";
+    if (isFolded) body_ += "<details><summary>" + escapeXml(file) + "</summary>\n";
     body_ += "<table>\n<tr>";
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (!isEmpty(c)) body_ += headHtml(columns[c]);
     body_ += "</tr>\n";
-    for (std::size_t r = 0; r < std::min(mostRows, rows.size()); ++r) {
+    for (std::size_t r = 0; r < std::min(maxRows, rows.size()); ++r) {
         body_ += "<tr>";
         for (std::size_t c = 0; c < columns.size(); ++c)
             if (!isEmpty(c)) body_ += cellHtml(rows[r].cells[c]);
         body_ += "</tr>\n";
     }
     body_ += "</table>\n";
-    if (rows.size() > mostRows)
-        paragraph(std::to_string(mostRows) + " of " + std::to_string(rows.size()) +
-                  " rows: " + std::string(file));
+    if (rows.size() > maxRows)
+        addParagraph(std::to_string(maxRows) + " of " + std::to_string(rows.size()) +
+                     " rows: " + std::string(file));
     if (isFolded) body_ += "</details>\n";
 }
 
-void ReportPage::figure(const std::vector<std::string>& svgs, std::string_view caption) {
+void ReportPage::addFigure(const std::vector<std::string>& svgs, std::string_view caption) {
     body_ += "<figure>\n";
     for (const std::string& svg : svgs) body_ += svg;
-    body_ += "<figcaption><b>Figure " + std::to_string(++figures_) + "</b> " + markup(caption) +
+    body_ += "<figcaption><b>Figure " + std::to_string(++figures_) + "</b> " + escapeXml(caption) +
              "</figcaption>\n</figure>\n";
 }
 
@@ -143,25 +150,25 @@ std::string ReportPage::html() const {
                       "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     out += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
            "'unsafe-inline'\">\n<title>" +
-           markup(title_) + (isSimulated_ ? " (simulated)" : "") + "</title>\n<style>" +
-           std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + markup(title_) + "</h1>\n";
+           escapeXml(title_) + (isSimulated_ ? " (simulated)" : "") + "</title>\n<style>" +
+           std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + escapeXml(title_) + "</h1>\n";
     if (isSimulated_) out += "<div class=\"watermark\" aria-hidden=\"true\">SIMULATED</div>\n";
-    if (!mark_.empty()) out += "<p class=\"mark\">" + markup(mark_) + "</p>\n";
+    if (!mark_.empty()) out += "<p class=\"mark\">" + escapeXml(mark_) + "</p>\n";
     return out + body_ + "</body>\n</html>\n";
 }
 
-ReportBuilder::ReportBuilder(const ReportTrials& of, std::string title)
-    : trials{of}
-    , page{std::move(title), of.isSimulated} {}
+ReportBuilder::ReportBuilder(const ReportTrials& source, std::string title)
+    : trials{source}
+    , page{std::move(title), source.isSimulated} {}
 
-std::size_t ReportBuilder::people() const {
+std::size_t ReportBuilder::participantCount() const {
     const Cells cell{trials.all};
     std::set<std::string_view> codes;
     for (const CsvRow& row : trials.all.rows) codes.insert(cell(row, "participant"));
     return std::max<std::size_t>(1, codes.size());
 }
 
-std::string ReportBuilder::said(const std::string& words) const {
+std::string ReportBuilder::userMessage(const std::string& words) const {
     std::string_view rest = words;
     if (!rest.starts_with(std::string{trialsTable} + ":")) return words;
     rest.remove_prefix(std::string_view{trialsTable}.size() + 1);
@@ -171,35 +178,36 @@ std::string ReportBuilder::said(const std::string& words) const {
     const Cells cell{table.value};
     for (const CsvRow& row : table.value.rows)
         if (row.line == line) {
-            std::string where;
+            std::string trialText;
             for (const char* column : {"participant", "condition", "session", "stimulus"})
                 if (!cell(row, column).empty())
-                    where += (where.empty() ? "" : ", ") + std::string{column} + " " +
-                             cleanLine(cell(row, column));
-            return where + ":" + std::string{rest};
+                    trialText += (trialText.empty() ? "" : ", ") + std::string{column} + " " +
+                                 cleanLine(cell(row, column));
+            return trialText + ":" + std::string{rest};
         }
     return words;
 }
 
-void ReportBuilder::warn(const std::vector<std::string>& warnings) {
-    std::vector<std::string> fresh;
-    const std::string counted = std::string{trialsTable} + ": left out: "; // left-out.csv has them
+void ReportBuilder::addWarnings(const std::vector<std::string>& warnings) {
+    std::vector<std::string> newWarnings;
+    const std::string excludedPrefix = std::string{trialsTable} + ": left out: "; // left-out.csv has them
     for (const std::string& words : warnings)
-        if (!words.starts_with(counted) && std::ranges::find(warned_, words) == warned_.end())
-            fresh.push_back(said(words));
-    warned_.insert(warned_.end(), warnings.begin(), warnings.end());
-    page.notes(fresh);
+        if (!words.starts_with(excludedPrefix) &&
+            std::ranges::find(shownWarnings_, words) == shownWarnings_.end())
+            newWarnings.push_back(userMessage(words));
+    shownWarnings_.insert(shownWarnings_.end(), warnings.begin(), warnings.end());
+    page.addNotes(newWarnings);
 }
 
-AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJob& options,
-                                       const std::string& name) {
+AnalysisReport ReportBuilder::addAnalysis(const std::string& kind, const AnalysisJob& options,
+                                          const std::string& name) {
     AnalysisReport report = analyse(kind, options);
-    warn(report.warnings);
+    addWarnings(report.warnings);
     if (!report.error.empty()) {
-        tellFault(report.error);
+        noteFailedAnalysis(report.error);
         return report;
     }
-    page.table(report.summary, name);
+    page.addTable(report.summary, name);
     tables_[name] = report.table;
     return report;
 }

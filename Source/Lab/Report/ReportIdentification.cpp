@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-using Identified = StudyData<IdentificationTrial>;
+using IdentificationData = StudyData<IdentificationTrial>;
 
 struct IdentifiedCondition {
     std::string condition;
@@ -19,15 +19,15 @@ struct IdentifiedCondition {
     std::size_t people;    ///< of that mean
 };
 
-std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolerance) {
+std::vector<IdentifiedCondition> conditionsOf(const IdentificationData& data, int tolerance) {
     std::vector<IdentifiedCondition> all;
-    for (const auto& condition : data.conditions) {
+    for (const auto& condition : data.groups) {
         const auto trials = tolerance == 0 ? condition.trials : withTolerance(condition.trials, tolerance);
         const ConfusionMatrix matrix{trials};
         std::vector<double> shares;
-        for (const auto& own : comparable(transferByParticipant(trials), matrix.stimuli()))
-            shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
-                             static_cast<double>(own.matrix.trials()));
+        for (const auto& person : withAllStimuli(transferByParticipant(trials), matrix.stimuli()))
+            shares.push_back(100.0 * static_cast<double>(person.matrix.correct()) /
+                             static_cast<double>(person.matrix.trials()));
         all.push_back({condition.name.empty() ? "all trials" : condition.name, matrix,
                        informationTransfer(matrix), Moments(shares).mean, shares.size()});
     }
@@ -46,17 +46,17 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         rows = std::max(rows, cell->row);
         columns = std::max(columns, cell->column);
     }
-    GridChart chart{report.frame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")), "row",
+    GridChart chart{report.nextFrame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")), "row",
                     "column"};
-    chart.most = 100.0;
+    chart.max = 100.0;
     chart.width = 225.0;
     for (int r = 1; r <= rows; ++r) chart.rows.push_back(std::to_string(r));
     for (int c = 1; c <= columns; ++c) chart.columns.push_back(std::to_string(c));
     chart.values.resize(static_cast<std::size_t>(rows * columns));
     std::map<std::string, std::vector<double>> shares; // by stimulus
-    for (const auto& own : transferByParticipant(trials))
-        for (std::size_t i = 0; i < own.matrix.stimuli(); ++i)
-            shares[own.matrix.label(i)].push_back(100.0 * shareCorrect(own.matrix, i));
+    for (const auto& person : transferByParticipant(trials))
+        for (std::size_t i = 0; i < person.matrix.stimuli(); ++i)
+            shares[person.matrix.label(i)].push_back(100.0 * shareCorrect(person.matrix, i));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto at = static_cast<std::size_t>((cells[i].row - 1) * columns + cells[i].column - 1);
         chart.values[at] = Moments(shares[condition.matrix.label(i)]).mean;
@@ -64,74 +64,76 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     return gridChart(chart);
 }
 
-bool isGrid(const Identified& data) {
-    return std::ranges::all_of(data.conditions, [](const auto& one) {
+bool isGrid(const IdentificationData& data) {
+    return std::ranges::all_of(data.groups, [](const auto& one) {
         return std::ranges::all_of(
             one.trials, [](const auto& trial) { return parseGridCell(trial.stimulus).has_value(); });
     });
 }
 
 /// Tables and charts for one criterion of a correct answer.
-void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
+void addCriterion(ReportBuilder& report, const IdentificationData& data, int tolerance) {
     const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
                       words = tolerance ? ", 1 step of tolerance" : "";
     AnalysisJob options = report.options();
     options.tolerance = tolerance;
-    report.page.subheading(tolerance ? "Answers within one step" : "Exact answers");
-    const AnalysisReport confusion = report.analysis("confusion", options, "confusion" + suffix + ".csv");
+    report.page.addSubheading(tolerance ? "Answers within one step" : "Exact answers");
+    const AnalysisReport confusion = report.addAnalysis("confusion", options, "confusion" + suffix + ".csv");
     if (!confusion.error.empty()) return;
     report.addTable("identification" + suffix + ".csv", confusion.participants);
     const auto all = conditionsOf(data, tolerance);
-    BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)"};
-    BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)"};
+    BarChart transferChart{report.nextFrame("Information transfer" + words), "condition", "IT (bit)"};
+    BarChart percentChart{report.nextFrame("Percent correct" + words), "condition", "correct (%)"};
     std::vector<std::size_t> people;
-    for (const IdentifiedCondition& one : all) {
-        it.add(one.condition, ChartValue::around(one.transfer.bits));
-        it.ceilings.push_back(one.transfer.mostBits);
-        pc.add(one.condition, ChartValue::around(one.percentCorrect));
-        people.push_back(one.people);
+    for (const IdentifiedCondition& condition : all) {
+        transferChart.add(condition.condition, ChartValue::withMargin(condition.transfer.bits));
+        transferChart.ceilings.push_back(condition.transfer.maxBits);
+        percentChart.add(condition.condition, ChartValue::withMargin(condition.percentCorrect));
+        people.push_back(condition.people);
     }
-    it.ceilingWords = "log2 of the number of stimuli";
-    pc.most = 100.0;
-    report.page.figure({barChart(it)}, "Information transfer of all trials together, not corrected" + words +
-                                           ofPeopleIn(data.conditions) +
-                                           ". Dotted: log2 of the number of stimuli.");
-    report.page.figure({barChart(pc)}, "Mean percent correct" + words + ofPeople(people) + ".");
+    transferChart.ceilingLabel = "log2 of the number of stimuli";
+    percentChart.max = 100.0;
+    report.page.addFigure({barChart(transferChart)},
+                          "Information transfer of all trials together, not corrected" + words +
+                              participantCountsText(data.groups) +
+                              ". Dotted: log2 of the number of stimuli.");
+    report.page.addFigure({barChart(percentChart)},
+                          "Mean percent correct" + words + participantCountText(people) + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
-        const auto& trials = data.conditions[c].trials;
+        const auto& trials = data.groups[c].trials;
         charts.push_back(isGrid(data)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
-                             : confusionChart(report.frame(all[c].condition), all[c].matrix));
+                             : confusionChart(report.nextFrame(all[c].condition), all[c].matrix));
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;
-    report.page.figure(charts, isGrid(data) ? "Mean percent correct by place" + words +
-                                                  ofPeopleIn(data.conditions) + "."
-                                            : "Share of each response, of the trials of a stimulus" +
-                                                  ofPeopleIn(data.conditions) + ".");
+    report.page.addFigure(charts, isGrid(data) ? "Mean percent correct by place" + words +
+                                                     participantCountsText(data.groups) + "."
+                                               : "Share of each response, of the trials of a stimulus" +
+                                                     participantCountsText(data.groups) + ".");
 }
 
 } // namespace
 
-void tellIdentification(ReportBuilder& report) {
-    report.page.heading("Identification");
+void addIdentificationSection(ReportBuilder& report) {
+    report.page.addHeading("Identification");
     const auto data = report.read(readIdentification);
-    if (!data) return report.tellFault(data.error);
-    tellCriterion(report, data.value, 0);
-    if (isGrid(data.value)) tellCriterion(report, data.value, 1);
+    if (!data) return report.noteFailedAnalysis(data.error);
+    addCriterion(report, data.value, 0);
+    if (isGrid(data.value)) addCriterion(report, data.value, 1);
 }
 
 // Pointing: responses with normals, perceived rows and columns, likeliest targets, percent counts.
 
 namespace {
 
-using Places = std::vector<StudyCondition<LocationTrial>>;
+using Places = std::vector<TrialGroup<LocationTrial>>;
 
 /// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
 std::string perceivedChart(ReportBuilder& report, const Places& places, bool isRow) {
-    LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
+    LineChart chart{report.nextFrame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width"};
     chart.width = 335.0;
@@ -150,7 +152,7 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
             // so that intervals do not overlap
             const double offset =
                 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
-            series.points.push_back({line + offset, ChartValue::around(Moments(means).mean)});
+            series.points.push_back({line + offset, ChartValue::withMargin(Moments(means).mean)});
         }
         chart.series.push_back(std::move(series));
     }
@@ -164,69 +166,70 @@ bool hasEdges(const ReportBuilder& report) {
 
 } // namespace
 
-void tellPlaces(ReportBuilder& report) {
+void addPlacesSection(ReportBuilder& report) {
     auto data = report.read(readLocations);
     const Cells cell{report.trials.all};
-    if (!data && cell.has("target_x")) { // of another program: errors need no edges
-        const auto lies = [&](const CsvRow& row, const char* axis) {
+    if (!data && cell.has("target_x")) { // another program's table: errors need no edges
+        const auto isOutside = [&](const CsvRow& row, const char* axis) {
             const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
             return at < 0.0 || at > 1.0;
         };
-        std::size_t main = 0, outside = 0;
+        std::size_t mainTrials = 0, outsideTrials = 0;
         for (const CsvRow& row : report.trials.all.rows) {
             if (cell(row, trialColumns::phase) == trialColumns::training) continue;
-            ++main;
-            outside += lies(row, "x") || lies(row, "y");
+            ++mainTrials;
+            outsideTrials += isOutside(row, "x") || isOutside(row, "y");
         }
-        if (const auto fault = unitFault(report.trials.columns); !fault.empty()) { // of resolution no matter
-            report.page.heading("Perceived places");
-            return report.tellFault(fault);
+        if (const auto error = unitError(report.trials.columns); !error.empty()) { // errors need one unit
+            report.page.addHeading("Perceived places");
+            return report.noteFailedAnalysis(error);
         }
-        tellPlaceErrors(report);
-        return report.page.note(std::to_string(outside) + " of " + counted(main, "place") +
-                                (hasEdges(report) ? " beyond the named edges" : " outside 0 to 1") +
-                                ": no territories and grids");
+        addPlaceErrorsSection(report);
+        return report.page.addNote(std::to_string(outsideTrials) + " of " + counted(mainTrials, "place") +
+                                   (hasEdges(report) ? " beyond the named edges" : " outside 0 to 1") +
+                                   ": no territories and grids");
     }
-    report.page.heading("Perceived places");
-    if (!data) return report.tellFault(data.error);
-    AnalysisReport resolution = report.analysis("resolution", report.options(), "resolution.csv");
+    report.page.addHeading("Perceived places");
+    if (!data) return report.noteFailedAnalysis(data.error);
+    AnalysisReport resolution = report.addAnalysis("resolution", report.options(), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);
-    Places& places = data.value.conditions;
+    Places& places = data.value.groups;
     std::ranges::sort(places, {}, &Places::value_type::name);
     std::vector<std::string> responses, territories, counts, grids;
     for (auto& [name, trials] : places) {
         if (name.empty()) name = "all trials";
-        const auto made = resolveCondition(name, trials);
-        responses.push_back(responsesChart(report.frame(name), made, trials));
-        territories.push_back(territoryChart(report.frame(name), made));
-        counts.push_back(countsChart(report.frame(name), made.counts));
-        if (!made.resolution.ties.empty()) grids.push_back(mergedChart(report.frame(name), made));
+        const auto resolved = resolveCondition(name, trials);
+        responses.push_back(responsesChart(report.nextFrame(name), resolved, trials));
+        territories.push_back(territoryChart(report.nextFrame(name), resolved));
+        counts.push_back(countsChart(report.nextFrame(name), resolved.counts));
+        if (!resolved.resolution.ties.empty()) grids.push_back(mergedChart(report.nextFrame(name), resolved));
     }
-    report.page.figure(responses,
-                       "All responses, by colour and shape of the target, and one standard deviation of "
-                       "each target's normal distribution" +
-                           ofPeopleIn(places) + ".");
-    report.page.figure({perceivedChart(report, places, false), perceivedChart(report, places, true)},
-                       "Mean perceived column and row by the intended one" + ofPeopleIn(places) + ".");
-    report.page.figure(territories,
-                       "Likeliest target of each place. Numbers: row,column at the mean of its responses.");
-    report.page.figure(counts,
-                       "Percent counts: share of the field of which each target is the likeliest. Framed: "
-                       "below 1.42 %.");
+    report.page.addFigure(responses,
+                          "All responses, by colour and shape of the target, and one standard deviation of "
+                          "each target's normal distribution" +
+                              participantCountsText(places) + ".");
+    report.page.addFigure({perceivedChart(report, places, false), perceivedChart(report, places, true)},
+                          "Mean perceived column and row by the intended one" +
+                              participantCountsText(places) + ".");
+    report.page.addFigure(
+        territories, "Likeliest target of each place. Numbers: row,column at the mean of its responses.");
+    report.page.addFigure(counts,
+                          "Percent counts: share of the field of which each target is the likeliest. Framed: "
+                          "below 1.42 %.");
     if (!grids.empty())
-        report.page.figure(grids, "Percent counts of the merged grid of the table, columns x rows.");
+        report.page.addFigure(grids, "Percent counts of the merged grid of the table, columns x rows.");
 }
 
-void tellPlaceErrors(ReportBuilder& report) {
-    report.page.heading("Perceived places");
-    report.page.paragraph(
+void addPlaceErrorsSection(ReportBuilder& report) {
+    report.page.addHeading("Perceived places");
+    report.page.addParagraph(
         std::string{hasEdges(report) ? "Places are shares of the named edges. "
                                      : "Places are in the table's units. "} +
         "Constant error: mean of answered minus true place. Variable error: standard deviation "
         "around a target's own mean, both axes together. Of each participant's targets the "
         "mean counts. Gain: slope of a participant's answered over true places, of all trials.");
-    report.analysis("places", report.options(), "places.csv");
+    report.addAnalysis("places", report.options(), "places.csv");
 }
 
 } // namespace physvib

@@ -12,9 +12,9 @@
 namespace physvib {
 namespace {
 
-struct Attended {
+struct Attendance {
     std::string number, observer, group;
-    std::size_t main = 0, training = 0, unanswered = 0, ranOut = 0;
+    std::size_t main = 0, training = 0, unanswered = 0, timedOut = 0;
     std::vector<double> seconds;
 };
 
@@ -25,59 +25,61 @@ bool hasNoAnswer(const Cells& cell, const CsvRow& row) {
 }
 
 /// Attendance of all participants, in file order.
-std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& trials) {
-    std::vector<std::pair<std::string, Attended>> people;
-    const auto person = [&](const std::string& code) -> Attended& {
-        const auto found = std::ranges::find(people, code, &std::pair<std::string, Attended>::first);
-        return (found == people.end() ? people.emplace_back(code, Attended{}) : *found).second;
+std::vector<std::pair<std::string, Attendance>> attendance(const ReportTrials& trials) {
+    std::vector<std::pair<std::string, Attendance>> people;
+    const auto person = [&](const std::string& code) -> Attendance& {
+        const auto found = std::ranges::find(people, code, &std::pair<std::string, Attendance>::first);
+        return (found == people.end() ? people.emplace_back(code, Attendance{}) : *found).second;
     };
     for (const TrialFile& file : trials.files) {
         const Cells cell{file.table};
         for (const CsvRow& row : file.table.rows) {
-            Attended& own = person(cell(row, "participant"));
-            if (const auto number = file.head.find("number"); number != file.head.end() && own.number.empty())
-                own.number = number->second;
-            own.observer = cell(row, trialColumns::observer);
+            Attendance& record = person(cell(row, "participant"));
+            if (const auto number = file.head.find("number");
+                number != file.head.end() && record.number.empty())
+                record.number = number->second;
+            record.observer = cell(row, trialColumns::observer);
             if (const std::string& group = cell(row, trialColumns::group); !group.empty())
-                own.group = own.group.empty() || own.group == group
-                                ? group
-                                : "in several (" + cell(row, "participant") + ")";
+                record.group = record.group.empty() || record.group == group
+                                   ? group
+                                   : "in several (" + cell(row, "participant") + ")";
             const bool isTraining = cell(row, trialColumns::phase) == trialColumns::training,
-                       ranOut = cell(row, trialColumns::ranOut) == "1";
-            ++(isTraining ? own.training : own.main);
+                       timedOut = cell(row, trialColumns::timedOut) == "1";
+            ++(isTraining ? record.training : record.main);
             if (isTraining) continue;
-            own.ranOut += ranOut;
-            own.unanswered += !ranOut && (trials.knowTasks() ? answerOf(cell(row, trialColumns::task)) ==
-                                                                       AnswerKind::label &&
-                                                                   cell(row, "response").empty()
-                                                             : hasNoAnswer(cell, row));
-            if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && !ranOut)
-                own.seconds.push_back(*seconds);
+            record.timedOut += timedOut;
+            record.unanswered +=
+                !timedOut &&
+                (trials.hasTasks() ? answerKindOf(cell(row, trialColumns::task)) == AnswerKind::label &&
+                                         cell(row, "response").empty()
+                                   : hasNoAnswer(cell, row));
+            if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && !timedOut)
+                record.seconds.push_back(*seconds);
         }
     }
-    for (const auto& [code, unanswered] : trials.leftOut.unanswered) {
-        Attended& own = person(code);
-        own.main += unanswered[0], own.unanswered += unanswered[0], own.training += unanswered[1];
+    for (const auto& [code, unanswered] : trials.excluded.unanswered) {
+        Attendance& record = person(code);
+        record.main += unanswered[0], record.unanswered += unanswered[0], record.training += unanswered[1];
     }
     return people;
 }
 
-void tellProtocol(ReportPage& page, const Protocol& protocol) {
+void addProtocol(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> conditions, sessions;
-    for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
-    page.subheading("Protocol, by the fields of its file");
-    page.list({protocolWords(protocol)});
-    page.subheading("Conditions");
-    page.list(conditions);
-    page.subheading("Sessions, each in each condition");
-    page.list(sessions);
-    page.subheading("Full scale of the layouts");
-    page.list({fullScales(protocol)});
+    for (const auto& one : protocol.conditions) conditions.push_back(conditionText(one));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionText(session));
+    page.addSubheading("Protocol, by the fields of its file");
+    page.addList({protocolText(protocol)});
+    page.addSubheading("Conditions");
+    page.addList(conditions);
+    page.addSubheading("Sessions, each in each condition");
+    page.addList(sessions);
+    page.addSubheading("Full scale of the layouts");
+    page.addList({fullScales(protocol)});
 }
 
 /// Lists every stimulus with its call; the page shows one example per condition and session.
-void tellCalls(ReportBuilder& report) {
+void addCalls(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
     if (!cell.has("render")) return;
@@ -85,7 +87,7 @@ void tellCalls(ReportBuilder& report) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls;
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
-        if (cell(row, "render").empty() || answerOf(cell(row, trialColumns::task)) == AnswerKind::wish)
+        if (cell(row, "render").empty() || answerKindOf(cell(row, trialColumns::task)) == AnswerKind::request)
             continue;
         ++calls[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"), cell(row, "render")}];
         examples.try_emplace({cell(row, "condition"), cell(row, "session")}, cell(row, "render"));
@@ -97,7 +99,7 @@ void tellCalls(ReportBuilder& report) {
         table.row(condition, session, stimulus, trials, call);
     }
     report.addTable("stimuli.csv", table.text());
-    report.page.subheading("Calls of the stimuli: one of each condition and session (all: stimuli.csv)");
+    report.page.addSubheading("Calls of the stimuli: one of each condition and session (all: stimuli.csv)");
     for (const auto& [key, call] : examples) {
         std::string lines;
         for (std::size_t from = 0; from < call.size();) {
@@ -105,23 +107,23 @@ void tellCalls(ReportBuilder& report) {
             lines += "physvib " + call.substr(from, to - from) + "\n";
             from = to + 3;
         }
-        report.page.lines("# " + key.first + ", " + key.second + "\n" + lines);
+        report.page.addPreformatted("# " + key.first + ", " + key.second + "\n" + lines);
     }
 }
 
 /// Table of age, sex, handedness and group of the participants who are not excluded.
-void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
+void addFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attendance>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<double> ages;
     std::map<std::string, std::map<std::string, std::size_t>> counts; // of sex, handedness and group
     std::size_t analysed = 0;
-    for (const auto& [code, own] : attended) {
+    for (const auto& [code, record] : attended) {
         if (facts.isExcluded(code)) continue;
         ++analysed;
-        const PersonFacts& person = facts.person(code);
+        const ParticipantFacts& person = facts.person(code);
         if (person.ageYears) ages.push_back(*person.ageYears);
         ++counts["sex"][person.sex], ++counts["handedness"][person.handedness];
-        if (own.main > 0) ++counts["group"][own.group.empty() ? person.group : own.group];
+        if (record.main > 0) ++counts["group"][record.group.empty() ? person.group : record.group];
     }
     ExportTable table{"sample", report.isSimulated(), "of,value,participants"};
     table.row("participants", "", attended.size());
@@ -140,170 +142,178 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
          {std::pair{"ethics", facts.ethics}, {"consent", facts.consent}, {"noise at the ear", facts.noise}})
         if (!report.isSimulated() || !words.empty())
             table.row(name, words.empty() ? "not stated" : words, "");
-    report.page.table(table.text(), "sample");
-    for (const PersonFacts& person : facts.people)
-        if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) ==
+    report.page.addTable(table.text(), "sample");
+    for (const ParticipantFacts& person : facts.people)
+        if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attendance>::first) ==
             attended.end())
-            report.page.note("participant " + person.participant + " of the table of people: no trials");
+            report.page.addNote("participant " + person.participant + " of the table of people: no trials");
 }
 
 /// Notes participants with the same number, as they had the same orders.
-void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, Attended>>& people) {
+void noteSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, Attendance>>& people) {
     std::map<std::string, std::vector<std::string>> codes;
-    for (const auto& [code, own] : people)
-        if (!own.number.empty()) codes[own.number].push_back(code);
+    for (const auto& [code, record] : people)
+        if (!record.number.empty()) codes[record.number].push_back(code);
     for (const auto& [number, same] : codes)
-        if (same.size() > 1) page.note("participants " + listed(same) + " have the same number, " + number);
+        if (same.size() > 1)
+            page.addNote("participants " + listed(same) + " have the same number, " + number);
 }
 
 } // namespace
 
-void tellParticipants(ReportBuilder& report) {
-    report.page.heading("Participants");
+void addParticipantsSection(ReportBuilder& report) {
+    report.page.addHeading("Participants");
     const auto people = attendance(report.trials);
     const StudyFacts& facts = report.trials.facts;
     const bool hasGroups =
-        std::ranges::any_of(facts.people, [](const PersonFacts& one) { return !one.group.empty(); });
+        std::ranges::any_of(facts.people, [](const ParticipantFacts& one) { return !one.group.empty(); });
     ExportTable table{
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
     std::vector<std::size_t> counts; // of trials
-    for (const auto& [code, own] : people) {
-        table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered + own.ranOut,
-                    own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
+    for (const auto& [code, record] : people) {
+        table.cells(code, record.number, record.observer, record.main, record.training,
+                    record.unanswered + record.timedOut,
+                    record.seconds.empty() ? std::nullopt : std::optional{median(record.seconds)});
         if (!facts.people.empty()) {
-            const PersonFacts& one = facts.person(code);
-            table.cells(one.ageYears ? numberText(*one.ageYears) : std::string{}, one.sex, one.handedness,
-                        one.excluded);
-            if (hasGroups) table.cells(one.group);
+            const ParticipantFacts& person = facts.person(code);
+            table.cells(person.ageYears ? numberText(*person.ageYears) : std::string{}, person.sex,
+                        person.handedness, person.excluded);
+            if (hasGroups) table.cells(person.group);
         }
         table.endRow();
-        if (!facts.isExcluded(code)) counts.push_back(own.main);
+        if (!facts.isExcluded(code)) counts.push_back(record.main);
     }
-    const auto have = [&](std::size_t count) { return 2 * std::ranges::count(counts, count); };
-    const auto usual = std::ranges::find_if(counts, [&](std::size_t count) {
-        return have(count) > std::ssize(counts); // where more than half have as many
+    const auto doubledCount = [&](std::size_t count) { return 2 * std::ranges::count(counts, count); };
+    const auto commonCount = std::ranges::find_if(counts, [&](std::size_t count) {
+        return doubledCount(count) > std::ssize(counts); // where more than half have as many
     });
-    for (const std::string& note : report.trials.notes) report.page.note(note);
-    tellFacts(report, people);
+    for (const std::string& note : report.trials.notes) report.page.addNote(note);
+    addFacts(report, people);
     report.show("participants.csv", table);
-    tellSameNumbers(report.page, people);
-    ExportTable left{"left-out", report.isSimulated(),
-                     "participant,condition,session,trials,planned,why,left_out"};
-    std::size_t rows = report.trials.leftOut.rows;
+    noteSameNumbers(report.page, people);
+    ExportTable leftOut{"left-out", report.isSimulated(),
+                        "participant,condition,session,trials,planned,why,left_out"};
+    std::size_t rows = report.trials.excluded.rowCount;
     for (const UnfinishedRun& run : unfinishedRuns(report.trials))
-        left.row(run.participant, run.condition, run.session, run.trials,
-                 (run.isFixed ? "" : "at most ") + std::to_string(run.planned), run.why(), run.leftOut());
+        leftOut.row(run.participant, run.condition, run.session, run.trials,
+                    (run.hasFixedCount ? "" : "at most ") + std::to_string(run.planned), run.reason(),
+                    run.excludedFrom());
     const bool isAdaptive = hasAdaptiveRows(report.trials);
     if (isAdaptive)
         if (const auto data = readFinishedLevels(report.options()))
-            for (const LevelSummary& one : summariseLevels(data.value.conditions.front().trials))
-                for (const auto& [who, why] : one.leftOut)
-                    left.row(who, one.condition, "", "", "", why, "threshold");
+            for (const LevelSummary& summary : summariseLevels(data.value.groups.front().trials))
+                for (const auto& [code, reason] : summary.excluded)
+                    leftOut.row(code, summary.condition, "", "", "", reason, "threshold");
     // Without a protocol the number of trials is inferred from others; adaptive sessions have no fixed
     // number.
     const bool canCompare = !report.trials.protocol && !isAdaptive;
-    const auto of = [&](const std::string& code, std::size_t trials, const auto& planned,
-                        const std::string& why, const char* what) {
-        if (trials > 0) left.row(code, "", "", trials, planned, why, what);
+    const auto addLeftOut = [&](const std::string& code, std::size_t trials, const auto& planned,
+                                const std::string& why, const char* what) {
+        if (trials > 0) leftOut.row(code, "", "", trials, planned, why, what);
     };
-    for (const auto& [code, own] : people) {
-        rows -= std::min(rows, own.unanswered); // listed with their participant
+    for (const auto& [code, record] : people) {
+        rows -= std::min(rows, record.unanswered); // listed with their participant
         if (facts.isExcluded(code)) {
-            of(code, own.main + own.training, "", facts.person(code).excluded, "all trials");
+            addLeftOut(code, record.main + record.training, "", facts.person(code).excluded, "all trials");
             continue;
         }
-        if (canCompare && usual != counts.end() && own.main < *usual)
-            left.row(code, "", "", own.main, "", "fewer trials than most (" + std::to_string(*usual) + ")",
-                     "tests of what is lacking, if any");
-        of(code, own.ranOut, "", "ran out of time", "these trials");
-        of(code, own.unanswered, "", "no answer", "these trials");
+        if (canCompare && commonCount != counts.end() && record.main < *commonCount)
+            leftOut.row(code, "", "", record.main, "",
+                        "fewer trials than most (" + std::to_string(*commonCount) + ")",
+                        "tests of what is lacking, if any");
+        addLeftOut(code, record.timedOut, "", "ran out of time", "these trials");
+        addLeftOut(code, record.unanswered, "", "no answer", "these trials");
     }
-    of("", rows, "", "nothing in a named column", "these rows");
-    std::map<std::string, std::size_t> whose;
-    for (const CsvRow& row : report.trials.notLeft) ++whose[Cells{report.trials.all}(row, "participant")];
-    for (const auto& [code, trials] : whose)
-        of(code, trials, "", "did not leave as planned (column left, or a peak of 0 g)", "these trials");
+    addLeftOut("", rows, "", "nothing in a named column", "these rows");
+    std::map<std::string, std::size_t> undelivered;
+    for (const CsvRow& row : report.trials.undelivered)
+        ++undelivered[Cells{report.trials.all}(row, "participant")];
+    for (const auto& [code, trials] : undelivered)
+        addLeftOut(code, trials, "", "did not leave as planned (column left, or a peak of 0 g)",
+                   "these trials");
     std::size_t training = 0;
-    for (const auto& [code, own] : people) training += facts.isExcluded(code) ? 0 : own.training;
-    of("", training, "", "training", "these trials");
-    report.page.subheading("Left out before the analyses");
+    for (const auto& [code, record] : people) training += facts.isExcluded(code) ? 0 : record.training;
+    addLeftOut("", training, "", "training", "these trials");
+    report.page.addSubheading("Left out before the analyses");
     if (!report.trials.protocol && isAdaptive)
-        report.page.note(
+        report.page.addNote(
             "no protocol: unfinished staircases and thresholds at an end of the levels are not known");
-    report.show("left-out.csv", left, 200);
+    report.show("left-out.csv", leftOut, 200);
 }
 
-void tellProcedure(ReportBuilder& report) {
-    report.page.heading("Procedure");
+void addProcedureSection(ReportBuilder& report) {
+    report.page.addHeading("Procedure");
     if (report.trials.protocol)
-        tellProtocol(report.page, *report.trials.protocol);
+        addProtocol(report.page, *report.trials.protocol);
     else
-        report.page.note(report.trials.protocolNote);
-    tellOrders(report);
-    tellApparatus(report);
-    tellTimes(report);
-    tellCalls(report);
-    tellDoses(report);
+        report.page.addNote(report.trials.protocolNote);
+    addOrdersSection(report);
+    addApparatusSection(report);
+    addTimesSection(report);
+    addCalls(report);
+    addExposureSection(report);
 }
 
-void tellProvenance(ReportBuilder& report) {
-    report.page.heading("Files, versions, seeds");
+void addProvenanceSection(ReportBuilder& report) {
+    report.page.addHeading("Files, versions, seeds");
     std::vector<std::string> facts{std::string("report: physvib ") + PHYSVIB_VERSION};
     for (const auto& [key, words] : {std::pair{"version", "trials: physvib "},
                                      {"protocol", "protocol: "},
                                      {"hash", "hash of the protocol: "},
                                      {"seed", "seed of all orders: "}})
-        if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
-    report.page.list(facts);
-    report.page.subheading("Tables");
+        if (const auto value = report.trials.commonValue(key); !value.empty()) facts.push_back(words + value);
+    report.page.addList(facts);
+    report.page.addSubheading("Tables");
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
-    report.page.list(files);
+    report.page.addList(files);
 }
 
 // Report section on when participants answered, from the files of times beside the trial files.
 
 namespace {
 
-/// Every value that a column has.
-std::string listedOf(const std::vector<StudyMoment>& moments, std::string StudyMoment::*field) {
+/// All different values of a field in starts and resumes.
+std::string distinctValues(const std::vector<StudyEvent>& entries, std::string StudyEvent::*field) {
     std::set<std::string> values;
-    for (const StudyMoment& m : moments)
-        if (m.isBegin()) values.insert(m.*field);
+    for (const StudyEvent& entry : entries)
+        if (entry.isStartOrResume()) values.insert(entry.*field);
     return joined(values, " | ");
 }
 
-/// A row on a participant. Precondition: there are moments.
-void addTimes(ExportTable& table, const std::string& participant, const std::vector<StudyMoment>& moments) {
+/// Adds a participant's row. Precondition: there are entries.
+void addTimes(ExportTable& table, const std::string& participant, const std::vector<StudyEvent>& entries) {
     namespace events = studyEvents;
     std::size_t sittings = 0, cutOff = 0, breaks = 0, pauses = 0;
-    double awaySeconds = 0.0, restSeconds = 0.0;
-    StudyRests rests;
-    for (std::size_t i = 0; i < moments.size(); ++i) {
-        const StudyMoment& m = moments[i];
-        const double since = i > 0 ? secondsOf(m.timeUtc) - secondsOf(moments[i - 1].timeUtc) : 0.0;
-        sittings += m.isBegin() ? 1 : 0;
-        breaks += m.event == events::rest && !rests.isResting ? 1 : 0;
-        pauses += m.event == events::pause ? 1 : 0;
-        if (m.isBegin()) awaySeconds += since;
-        if (m.isBegin() && i > 0 && moments[i - 1].event != events::leave &&
-            moments[i - 1].event != events::end)
+    double absentSeconds = 0.0, breakSeconds = 0.0;
+    StudyBreakState breakState;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const StudyEvent& entry = entries[i];
+        const double elapsedSeconds =
+            i > 0 ? unixSeconds(entry.timeUtc) - unixSeconds(entries[i - 1].timeUtc) : 0.0;
+        sittings += entry.isStartOrResume() ? 1 : 0;
+        breaks += entry.event == events::breakStart && !breakState.isOnBreak ? 1 : 0;
+        pauses += entry.event == events::pause ? 1 : 0;
+        if (entry.isStartOrResume()) absentSeconds += elapsedSeconds;
+        if (entry.isStartOrResume() && i > 0 && entries[i - 1].event != events::leave &&
+            entries[i - 1].event != events::end)
             ++cutOff;
-        if (rests.isResting && !m.isBegin()) restSeconds += since;
-        rests.take(m);
+        if (breakState.isOnBreak && !entry.isStartOrResume()) breakSeconds += elapsedSeconds;
+        breakState.apply(entry);
     }
     const auto minutes = [](double seconds) { return fixedNumber(seconds / 60.0, 1); };
-    table.row(participant, moments.front().timeUtc, moments.back().timeUtc,
-              moments.back().event == events::end ? "yes" : "no", sittings, minutes(awaySeconds), cutOff,
-              breaks, minutes(restSeconds), pauses, listedOf(moments, &StudyMoment::language),
-              listedOf(moments, &StudyMoment::outputs), listedOf(moments, &StudyMoment::noiseOutputs));
+    table.row(participant, entries.front().timeUtc, entries.back().timeUtc,
+              entries.back().event == events::end ? "yes" : "no", sittings, minutes(absentSeconds), cutOff,
+              breaks, minutes(breakSeconds), pauses, distinctValues(entries, &StudyEvent::language),
+              distinctValues(entries, &StudyEvent::outputs),
+              distinctValues(entries, &StudyEvent::noiseOutputs));
 }
 
 } // namespace
 
-void tellTimes(ReportBuilder& report) {
+void addTimesSection(ReportBuilder& report) {
     ExportTable table{"times", report.isSimulated(),
                       "participant,time_utc,event,trials,language,outputs,noise_outputs"};
     ExportTable each{
@@ -321,16 +331,16 @@ void tellTimes(ReportBuilder& report) {
             ++unknown;
             continue;
         }
-        for (const StudyMoment& m : file.times)
-            table.row(code->second, m.timeUtc, m.event, static_cast<std::size_t>(m.trials), m.language,
-                      m.outputs, m.noiseOutputs);
+        for (const StudyEvent& entry : file.times)
+            table.row(code->second, entry.timeUtc, entry.event, static_cast<std::size_t>(entry.trials),
+                      entry.language, entry.outputs, entry.noiseOutputs);
         addTimes(each, code->second, file.times);
     }
-    if (unknown > 0) report.page.note(counted(unknown, "participant") + " without a file of times");
+    if (unknown > 0) report.page.addNote(counted(unknown, "participant") + " without a file of times");
     if (each.text() == empty) return;
-    report.page.subheading("When");
+    report.page.addSubheading("When");
     report.addTable("times.csv", table.text());
-    report.page.table(each.text(), "sittings");
+    report.page.addTable(each.text(), "sittings");
 }
 
 } // namespace physvib

@@ -24,39 +24,39 @@ std::string valueOf(const TrialFile& file, const std::string& key) {
 }
 
 /// Columns without those that only newer files have.
-std::vector<std::string> asked(const CsvTable& table) {
+std::vector<std::string> originalColumns(const CsvTable& table) {
     std::vector<std::string> columns = table.columns;
     std::erase_if(columns, [](const std::string& column) {
-        return trialColumns::isMeasured(column) || trialColumns::isReceipt(column);
+        return trialColumns::isMeasured(column) || trialColumns::isDelivery(column);
     });
     return columns;
 }
 
 /// All rows with the union of all columns; missing cells are empty.
 CsvTable joinedRows(const std::vector<TrialFile>& files) {
-    CsvTable all{"the trials", {}, asked(files.front().table), {}};
+    CsvTable all{"the trials", {}, originalColumns(files.front().table), {}};
     for (const TrialFile& file : files)
         for (const std::string& column : file.table.columns)
             if (!all.column(column)) all.columns.push_back(column);
     for (const TrialFile& file : files)
         for (const CsvRow& row : file.table.rows) {
-            CsvRow& own = all.rows.emplace_back(CsvRow{row.line, {}});
+            CsvRow& wideRow = all.rows.emplace_back(CsvRow{row.line, {}});
             for (const std::string& column : all.columns) {
                 const auto at = file.table.column(column);
-                own.cells.push_back(at ? row.cells[*at] : std::string{});
+                wideRow.cells.push_back(at ? row.cells[*at] : std::string{});
             }
         }
     return all;
 }
 
-void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) {
-    const std::string name = trials.common("protocol"), hash = trials.common("hash");
+void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& userProtocol) {
+    const std::string name = trials.commonValue("protocol"), hash = trials.commonValue("hash");
     const auto fits = [&](const Protocol& protocol) {
         return protocol.name == name && protocolHash(protocol) == hash;
     };
-    if (given) {
-        if (fits(*given))
-            trials.protocol = given;
+    if (userProtocol) {
+        if (fits(*userProtocol))
+            trials.protocol = userProtocol;
         else
             trials.protocolNote = "the protocol that was given has another name or hash than these trials";
         return;
@@ -82,17 +82,17 @@ bool wasWithoutNoise(const CsvTable& all) {
 
 /// Returns an error for the first call that would write a file, since the page shows the calls to be
 /// repeated; else an empty string.
-std::string callsFault(const CsvTable& table, const CallCheck& callFault) {
+std::string writingCallError(const CsvTable& table, const CallCheck& callError) {
     const auto column = table.column("render");
     for (const CsvRow& row : table.rows)
-        if (column && callFault && !callFault(row.cells[*column]).empty())
-            return table.fault(row, *column, "calls that write no file");
+        if (column && callError && !callError(row.cells[*column]).empty())
+            return table.cellError(row, *column, "calls that write no file");
     return {};
 }
 
 } // namespace
 
-std::string ReportTrials::common(const std::string& key) const {
+std::string ReportTrials::commonValue(const std::string& key) const {
     const std::string value = valueOf(files.front(), key);
     return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; })
                ? value
@@ -101,17 +101,17 @@ std::string ReportTrials::common(const std::string& key) const {
 
 Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts,
                                       const std::vector<ColumnName>& columns,
-                                      const std::optional<Protocol>& protocol, const CallCheck& callFault) {
+                                      const std::optional<Protocol>& protocol, const CallCheck& callError) {
     ReportTrials trials;
     SharedParticipants shared;
     for (const auto& [path, text] : texts) {
-        auto table = readStudyTable(text, path, columns, trials.leftOut);
+        auto table = readStudyTable(text, path, columns, trials.excluded);
         if (!table) return Failure{table.error};
-        if (std::string fault = callsFault(table.value, callFault); !fault.empty())
-            return Failure{std::move(fault)};
-        if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
+        if (std::string error = writingCallError(table.value, callError); !error.empty())
+            return Failure{std::move(error)};
+        if (std::string error = shared.add(table.value); !error.empty()) return Failure{std::move(error)};
         TrialFile file{std::filesystem::path{path}.filename().string(),
-                       trialHeadOf(table.value.comments),
+                       parseTrialHead(table.value.comments),
                        std::move(table.value),
                        {}};
         if (!trials.files.empty()) {
@@ -120,28 +120,29 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
                 return Failure{path + ":1: expected trials of the protocol " +
                                inQuotes(valueOf(first, "protocol")) + ", as in " + first.name + ", found " +
                                inQuotes(valueOf(file, "protocol"))};
-            if (asked(first.table) != asked(file.table))
+            if (originalColumns(first.table) != originalColumns(file.table))
                 return Failure{path + ": expected the columns of " + first.name + ", found others"};
         }
-        trials.isSimulated |= saysSimulated(file.table);
+        trials.isSimulated |= hasSimulatedAnswers(file.table);
         trials.files.push_back(std::move(file));
     }
     trials.all = joinedRows(trials.files);
-    const auto notLeft =
+    const auto undelivered =
         std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
-                              [&](const CsvRow& row) { return !didNotLeave(trials.all, row); });
-    trials.notLeft.assign(std::make_move_iterator(notLeft), std::make_move_iterator(trials.all.rows.end()));
-    trials.all.rows.erase(notLeft, trials.all.rows.end());
+                              [&](const CsvRow& row) { return !wasNotDelivered(trials.all, row); });
+    trials.undelivered.assign(std::make_move_iterator(undelivered),
+                              std::make_move_iterator(trials.all.rows.end()));
+    trials.all.rows.erase(undelivered, trials.all.rows.end());
     if (trials.all.rows.empty())
         return Failure{texts.front().first + ": expected a trial that left as planned, found none: " +
-                       notLeftWords(trials.notLeft.size())};
+                       undeliveredNote(trials.undelivered.size())};
     if (std::string note = shared.note(); !note.empty()) trials.notes.push_back(std::move(note));
-    if (std::string note = trials.leftOut.stimuliWords(); !note.empty())
+    if (std::string note = trials.excluded.stimuliNote(); !note.empty())
         trials.notes.push_back(std::move(note));
-    if (const auto& unused = trials.leftOut.columns; !unused.empty())
+    if (const auto& unused = trials.excluded.columns; !unused.empty())
         trials.notes.push_back("columns that --columns does not name: " + joined(unused, ", "));
     if (const auto kinds = analysesFor(trials.all);
-        !trials.knowTasks() && !kinds.empty() && kinds.front() != "ratings") {
+        !trials.hasTasks() && !kinds.empty() && kinds.front() != "ratings") {
         std::set<std::string> scales;
         for (const std::string& column : trials.all.columns)
             if (!trialColumns::has(column)) scales.insert(column);
@@ -152,7 +153,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     return trials;
 }
 
-std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
+std::string applyFacts(ReportTrials& trials, StudyFacts facts) {
     trials.facts = std::move(facts);
     const auto participant = trials.all.column("participant");
     if (!trials.facts.noise.empty() && wasWithoutNoise(trials.all))
@@ -160,12 +161,12 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     if (trials.facts.people.empty()) return {};
     if (!participant)
         return trials.files.front().name + ": --people: expected a column participant, found none";
-    for (auto* const rows : {&trials.all.rows, &trials.notLeft})
+    for (auto* const rows : {&trials.all.rows, &trials.undelivered})
         std::erase_if(*rows,
                       [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
     const auto& people = trials.facts.people;
     if (!trials.all.column(trialColumns::group) &&
-        std::ranges::any_of(people, [](const PersonFacts& one) { return !one.group.empty(); })) {
+        std::ranges::any_of(people, [](const ParticipantFacts& one) { return !one.group.empty(); })) {
         trials.all.columns.emplace_back(trialColumns::group);
         for (CsvRow& row : trials.all.rows)
             row.cells.push_back(trials.facts.person(row.cells[*participant]).group);
@@ -184,7 +185,7 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
     const Cells cell{trials.all};
     const auto parts = trials.all.column("parts");
     for (const CsvRow& row : trials.all.rows) {
-        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
+        if (answerKindOf(cell(row, trialColumns::task)) == AnswerKind::request) continue;
         auto cells = row.cells;
         if (const auto found = offered.find(cell(row, "session")); parts && found != offered.end())
             cells[*parts] = found->second;
@@ -199,11 +200,11 @@ namespace {
 
 constexpr std::array<std::string_view, 6> peopleColumns{"participant", "age",   "sex",
                                                         "handedness",  "group", "excluded"};
-constexpr double oldestYears = 130.0;
+constexpr double maxAgeYears = 130.0;
 
 } // namespace
 
-Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name) {
+Result<std::vector<ParticipantFacts>> readParticipantFacts(std::string_view text, std::string_view name) {
     auto read = readCsvTable(text, name, CsvHeader::named);
     if (!read) return Failure{read.error};
     const CsvTable& table = read.value;
@@ -213,22 +214,23 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
                            inQuotes(column)};
     if (!table.column("participant"))
         return Failure{table.name + ": expected a column participant, found none"};
-    std::vector<PersonFacts> people;
+    std::vector<ParticipantFacts> people;
     std::set<std::string> codes;
     for (const CsvRow& row : table.rows) {
         const auto cell = [&](std::string_view column) {
             const auto at = table.column(column);
-            return at && !RowsLeftOut{}.isNoAnswer(column, row.cells[*at]) ? row.cells[*at] : std::string{};
+            return at && !ExcludedRows{}.isMissingAnswer(column, row.cells[*at]) ? row.cells[*at]
+                                                                                 : std::string{};
         };
-        PersonFacts facts{cell("participant"), {},           cell("sex"), cell("handedness"),
-                          cell("excluded"),    cell("group")};
+        ParticipantFacts facts{cell("participant"), {},           cell("sex"), cell("handedness"),
+                               cell("excluded"),    cell("group")};
         if (facts.participant.empty() || !codes.insert(facts.participant).second)
             return Failure{
-                table.fault(row, *table.column("participant"), "a code of its own for each participant")};
+                table.cellError(row, *table.column("participant"), "a code of its own for each participant")};
         if (const std::string age = cell("age"); !age.empty()) {
             facts.ageYears = parseNumber<double>(age);
-            if (!facts.ageYears || *facts.ageYears < 0.0 || *facts.ageYears > oldestYears)
-                return Failure{table.fault(row, *table.column("age"), "years from 0 to 130")};
+            if (!facts.ageYears || *facts.ageYears < 0.0 || *facts.ageYears > maxAgeYears)
+                return Failure{table.cellError(row, *table.column("age"), "years from 0 to 130")};
         }
         people.push_back(std::move(facts));
     }
@@ -239,17 +241,17 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
 
 namespace {
 
-/// The answer of a row of a run, and the index of its staircase.
+/// The answer of one row of a run, and the index of its staircase.
 struct RunAnswer {
     bool isCorrect = false;
     std::size_t staircase = 0;
-    bool ranOut = false; ///< moves no level
+    bool timedOut = false; ///< moves no level
 };
 using Answers = std::vector<RunAnswer>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
 
 bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned,
-                  std::string& cutShort) {
+                  std::string& earlyEnd) {
     if (plan.untilCorrect > 0) { // ends after so many consecutive correct answers
         const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
         if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
@@ -257,11 +259,11 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
     if (!plan.adaptedAlternative()) return answers.size() < planned;
     AdaptiveLevel level{plan};
     for (const RunAnswer& answer : answers) {
-        if (answer.ranOut) continue;
-        level.choose(answer.staircase);
+        if (answer.timedOut) continue;
+        level.selectStaircase(answer.staircase);
         level.answer(answer.isCorrect);
     }
-    cutShort = level.cutShort();
+    earlyEnd = level.earlyEnd();
     return !level.isDone();
 }
 
@@ -269,9 +271,9 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
 
 bool hasAdaptiveRows(const ReportTrials& trials) {
     const Cells cell{trials.all};
-    return trials.knowTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
+    return trials.hasTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
                return cell(row, trialColumns::phase) != trialColumns::training &&
-                      answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
+                      answerKindOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
                       !cell(row, "correct").empty() && !cell(row, "level_db").empty();
            });
 }
@@ -286,25 +288,26 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
     const auto keyOf = [&](const CsvRow& row) {
         return RunKey{cell(row, "participant"), cell(row, "condition"), cell(row, "session")};
     };
-    const auto isNumbered = [&](const CsvRow& row) {
+    const auto addNumber = [&](const CsvRow& row) {
         numbers[keyOf(row)].insert(parseNumber<int>(cell(row, "trial")).value_or(1));
     };
     for (const CsvRow& row : trials.all.rows) {
-        const std::string& who = cell(row, "participant");
-        isNumbered(row);
-        if (std::ranges::find(people, who) == people.end()) people.push_back(who);
+        const std::string& code = cell(row, "participant");
+        addNumber(row);
+        if (std::ranges::find(people, code) == people.end()) people.push_back(code);
         const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
-        runs[keyOf(row)].push_back(
-            {cell(row, "correct") == "1", staircase.value_or(1) - 1, cell(row, trialColumns::ranOut) == "1"});
+        runs[keyOf(row)].push_back({cell(row, "correct") == "1", staircase.value_or(1) - 1,
+                                    cell(row, trialColumns::timedOut) == "1"});
     }
-    std::map<RunKey, std::size_t> notLeft; // answered, but not delivered as planned
-    for (const CsvRow& row : trials.notLeft) ++notLeft[keyOf(row)], isNumbered(row);
-    const auto missingOf = [&](const RunKey& run, int most) { // 0: not known
+    std::map<RunKey, std::size_t> undelivered; // answered, but not delivered as planned
+    for (const CsvRow& row : trials.undelivered) ++undelivered[keyOf(row)], addNumber(row);
+    const auto missingTrials = [&](const RunKey& run, int count) { // of planned trials; 0: not known
         std::string words;
         int next = 1;
-        std::set<int>& own = numbers[run];
-        if (most > 0 && !own.empty() && *own.rbegin() > std::ssize(own)) own.insert(most + 1);
-        for (const int number : own) {
+        std::set<int>& present = numbers[run];
+        if (count > 0 && !present.empty() && *present.rbegin() > std::ssize(present))
+            present.insert(count + 1);
+        for (const int number : present) {
             if (number > next)
                 words += (words.empty() ? "" : ", ") + std::to_string(next) +
                          (number > next + 1 ? " to " + std::to_string(number - 1) : "");
@@ -313,31 +316,31 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         return words.empty() ? words : (words.find(' ') == words.npos ? "trial " : "trials ") + words;
     };
     std::vector<UnfinishedRun> unfinished;
-    for (const std::string& who : people)
-        for (const ConditionPlan& planned : trials.protocol->conditions)
+    for (const std::string& code : people)
+        for (const ConditionPlan& condition : trials.protocol->conditions)
             for (const SessionPlan& plan : trials.protocol->sessions) {
-                if (plan.answer() == AnswerKind::wish) continue;
-                const RunKey key{who, planned.name, plan.name};
+                if (plan.answerKind() == AnswerKind::request) continue;
+                const RunKey key{code, condition.name, plan.name};
                 const Answers& answers = runs[key];
-                const std::size_t most =
-                    static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
-                std::string cutShort;
-                const bool isOver =
-                    !isUnfinished(plan, answers, most - std::min(most, notLeft[key]), cutShort);
-                const bool isFixed = plan.adaptedAlternative() == nullptr && plan.untilCorrect == 0;
-                UnfinishedRun run{who,
-                                  planned.name,
+                const std::size_t plannedCount =
+                    static_cast<std::size_t>(maxSessionTrials(plan, conditionStimuli(condition).size()));
+                std::string earlyEnd;
+                const bool isComplete = !isUnfinished(
+                    plan, answers, plannedCount - std::min(plannedCount, undelivered[key]), earlyEnd);
+                const bool hasFixedCount = plan.adaptedAlternative() == nullptr && plan.untilCorrect == 0;
+                UnfinishedRun run{code,
+                                  condition.name,
                                   plan.name,
                                   answers.size(),
-                                  most,
+                                  plannedCount,
                                   plan.adaptedAlternative() != nullptr,
-                                  missingOf(key, isFixed ? static_cast<int>(most) : 0),
-                                  isOver,
+                                  missingTrials(key, hasFixedCount ? static_cast<int>(plannedCount) : 0),
+                                  isComplete,
                                   plan.isTraining,
-                                  isFixed};
-                if (!isOver || !run.missing.empty()) unfinished.push_back(run);
-                run.cutShort = cutShort;
-                if (isOver && !cutShort.empty() && !plan.isTraining) unfinished.push_back(std::move(run));
+                                  hasFixedCount};
+                if (!isComplete || !run.missing.empty()) unfinished.push_back(run);
+                run.earlyEnd = earlyEnd;
+                if (isComplete && !earlyEnd.empty() && !plan.isTraining) unfinished.push_back(std::move(run));
             }
     return unfinished;
 }

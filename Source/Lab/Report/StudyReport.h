@@ -13,13 +13,14 @@
 
 namespace physvib {
 struct StudyReport {
-    StudyFiles files;                 ///< file names within the report's folder, and contents:
-                                      ///< index.html, tables, analysis.R of two people or more
-    std::vector<std::string> notes;   ///< one line each on trials without a known analysis
-    std::vector<std::string> tests;   ///< all tests that the script ran, in words
-    std::string functions{}, slope{}; ///< which psychometric functions were fitted, and what their jnd is
-    std::string scriptFault;          ///< why the script did not end; empty: it did, or was not run
-    bool isSimulated = false;         ///< trials are of a simulated observer
+    StudyFiles files;                         ///< file names within the report's folder, and contents:
+                                              ///< index.html, tables, analysis.R for two or more people
+    std::vector<std::string> notes;           ///< one line each on trials without a known analysis
+    std::vector<std::string> tests;           ///< all tests that the script ran, in words
+    std::string functionsText{}, slopeName{}; ///< which psychometric functions were fitted, and what their
+                                              ///< jnd is
+    std::string scriptError;                  ///< why the script did not end; empty: it did, or was not run
+    bool isSimulated = false;                 ///< trials are of a simulated observer
 };
 
 /// Equal trials give identical bytes. Without `script` the page says how tests are run. Message thread only.
@@ -30,10 +31,10 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script =
 struct ReportJob {
     std::vector<std::string> files;           ///< trial files of one study
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
-    double guess = PsychometricModel{}.guess; ///< of psychometric functions, if no protocol says it
+    double guess = PsychometricModel{}.guess; ///< guess rate of functions, if no protocol gives it
     std::string folder;                       ///< output folder
-    bool wantsBids = false;                   ///< also export the trials as a BIDS dataset
-    bool wantsNotebook = false;               ///< also a notebook of the script's steps
+    bool exportsBids = false;                 ///< also export the trials as a BIDS dataset
+    bool exportsNotebook = false;             ///< also a notebook of the script's steps
     std::string peoplePath{}; ///< table of facts on the participants (ReportTrials.h); empty: unknown
     std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
 
@@ -45,13 +46,13 @@ struct ReportJob {
 /// The report's files in memory, or an error line. `protocol`: given by the user; without it, a built-in one
 /// is looked up. Message thread only.
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
-                               const CallCheck& callFault, const ScriptRunner& script);
+                               const CallCheck& callError, const ScriptRunner& script);
 
-// What a study is going to do, written before its first participant, and what a report says of it afterwards.
+// The plan of a study, written before its first participant, and its comparison with the study in the report.
 
 struct PlannedStudy {
     std::string text;   ///< design, number of participants, stop rules, exclusions, tests and corrections
-    std::string script; ///< analysis.R, as the report will have it; empty of one participant
+    std::string script; ///< analysis.R as in the later report; empty for one participant
 };
 
 /// Lists the tests that the script runs on simulated participants. Message thread only.
@@ -59,9 +60,9 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
 
 /// Contents of a plan that a report compares with the study.
 struct PlanFacts {
-    std::string hash, participants;          ///< of the protocol; number
-    std::vector<std::string> tests, grouped; ///< titles; by group
-    bool isListed = true;                    ///< R was available when the plan was written
+    std::string hash, participants;             ///< hash of the protocol; number of participants
+    std::vector<std::string> tests, groupTests; ///< titles of tests; of those by group
+    bool isListed = true;                       ///< R was available when the plan was written
 };
 
 /// Fails on a text that is no plan. Any thread (allocates).

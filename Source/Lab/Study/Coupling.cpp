@@ -49,51 +49,52 @@ ComplexAmplitudes CouplingMatrix::times(const ComplexAmplitudes& amplitudes) con
     return sums;
 }
 
-CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels) {
-    const double limit = fromDecibels(mostDecibels);
-    const auto keeps = [limit](const CouplingMatrix& drives) { return strongestDrive(drives) <= limit; };
+CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double limitDb) {
+    const double limit = fromDecibels(limitDb);
+    const auto isWithinLimit = [limit](const CouplingMatrix& drives) { return maxDrive(drives) <= limit; };
     CouplingMatrix drives = drivesAt(coupling, minLambda);
-    if (keeps(drives)) return drives;
+    if (isWithinLimit(drives)) return drives;
     double low = std::log(minLambda), high = std::log(maxLambda);
     for (int halving = 0; halving < 40; ++halving) {
         const double middle = 0.5 * (low + high);
-        (keeps(drivesAt(coupling, std::exp(middle))) ? high : low) = middle;
+        (isWithinLimit(drivesAt(coupling, std::exp(middle))) ? high : low) = middle;
     }
     return drivesAt(coupling, std::exp(high));
 }
 
-// For a phase direction, the drive is largest with gain 1 for each positive contribution, 0 for the rest.
-double strongestDrive(const CouplingMatrix& drives) {
+// In each direction of the complex plane, a drive is largest with gain 1 for positive contributions, else 0.
+double maxDrive(const CouplingMatrix& drives) {
     constexpr int directions = 360;
-    double most = 0.0;
+    double maxSum = 0.0;
     for (int k = 0; k < directions; ++k) {
-        const ComplexNumber towards = std::polar(1.0, -2.0 * std::numbers::pi * k / directions);
+        const ComplexNumber direction = std::polar(1.0, -2.0 * std::numbers::pi * k / directions);
         for (std::size_t i = 0; i < drives.size; ++i) {
             double sum = 0.0;
             for (std::size_t j = 0; j < drives.size; ++j)
-                sum += std::max(0.0, (drives.at(i, j) * towards).real());
-            most = std::max(most, sum);
+                sum += std::max(0.0, (drives.at(i, j) * direction).real());
+            maxSum = std::max(maxSum, sum);
         }
     }
-    return most / std::cos(std::numbers::pi / directions); // upper bound: the maximum may lie in between
+    return maxSum / std::cos(std::numbers::pi / directions); // upper bound: the maximum may lie in between
 }
 
-double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives) {
+double relativeAmplitudeError(const CouplingMatrix& coupling, const CouplingMatrix& drives) {
     double power = 0.0;
     for (std::size_t j = 0; j < coupling.size; ++j) {
         ComplexAmplitudes column(coupling.size);
         for (std::size_t i = 0; i < coupling.size; ++i) column[i] = drives.at(i, j);
-        const ComplexAmplitudes felt = coupling.times(column);
-        for (std::size_t i = 0; i < coupling.size; ++i) power += std::norm(felt[i] - (i == j ? 1.0 : 0.0));
+        const ComplexAmplitudes reproduced = coupling.times(column);
+        for (std::size_t i = 0; i < coupling.size; ++i)
+            power += std::norm(reproduced[i] - (i == j ? 1.0 : 0.0));
     }
     return std::sqrt(power / static_cast<double>(coupling.size));
 }
 
-CouplingMatrix mismatched(CouplingMatrix coupling, SeededRandom& random) {
-    const auto upTo = [&random](double most) { return most * (2.0 * random.uniform() - 1.0); };
+CouplingMatrix withRandomMismatch(CouplingMatrix coupling, SeededRandom& random) {
+    const auto upTo = [&random](double limit) { return limit * (2.0 * random.uniform() - 1.0); };
     for (ComplexNumber& entry : coupling.entries) {
-        const double share = fromDecibels(upTo(mismatchDb));
-        entry *= std::polar(share, upTo(mismatchDegrees) * std::numbers::pi / 180.0);
+        const double factor = fromDecibels(upTo(mismatchDb));
+        entry *= std::polar(factor, upTo(mismatchDegrees) * std::numbers::pi / 180.0);
     }
     return coupling;
 }
@@ -106,24 +107,24 @@ CouplingDrives::CouplingDrives(const MeasuredCoupling& measured)
             entries_.push_back({entry.real(), entry.imag()});
 }
 
-CouplingResidual residualOf(const MeasuredCoupling& measured) {
+CouplingResidual couplingResidual(const MeasuredCoupling& measured) {
     constexpr int draws = 20;
     CouplingResidual worst;
-    const CouplingMatrix plain(measured.enchanters());
+    const CouplingMatrix identity(measured.enchanters());
     SeededRandom random(1, "coupling");
     for (const CouplingMatrix& coupling : measured.matrices) {
         const CouplingMatrix drives = compensationMatrix(coupling);
         double before = 0.0, after = 0.0;
         for (int draw = 0; draw < draws; ++draw) {
-            const CouplingMatrix truth = mismatched(coupling, random);
-            before += std::pow(strayShare(truth, plain), 2) / draws;
-            after += std::pow(strayShare(truth, drives), 2) / draws;
+            const CouplingMatrix mismatched = withRandomMismatch(coupling, random);
+            before += std::pow(relativeAmplitudeError(mismatched, identity), 2) / draws;
+            after += std::pow(relativeAmplitudeError(mismatched, drives), 2) / draws;
         }
-        worst.plain = std::max(worst.plain, strayShare(coupling, plain));
-        worst.compensated = std::max(worst.compensated, strayShare(coupling, drives));
-        worst.mismatchedPlain = std::max(worst.mismatchedPlain, std::sqrt(before));
+        worst.uncompensated = std::max(worst.uncompensated, relativeAmplitudeError(coupling, identity));
+        worst.compensated = std::max(worst.compensated, relativeAmplitudeError(coupling, drives));
+        worst.mismatchedUncompensated = std::max(worst.mismatchedUncompensated, std::sqrt(before));
         worst.mismatchedCompensated = std::max(worst.mismatchedCompensated, std::sqrt(after));
-        worst.strongestDrive = std::max(worst.strongestDrive, strongestDrive(drives));
+        worst.maxDrive = std::max(worst.maxDrive, maxDrive(drives));
     }
     return worst;
 }
@@ -146,35 +147,34 @@ double combinedAttenuation(std::span<const double> ratios) {
 namespace {
 
 constexpr const char* couplingVersionField = "physvib_coupling";
-constexpr double mostShare = 4.0; // in full scales; larger values indicate a wrong unit
-constexpr std::size_t mostFrequencies = 256;
+constexpr double maxMagnitude = 4.0; // in full scales; larger values indicate a wrong unit
+constexpr std::size_t maxFrequencies = 256;
 
-std::size_t sizeOf(const JsonField& rows, std::size_t least, std::size_t most) {
+std::size_t sizeOf(const JsonField& rows, std::size_t min, std::size_t max) {
     const std::size_t size = rows.arraySize();
-    if (size < least || size > most)
-        rows.fail(
-            "expected " +
-            (least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most)) +
-            " items, found " + std::to_string(size));
+    if (size < min || size > max)
+        rows.fail("expected " +
+                  (min == max ? std::to_string(min) : std::to_string(min) + " to " + std::to_string(max)) +
+                  " items, found " + std::to_string(size));
     return size;
 }
 
 /// Calls `take(i, j, number)` for each entry of a square matrix of `size`.
-template <class Take>
-void readSquare(const JsonField& rows, std::size_t size, double least, double most, Take take) {
+template <class SetEntry>
+void readSquare(const JsonField& rows, std::size_t size, double min, double max, SetEntry setEntry) {
     sizeOf(rows, size, size);
     for (std::size_t i = 0; i < size; ++i) {
         const JsonField row = rows.item(i);
         sizeOf(row, size, size);
-        for (std::size_t j = 0; j < size; ++j) take(i, j, row.item(j).numberWithin(least, most));
+        for (std::size_t j = 0; j < size; ++j) setEntry(i, j, row.item(j).numberWithin(min, max));
     }
 }
 
 CouplingMatrix readMatrix(const JsonField& json) {
     const JsonField magnitudes = json["magnitude"];
-    CouplingMatrix matrix(sizeOf(magnitudes, 1, limits::maxEnchanters));
-    readSquare(magnitudes, matrix.size, 0.0, mostShare,
-               [&](std::size_t i, std::size_t j, double share) { matrix.at(i, j) = share; });
+    CouplingMatrix matrix(sizeOf(magnitudes, 1, limits::maxActuators));
+    readSquare(magnitudes, matrix.size, 0.0, maxMagnitude,
+               [&](std::size_t i, std::size_t j, double magnitude) { matrix.at(i, j) = magnitude; });
     readSquare(json["phase_deg"], matrix.size, -360.0, 360.0,
                [&](std::size_t i, std::size_t j, double degrees) {
                    matrix.at(i, j) *= std::polar(1.0, degrees * std::numbers::pi / 180.0);
@@ -192,10 +192,10 @@ MeasuredCoupling readCouplingRoot(const JsonField& root) {
     root["source"].text();
     const JsonField measured = root["measured"];
     MeasuredCoupling coupling;
-    for (std::size_t k = 0, count = sizeOf(measured, 1, mostFrequencies); k < count; ++k) {
+    for (std::size_t k = 0, count = sizeOf(measured, 1, maxFrequencies); k < count; ++k) {
         const JsonField json = measured.item(k);
         json.expectObject({"frequency_hz", "magnitude", "phase_deg"});
-        const double hz = json["frequency_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
+        const double hz = json["frequency_hz"].numberWithin(limits::minMeasuredHz, limits::maxFrequencyHz);
         if (k > 0 && !(hz > coupling.frequenciesHz.back()))
             json["frequency_hz"].fail("expected frequencies that rise, found " + numberText(hz) + " after " +
                                       numberText(coupling.frequenciesHz.back()));
@@ -251,22 +251,22 @@ namespace {
 using Levels = std::vector<double>;
 
 /// Mean levels of the reference recordings of one drive.
-struct GammaSums {
+struct ReferenceLevels {
     Levels levels;
     std::size_t count = 0;
-    bool areAlike = true; ///< all have the same number of channels
+    bool haveSameSize = true; ///< all have the same number of channels
 };
 using Drive = std::tuple<std::string, std::string, double>;
 
 Drive driveOf(const IsolationCondition& c) { return {c.axis, c.voltage, c.frequencyHz}; }
 
-std::map<Drive, GammaSums> referencesIn(const std::vector<IsolationMeasurement>& measurements) {
-    std::map<Drive, GammaSums> references;
+std::map<Drive, ReferenceLevels> referencesIn(const std::vector<IsolationMeasurement>& measurements) {
+    std::map<Drive, ReferenceLevels> references;
     for (const IsolationMeasurement& m : measurements) {
         if (!m.isReference) continue;
-        GammaSums& sums = references[driveOf(m.condition)];
+        ReferenceLevels& sums = references[driveOf(m.condition)];
         if (sums.count++ == 0) sums.levels.assign(m.levels.size(), 0.0);
-        sums.areAlike &= sums.levels.size() == m.levels.size();
+        sums.haveSameSize &= sums.levels.size() == m.levels.size();
         for (std::size_t i = 0; i < std::min(sums.levels.size(), m.levels.size()); ++i)
             sums.levels[i] += m.levels[i];
     }
@@ -283,7 +283,7 @@ IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measu
     for (const IsolationMeasurement& m : measurements) {
         if (m.isReference) continue;
         const auto reference = references.find(driveOf(m.condition));
-        if (reference == references.end() || !reference->second.areAlike ||
+        if (reference == references.end() || !reference->second.haveSameSize ||
             reference->second.levels.size() != m.levels.size())
             return {
                 m.source +

@@ -36,23 +36,23 @@ struct CouplingMatrix {
 };
 
 /// Maximum drive of a compensation above the strongest wanted amplitude.
-constexpr double mostExtraDriveDb = 3.0;
+constexpr double maxExtraDriveDb = 3.0;
 
 /// The matrix D of drives D a, so that C D a approximates the wanted amplitudes a. It minimises |C d - a|^2 +
 /// lambda |d|^2 for every a (Tikhonov). D is linear, so drives of simultaneous vibrations add up. Lambda is
-/// the smallest value at which the strongest drive is at most `mostDecibels` above the strongest wanted
+/// the smallest value at which the strongest drive is at most `limitDb` above the strongest wanted
 /// amplitude, for any panning gains >= 0. Message thread only.
-CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels = mostExtraDriveDb);
+CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double limitDb = maxExtraDriveDb);
 
 /// The strongest drive for gains from 0 to 1, to four digits and rounded up.
-double strongestDrive(const CouplingMatrix& drives);
+double maxDrive(const CouplingMatrix& drives);
 
-/// Relative error of the felt amplitudes: root of the mean power of C D - I per actuator.
-double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives);
+/// Relative error of the reproduced amplitudes: root of the mean power of C D - I per actuator.
+double relativeAmplitudeError(const CouplingMatrix& coupling, const CouplingMatrix& drives);
 
 /// Copy of the coupling with every entry, also on the diagonal, changed at random by up to +-2 dB and +-20
 /// degrees. It models differences between actuators.
-CouplingMatrix mismatched(CouplingMatrix coupling, SeededRandom& random);
+CouplingMatrix withRandomMismatch(CouplingMatrix coupling, SeededRandom& random);
 
 /// Coupling as measured at one or more frequencies, ascending.
 struct MeasuredCoupling {
@@ -76,13 +76,14 @@ private:
     std::size_t channels_ = 0;
 };
 
-/// Residual error of a coupling, each value at its worst frequency: strayShare without and with compensation,
-/// both also for mismatched couplings (root mean square of 20 seeded draws), and the strongest drive.
+/// Residual error of a coupling, each value at its worst frequency: relativeAmplitudeError without and with
+/// compensation, both also for mismatched couplings (root mean square of 20 seeded draws), and the strongest
+/// drive.
 struct CouplingResidual {
-    double plain = 0.0, compensated = 0.0, mismatchedPlain = 0.0, mismatchedCompensated = 0.0,
-           strongestDrive = 0.0;
+    double uncompensated = 0.0, compensated = 0.0, mismatchedUncompensated = 0.0, mismatchedCompensated = 0.0,
+           maxDrive = 0.0;
 };
-CouplingResidual residualOf(const MeasuredCoupling& measured);
+CouplingResidual couplingResidual(const MeasuredCoupling& measured);
 
 /// Eq. 3.1: 1 - A / A_ref per axis; negative where the isolated side vibrates more. `reference` > 0.
 std::vector<double> attenuationRatios(std::span<const double> isolated, std::span<const double> reference);
@@ -95,7 +96,7 @@ double combinedAttenuation(std::span<const double> ratios);
 /// Newest readable version of the format.
 constexpr int couplingFormatVersion = 1;
 
-/// Parses square matrices of 1 to limits::maxEnchanters rows, with magnitudes in full scales and phases in
+/// Parses square matrices of 1 to limits::maxActuators rows, with magnitudes in full scales and phases in
 /// degrees. Otherwise one line `name: measured[0].phase_deg[1][2]: expected ...`. Unknown and repeated fields
 /// are errors. Any thread.
 Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name);
@@ -131,7 +132,7 @@ struct IsolationResult {
 };
 
 struct IsolationStudy {
-    std::string fault;                    ///< error in one line; if set, the results are invalid
+    std::string error;                    ///< error in one line; if set, the results are invalid
     std::vector<IsolationResult> results; ///< sorted: material, softener, thickness, axis, voltage, frequency
 };
 

@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-bool isScore(const SessionPlan& s, double score) noexcept {
+bool isValidScore(const SessionPlan& s, double score) noexcept {
     return s.points > 0 ? score >= 1.0 && score <= s.points && score == std::floor(score)
                         : score >= 0.0 && score <= 100.0;
 }
@@ -21,17 +21,17 @@ bool isOnField(const std::optional<FieldPlace>& place) noexcept {
 
 TrialProgress::TrialProgress(const SessionPlan& session, const Trial& trial)
     : session_{session}
-    , parts_(session.isOnce ? 0 : std::max<std::size_t>(1, trial.parts.size())) {}
+    , parts_(session.isQuestionnaire ? 0 : std::max<std::size_t>(1, trial.parts.size())) {}
 
 int TrialProgress::plays() const noexcept {
     return std::accumulate(parts_.begin(), parts_.end(), 0,
                            [](int sum, const Part& p) { return sum + p.plays; });
 }
 
-Experiment::Experiment(const Protocol& protocol, Participant participant, bool explorersEnd)
+Experiment::Experiment(const Protocol& protocol, Participant participant, bool endsOnRequest)
     : protocol_{protocol}
     , participant_{std::move(participant)}
-    , explorersEnd_{explorersEnd}
+    , endsOnRequest_{endsOnRequest}
     , conditions_{conditionOrder(protocol, participant_.number)} {
     beginSession();
     advance();
@@ -45,10 +45,10 @@ SeededRandom Experiment::randomFor(const std::string& purpose) const {
 }
 
 void Experiment::beginSession() {
-    items_ = itemsOf(plan(), protocol_.conditions[conditionIndex()]);
-    inSession_ = inARow_ = 0;
+    items_ = stimulusItems(plan(), protocol_.conditions[conditionIndex()]);
+    answeredInSession_ = consecutiveCorrect_ = 0;
     explored_.clear();
-    isEnded_ = false;
+    isExplorationEnded_ = false;
     adaptive_.reset();
     auto random = randomFor("order");
     order_ = sessionOrder(plan(), items_.size(), random);
@@ -57,17 +57,18 @@ void Experiment::beginSession() {
 
 bool Experiment::isSessionOver() const {
     if (adaptive_) return adaptive_->isDone();
-    if (plan().untilCorrect > 0 && inARow_ >= plan().untilCorrect) return true;
-    if (plan().answer() != AnswerKind::wish) return inSession_ >= static_cast<int>(order_.size());
-    return isEnded_ || (!explorersEnd_ && hasExplored());
+    if (plan().untilCorrect > 0 && consecutiveCorrect_ >= plan().untilCorrect) return true;
+    if (plan().answerKind() != AnswerKind::request)
+        return answeredInSession_ >= static_cast<int>(order_.size());
+    return isExplorationEnded_ || (!endsOnRequest_ && hasExplored());
 }
 
 void Experiment::advance() {
     trial_.reset();
     while (isSessionOver()) {
-        if (++sessionAt_ == protocol_.sessions.size()) {
-            sessionAt_ = 0;
-            if (++conditionAt_ == conditions_.size()) return;
+        if (++sessionIndex_ == protocol_.sessions.size()) {
+            sessionIndex_ = 0;
+            if (++conditionPosition_ == conditions_.size()) return;
         }
         beginSession();
     }
@@ -78,23 +79,23 @@ Trial Experiment::nextTrial() {
     const SessionPlan& s = plan();
     Trial trial;
     trial.condition = conditionIndex();
-    trial.session = sessionAt_;
-    trial.number = inSession_ + 1;
+    trial.session = sessionIndex_;
+    trial.number = answeredInSession_ + 1;
     trial.task = s.task;
-    const bool isNextCondition = conditionAt_ > 0 && sessionAt_ == 0;
-    if (inSession_ == 0)
-        trial.restSeconds =
+    const bool isNextCondition = conditionPosition_ > 0 && sessionIndex_ == 0;
+    if (answeredInSession_ == 0)
+        trial.breakSeconds =
             std::max(s.breakBeforeSeconds, isNextCondition ? protocol_.conditionBreakSeconds : 0.0);
-    else if (s.breakEvery > 0 && inSession_ % s.breakEvery == 0)
-        trial.restSeconds = s.breakSeconds;
-    if (s.answer() == AnswerKind::wish) return trial;
+    else if (s.breakEvery > 0 && answeredInSession_ % s.breakEvery == 0)
+        trial.breakSeconds = s.breakSeconds;
+    if (s.answerKind() == AnswerKind::request) return trial;
 
     auto random = randomFor("trial " + std::to_string(trial.number));
     const bool isPlanned = !adaptive_;
-    const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)]
+    const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(answeredInSession_)]
                                            : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
     trial.stimulus = items_[planned.stimulus].label;
-    if (adaptive_) trial.staircase = adaptive_->draw(random);
+    if (adaptive_) trial.staircase = adaptive_->drawStaircase(random);
     if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
     if (!s.modulus.empty()) trial.parts = {"modulus", "stimulus"};
     if (!s.objects.empty()) {
@@ -103,17 +104,17 @@ Trial Experiment::nextTrial() {
         if (!s.reference.empty()) trial.parts.insert(trial.parts.begin(), s.reference);
     }
     if (s.comparesPairs) {
-        const std::size_t at = trial.stimulus.find(betweenPair);
-        trial.parts = {trial.stimulus.substr(0, at), trial.stimulus.substr(at + betweenPair.size())};
+        const std::size_t at = trial.stimulus.find(pairSeparator);
+        trial.parts = {trial.stimulus.substr(0, at), trial.stimulus.substr(at + pairSeparator.size())};
         if (planned.isSwapped) std::ranges::reverse(trial.parts);
     }
     return trial;
 }
 
-double Experiment::startOf(const Adjustment& a, int trial) const {
-    if (!a.startsAnywhere) return a.startDb;
-    const auto steps = static_cast<std::size_t>(std::floor((a.mostDb - a.leastDb) / a.stepDb + 1e-6));
-    return a.leastDb +
+double Experiment::adjustmentStartDb(const Adjustment& a, int trial) const {
+    if (!a.hasRandomStart) return a.startDb;
+    const auto steps = static_cast<std::size_t>(std::floor((a.maxDb - a.minDb) / a.stepDb + 1e-6));
+    return a.minDb +
            a.stepDb * static_cast<double>(randomFor("start " + std::to_string(trial)).below(steps + 1));
 }
 
@@ -121,100 +122,103 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     const SessionPlan& s = plan();
     std::vector<Alternative> buttons = s.alternatives;
     if (isSwapped) std::ranges::reverse(buttons);
-    if (buttons.size() > 2 && s.answer() == AnswerKind::choice)
+    if (buttons.size() > 2 && s.answerKind() == AnswerKind::choice)
         randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
     if (adaptive_) trial.levelDb = adaptive_->levelDb();
-    if (s.adjustment) trial.levelDb = startOf(*s.adjustment, trial.number);
-    const std::string moved = adaptive_      ? *s.adaptedAlternative()
-                              : s.adjustment ? s.adjustment->alternative
-                                             : std::string{};
-    double rovedDb = 0.0;
+    if (s.adjustment) trial.levelDb = adjustmentStartDb(*s.adjustment, trial.number);
+    const std::string variedName = adaptive_      ? *s.adaptedAlternative()
+                                   : s.adjustment ? s.adjustment->alternative
+                                                  : std::string{};
+    double roveDb = 0.0;
     if (s.roveDb > 0.0) // in steps of 0.1 dB
-        rovedDb = std::round(10.0 * s.roveDb *
-                             (2.0 * randomFor("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
-                  10.0;
-    if (rovesApart(protocol_.conditions[trial.condition])) trial.roveDb = std::exchange(rovedDb, 0.0);
+        roveDb = std::round(10.0 * s.roveDb *
+                            (2.0 * randomFor("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
+                 10.0;
+    if (hasRovingVariable(protocol_.conditions[trial.condition])) trial.roveDb = std::exchange(roveDb, 0.0);
     for (const Alternative& button : buttons) {
-        double db = rovedDb + button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
+        double db = roveDb + button.levelDb + (button.name == variedName ? trial.levelDb : 0.0);
         if (!s.levelsFrom.empty()) {
-            const auto from = std::ranges::find(protocol_.sessions, s.levelsFrom, &SessionPlan::name);
-            if (button.name == from->adjustment->alternative) {
+            const auto source = std::ranges::find(protocol_.sessions, s.levelsFrom, &SessionPlan::name);
+            if (button.name == source->adjustment->alternative) {
                 trial.levelDb = adjustedDb(trial.condition, s.levelsFrom, trial.stimulus).value_or(0.0);
                 db += trial.levelDb;
             }
         }
-        if (const auto* set =
+        if (const auto* fileLevel =
                 s.levelsFile.empty()
                     ? nullptr
-                    : levelOf(protocol_.levels, protocol_.conditions[trial.condition].name, trial.stimulus);
-            set && set->alternative == button.name) {
-            trial.levelDb = set->levelDb;
-            db += set->levelDb;
+                    : findLevel(protocol_.levels, protocol_.conditions[trial.condition].name, trial.stimulus);
+            fileLevel && fileLevel->alternative == button.name) {
+            trial.levelDb = fileLevel->levelDb;
+            db += fileLevel->levelDb;
         }
         trial.parts.push_back(button.name);
         trial.partLevelsDb.push_back(db);
     }
 }
 
-std::string Experiment::refusal(const Answer& answer) const {
+std::string Experiment::answerError(const Answer& answer) const {
     const SessionPlan& s = session();
     const auto isLabel = [&] {
         return std::ranges::find(items_, answer.response, &StimulusItem::label) != items_.end();
     };
     if (answer.plays < 1) return "expected that the stimulus was felt";
     if (!(answer.seconds >= 0.0)) return "expected a time from 0 s on";
-    if (answer.ranOut) return s.answerSeconds > 0.0 ? "" : "expected an answer, as time does not run out";
-    switch (s.answer()) {
-    case AnswerKind::wish:
-        if (s.fewestTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
+    if (answer.timedOut) return s.answerSeconds > 0.0 ? "" : "expected an answer, as time does not run out";
+    switch (s.answerKind()) {
+    case AnswerKind::request:
+        if (s.minTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
         return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
     case AnswerKind::label:
         return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
     case AnswerKind::place: return isOnField(answer.place) ? "" : "expected a place on the field";
     case AnswerKind::choice: {
-        const auto& words = s.answers.empty() ? trial_->parts : s.answers;
-        const bool isThere = std::ranges::find(words, answer.response) != words.end();
-        return isThere ? "" : "expected one of the alternatives, found " + answer.response;
+        const auto& offered = s.answers.empty() ? trial_->parts : s.answers;
+        const bool isOffered = std::ranges::find(offered, answer.response) != offered.end();
+        return isOffered ? "" : "expected one of the alternatives, found " + answer.response;
     }
     case AnswerKind::scores:
         return answer.scores.size() == s.scores().size() &&
-                       std::ranges::all_of(answer.scores, [&](double score) { return isScore(s, score); })
+                       std::ranges::all_of(answer.scores,
+                                           [&](double score) { return isValidScore(s, score); })
                    ? ""
                    : "expected a score from " + std::string(s.points > 0 ? "1" : "0") + " to " +
                          std::to_string(s.points > 0 ? s.points : 100) + " per scale";
     case AnswerKind::level:
-        return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb
+        return answer.value >= s.adjustment->minDb && answer.value <= s.adjustment->maxDb
                    ? ""
                    : "expected a level within the adjustment's range";
     case AnswerKind::number:
-        return answer.value >= leastEstimate && answer.value <= mostEstimate
+        return answer.value >= minEstimate && answer.value <= maxEstimate
                    ? ""
                    : "expected a number from 1e-12 to 1e12";
     case AnswerKind::words:
         if (answer.response.empty()) return s.mayBeEmpty ? "" : "expected words, found none";
-        return answer.response.size() <= mostAnswerBytes
+        return answer.response.size() <= maxAnswerBytes
                    ? ""
-                   : "expected at most " + std::to_string(mostAnswerBytes) + " bytes of words";
+                   : "expected at most " + std::to_string(maxAnswerBytes) + " bytes of words";
     }
     return "expected a task";
 }
 
-TrialRecord Experiment::take(Answer answer) {
+TrialRecord Experiment::acceptAnswer(Answer answer) {
     TrialRecord record{std::move(*trial_), std::move(answer)};
-    if (plan().answer() == AnswerKind::wish) explored_.insert(record.answer.response);
-    const bool left = record.answer.left.value_or(true), counts = left && !record.answer.ranOut;
-    if (plan().adjustment && counts)
+    if (plan().answerKind() == AnswerKind::request) explored_.insert(record.answer.response);
+    const bool wasDelivered = record.answer.wasDelivered.value_or(true),
+               movesLevel = wasDelivered && !record.answer.timedOut;
+    if (plan().adjustment && movesLevel)
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(
             record.answer.value);
-    if (adaptive_ && counts) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
-    if (left) inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
-    ++inSession_;
-    ++taken_;
+    if (adaptive_ && movesLevel) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
+    if (wasDelivered)
+        consecutiveCorrect_ = isCorrect(protocol_, record).value_or(false) ? consecutiveCorrect_ + 1 : 0;
+    ++answeredInSession_;
+    ++answeredTrials_;
     advance();
     return record;
 }
 
-std::string Experiment::redo(const TrialRecord& record) {
+std::string Experiment::replay(const TrialRecord& record) {
     if (!isDone() && mayEnd() &&
         (record.trial.condition != trial_->condition || record.trial.session != trial_->session))
         endSession();
@@ -228,8 +232,8 @@ std::string Experiment::redo(const TrialRecord& record) {
     if (record.trial.stimulus != t.stimulus) return "expected the stimulus " + t.stimulus;
     if (adaptive_ && record.trial.levelDb != t.levelDb)
         return "expected the level " + std::to_string(t.levelDb) + " dB";
-    if (auto fault = refusal(record.answer); !fault.empty()) return fault;
-    take(record.answer);
+    if (auto error = answerError(record.answer); !error.empty()) return error;
+    acceptAnswer(record.answer);
     return {};
 }
 
@@ -248,7 +252,7 @@ std::optional<double> Experiment::adjustedDb(std::size_t condition, const std::s
 namespace {
 
 /// Level in g, rounded so that its text is short and exact to a thousandth of a dB.
-double raised(double levelG, double db) {
+double scaledLevelG(double levelG, double db) {
     return db == 0.0 ? levelG : std::round(levelG * fromDecibels(db) * 1e6) * 1e-6;
 }
 
@@ -265,10 +269,10 @@ struct JobMaker {
     const std::string& label() const {
         return record.trial.stimulus.empty() ? record.answer.response : record.trial.stimulus;
     }
-    StimulusJob job(std::variant<PatternJob, PhantomJob> what, double db) const {
-        return {std::move(what), condition.layout,
+    StimulusJob job(std::variant<PatternJob, PhantomJob> stimulus, double db) const {
+        return {std::move(stimulus), condition.layout,
                 condition.isAtResonance ? std::nullopt : std::optional{condition.frequencyHz},
-                raised(condition.levelG, db)};
+                scaledLevelG(condition.levelG, db)};
     }
 
     TrialJob operator()(const PatternSet& set, const Part& part) const {
@@ -277,52 +281,53 @@ struct JobMaker {
     TrialJob operator()(const GridSet& set, const Part& part) const {
         PhantomJob phantom{GridPlace{set.grid(), parseGridCell(label()).value_or(GridCell{})}, set.law,
                            set.exponent, set.seconds};
-        if (record.trial.stimulus.empty() && record.answer.place) phantom.at = *record.answer.place;
+        if (record.trial.stimulus.empty() && record.answer.place) phantom.target = *record.answer.place;
         return job(std::move(phantom), part.levelDb);
     }
     TrialJob operator()(const CallSet& set, const Part& part) const {
-        const auto items = stimuliOf(condition);
+        const auto items = conditionStimuli(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        return WrittenCall{withSounds(protocol, callOf(set, item != items.end() ? *item : StimulusItem{},
-                                                       part.name, part.levelDb, record.trial.roveDb))};
+        return ResolvedCall{
+            withSoundOptions(protocol, resolvedCall(set, item != items.end() ? *item : StimulusItem{},
+                                                    part.name, part.levelDb, record.trial.roveDb))};
     }
 };
 
 } // namespace
 
-std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial) {
+std::optional<GridCell> targetCell(const ConditionPlan& condition, const Trial& trial) {
     return std::holds_alternative<GridSet>(condition.stimuli) ? parseGridCell(trial.stimulus) : std::nullopt;
 }
 
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    if (!session.hasCorrectAnswers() || record.answer.ranOut) return std::nullopt;
+    if (!session.hasCorrectAnswers() || record.answer.timedOut) return std::nullopt;
     const std::string* const adapted = session.adaptedAlternative();
     return record.answer.response == (adapted != nullptr         ? *adapted
                                       : !session.correct.empty() ? session.correct
                                                                  : record.trial.stimulus);
 }
 
-std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record) {
+std::vector<TrialJob> trialJobs(const Protocol& protocol, const TrialRecord& record) {
     const ConditionPlan& condition = protocol.conditions[record.trial.condition];
     const SessionPlan& session = protocol.sessions[record.trial.session];
     std::vector<TrialJob> jobs;
-    if (session.isOnce) return jobs;
-    const auto add = [&](const TrialRecord& of, const Part& part) {
+    if (session.isQuestionnaire) return jobs;
+    const auto add = [&](const TrialRecord& partRecord, const Part& part) {
         jobs.push_back(std::visit(
             [&](const auto& set) {
-                return JobMaker{protocol, condition, of}(set, part);
+                return JobMaker{protocol, condition, partRecord}(set, part);
             },
             condition.stimuli));
     };
     const bool hasModulus = !session.modulus.empty() && record.trial.parts.size() == 2;
     if (hasModulus || (session.comparesPairs && !record.trial.parts.empty())) { // parts are stimuli
-        TrialRecord one = record;
+        TrialRecord partRecord = record;
         for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
-            one.trial.stimulus = !hasModulus ? record.trial.parts[i]
-                                 : i == 0    ? session.modulus
-                                             : record.trial.stimulus;
-            add(one, {});
+            partRecord.trial.stimulus = !hasModulus ? record.trial.parts[i]
+                                        : i == 0    ? session.modulus
+                                                    : record.trial.stimulus;
+            add(partRecord, {});
         }
         return jobs;
     }
@@ -398,9 +403,9 @@ std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t s
     for (int repetition = 0; repetition < session.repetitions; ++repetition) {
         std::vector<PlannedTrial> block;
         for (std::size_t s = 0; s < stimuli; ++s) {
-            const bool isOfTwo = session.comparesPairs ||
-                                 (session.alternatives.size() == 2 && session.answer() == AnswerKind::choice);
-            block.push_back({s, !session.bothOrders && isOfTwo && random.chance(0.5)});
+            const bool comparesTwo = session.comparesPairs || (session.alternatives.size() == 2 &&
+                                                               session.answerKind() == AnswerKind::choice);
+            block.push_back({s, !session.bothOrders && comparesTwo && random.chance(0.5)});
             if (session.bothOrders) block.push_back({s, true});
         }
         if (session.order == SessionPlan::Order::blocks) random.shuffle(block);

@@ -4,7 +4,7 @@
 // Recorded answers can be replayed, so an interrupted study resumes.
 #pragma once
 #include "Lab/Study/Protocol.h"
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include "Stimuli/SeededRandom.h"
 #include "Stimuli/Stimulus.h"
 #include <algorithm>
@@ -54,37 +54,37 @@ public:
 
     double levelDb() const noexcept { return levelDb_; }
     bool isDone() const noexcept {
-        return trials_ >= plan_.mostTrials || static_cast<int>(reversals_.size()) >= plan_.reversals;
+        return trials_ >= plan_.maxTrials || static_cast<int>(reversals_.size()) >= plan_.reversals;
     }
 
     void answer(bool isCorrect) {
         ++trials_;
-        if (isCorrect && ++inARow_ < plan_.down) return;
-        inARow_ = 0;
+        if (isCorrect && ++consecutiveCorrect_ < plan_.down) return;
+        consecutiveCorrect_ = 0;
         const int direction = isCorrect ? -1 : 1;
         if (lastDirection_ != 0 && direction != lastDirection_) {
             reversals_.push_back(levelDb_);
-            stepDb_ = std::max(plan_.leastStepDb, 0.5 * stepDb_);
+            stepDb_ = std::max(plan_.minStepDb, 0.5 * stepDb_);
         }
         lastDirection_ = direction;
-        levelDb_ = std::clamp(levelDb_ + (direction > 0 ? plan_.upRatio : -1.0) * stepDb_, plan_.leastDb,
-                              plan_.mostDb);
+        levelDb_ =
+            std::clamp(levelDb_ + (direction > 0 ? plan_.upRatio : -1.0) * stepDb_, plan_.minDb, plan_.maxDb);
     }
 
     const std::vector<double>& reversals() const noexcept { return reversals_; }
     /// "ended at 40 trials with 5 of 6 reversals" if the trials ran out first; else empty.
-    std::string cutShort() const {
+    std::string earlyEnd() const {
         const int found = static_cast<int>(reversals_.size());
         return !isDone() || found >= plan_.reversals
                    ? std::string{}
-                   : "ended at " + std::to_string(plan_.mostTrials) + " trials with " +
-                         std::to_string(found) + " of " + std::to_string(plan_.reversals) + " reversals";
+                   : "ended at " + std::to_string(plan_.maxTrials) + " trials with " + std::to_string(found) +
+                         " of " + std::to_string(plan_.reversals) + " reversals";
     }
 
 private:
     StaircasePlan plan_;
     double levelDb_, stepDb_;
-    int trials_ = 0, inARow_ = 0, lastDirection_ = 0;
+    int trials_ = 0, consecutiveCorrect_ = 0, lastDirection_ = 0;
     std::vector<double> reversals_;
 };
 
@@ -122,31 +122,34 @@ public:
     }
 
     double levelDb() const {
-        return std::visit([](const auto& m) { return m.levelDb(); }, methods_[at_]);
+        return std::visit([](const auto& m) { return m.levelDb(); }, methods_[current_]);
     }
-    bool isDone() const { return std::ranges::all_of(methods_, isOver); }
+    bool isDone() const { return std::ranges::all_of(methods_, isMethodDone); }
     /// Text on staircases that ended before their number of reversals; else empty.
-    std::string cutShort() const {
+    std::string earlyEnd() const {
         std::string words;
         for (std::size_t i = 0; i < methods_.size(); ++i)
-            if (const auto* const one = std::get_if<Staircase>(&methods_[i]); one && !one->cutShort().empty())
+            if (const auto* const staircase = std::get_if<Staircase>(&methods_[i]);
+                staircase && !staircase->earlyEnd().empty())
                 words += (words.empty() ? "" : "; ") +
                          (methods_.size() > 1 ? "staircase " + std::to_string(i + 1) : "the staircase") +
-                         " " + one->cutShort();
+                         " " + staircase->earlyEnd();
         return words;
     }
     void answer(bool isCorrect) {
-        std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[at_]);
+        std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[current_]);
     }
     /// Selects the staircase, from 0, that the next answer belongs to; a larger index selects the last one.
-    void choose(std::size_t staircase) noexcept { at_ = std::min(staircase, methods_.size() - 1); }
+    void selectStaircase(std::size_t staircase) noexcept {
+        current_ = std::min(staircase, methods_.size() - 1);
+    }
     /// Selects an unfinished staircase at random; returns its number from 1, or 0 if there is only one.
     /// Precondition: !isDone().
-    std::size_t draw(SeededRandom& random) {
+    std::size_t drawStaircase(SeededRandom& random) {
         if (methods_.size() == 1) return 0;
-        do at_ = random.below(methods_.size());
-        while (isOver(methods_[at_]));
-        return at_ + 1;
+        do current_ = random.below(methods_.size());
+        while (isMethodDone(methods_[current_]));
+        return current_ + 1;
     }
     /// Number of trials in the run; 0 if the answers decide when it ends.
     int trials() const noexcept {
@@ -156,11 +159,11 @@ public:
 
 private:
     using Method = std::variant<Staircase, QuestTrials>;
-    static bool isOver(const Method& method) {
+    static bool isMethodDone(const Method& method) {
         return std::visit([](const auto& m) { return m.isDone(); }, method);
     }
     std::vector<Method> methods_;
-    std::size_t at_ = 0;
+    std::size_t current_ = 0;
 };
 
 // One trial: its stimulus, its answer, and the jobs that reproduce it.
@@ -180,9 +183,9 @@ struct Trial {
     std::vector<std::string> parts;   ///< played separately: alternatives as their buttons, or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
     double roveDb = 0.0;              ///< offset of the roving variable; 0 if there is none
-    double levelDb = 0.0;             ///< of the adapted, adjusted or matched alternative; else 0
+    double levelDb = 0.0;             ///< of the alternative that is adapted, adjusted or matched; else 0
     std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
-    double restSeconds = 0.0;         ///< break before it
+    double breakSeconds = 0.0;        ///< break before it
 };
 
 /// Settings of the apparatus in a trial. They must be the same in all trials of a participant.
@@ -195,27 +198,28 @@ struct Apparatus {
     bool operator==(const Apparatus&) const = default;
 };
 
-constexpr double leastEstimate = 1e-12, mostEstimate = 1e12; // range of magnitude estimates
-constexpr std::size_t mostAnswerBytes = 4000;                // of an answer in words
+constexpr double minEstimate = 1e-12, maxEstimate = 1e12; // range of magnitude estimates
+constexpr std::size_t maxAnswerBytes = 4000;              // of an answer in words
 
 /// A participant's answer. Each task uses some of the fields.
 struct Answer {
     std::string response; ///< identify: a label; choose: an alternative; explore: a stimulus; describe: words
-    std::optional<FieldPlace> place; ///< locate; explore with free touches
-    std::vector<double> scores;      ///< rate: one per scale
-    double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
-    bool ranOut = false;             ///< the time for an answer was over; there is no answer
-    int plays = 1;                   ///< number of plays
-    double seconds = 0.0;            ///< from the first play to the answer
-    std::vector<FeltLevel> felt{}; ///< felt level of each part in its last play; empty if no device was used
-    std::optional<Apparatus> apparatus{}; ///< none if no device was used
-    double limiterDb = 0.0;               ///< maximum gain reduction of the limiter
-    std::optional<bool> left{}; ///< whether every part left as planned in its last play; none: not known, as
-                                ///< there was no device
-    int again = 0; ///< plays that were not delivered as planned and were repeated; not among `plays`
-    std::optional<double> exposure{};    ///< of the participant so far, A(8) in m/s^2; none: not measured
-    std::vector<std::string> sessions{}; ///< interactive worlds: saved sessions of each scene run in order,
-                                         ///< beside the trial file
+    std::optional<FieldPlace> place;         ///< locate; explore with free touches
+    std::vector<double> scores;              ///< rate: one per scale
+    double value = 0.0;                      ///< adjust: dB; estimate: minEstimate to maxEstimate
+    bool timedOut = false;                   ///< the time for an answer was over; there is no answer
+    int plays = 1;                           ///< number of plays
+    double seconds = 0.0;                    ///< from the first play to the answer
+    std::vector<PlayedLevel> playedLevels{}; ///< output level of each part in its last play; empty if no
+                                             ///< device was used
+    std::optional<Apparatus> apparatus{};    ///< none if no device was used
+    double limiterDb = 0.0;                  ///< maximum gain reduction of the limiter
+    std::optional<bool> wasDelivered{}; ///< whether every part left as planned in its last play; none: not
+                                        ///< known, as there was no device
+    int revokedPlays = 0; ///< plays that were not delivered as planned and were repeated; not among `plays`
+    std::optional<double> exposure{}; ///< of the participant so far, A(8) in m/s^2; none: not measured
+    std::vector<std::string> worldSessions{}; ///< interactive worlds: saved sessions of each scene run in
+                                              ///< order, beside the trial file
     bool operator==(const Answer&) const = default;
 };
 
@@ -226,31 +230,31 @@ struct TrialRecord {
 };
 
 /// The grid cell of a trial's stimulus; nullopt if it is not a cell. Any thread.
-std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial);
+std::optional<GridCell> targetCell(const ConditionPlan& condition, const Trial& trial);
 
 /// Whether the answer was correct; nullopt if the task has no correct answer, or time ran out. Any thread.
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
 
 /// A call in a protocol (see CallSet), with all names replaced.
-struct WrittenCall {
+struct ResolvedCall {
     std::string words;
-    bool operator==(const WrittenCall&) const = default;
+    bool operator==(const ResolvedCall&) const = default;
 };
-inline std::string textOf(const WrittenCall& call) { return call.words; }
+inline std::string textOf(const ResolvedCall& call) { return call.words; }
 
 /// The call with the recordings that it plays appended: " --sound 80=ball.wav" and so on; a path with spaces
 /// is quoted. Any thread (allocates).
-std::string withSounds(const Protocol& protocol, std::string call);
+std::string withSoundOptions(const Protocol& protocol, std::string call);
 
 /// The job that creates one part of a trial.
-using TrialJob = std::variant<StimulusJob, WrittenCall>;
+using TrialJob = std::variant<StimulusJob, ResolvedCall>;
 
 /// One job per part, or one for a trial without parts. For an unanswered trial, pass the current answer.
 /// Message thread only (allocates).
-std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record);
+std::vector<TrialJob> trialJobs(const Protocol& protocol, const TrialRecord& record);
 
 /// Texts of the jobs, joined by " ; "; of interactive worlds the saved sessions. Message thread only.
-std::string callsOf(const Protocol& protocol, const TrialRecord& record);
+std::string resolvedCalls(const Protocol& protocol, const TrialRecord& record);
 
 /// Progress of the current trial: decides when an answer is allowed. The caller has the clock.
 class TrialProgress {
@@ -259,31 +263,31 @@ public:
 
     /// True if `part` may be played (again).
     bool canPlay(std::size_t part) const noexcept {
-        return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
+        return part < parts_.size() && (session_.maxPlays == 0 || parts_[part].plays < session_.maxPlays);
     }
-    void played(std::size_t part) noexcept {
+    void addPlay(std::size_t part) noexcept {
         ++parts_[part].plays;
-        parts_[part].isOwed = false;
+        parts_[part].isReplayDue = false;
     }
     /// The last play of `part` was not delivered: it no longer counts, and the part must be played again
     /// before an answer is accepted.
-    void lost(std::size_t part) noexcept {
-        Part& own = parts_[part];
-        --own.plays;
-        own.seconds = 0.0;
-        own.isOwed = true;
-        ++again_;
+    void revokePlay(std::size_t part) noexcept {
+        Part& played = parts_[part];
+        --played.plays;
+        played.seconds = 0.0;
+        played.isReplayDue = true;
+        ++revokedPlays_;
     }
     /// Adds time spent with `part`.
-    void spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
+    void addSeconds(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
     /// True if every part was played, none must be repeated, and each had its minimum time.
     bool canAnswer() const noexcept {
         return std::ranges::all_of(parts_, [this](const Part& p) {
-            return p.plays > 0 && !p.isOwed && p.seconds >= session_.leastSeconds;
+            return p.plays > 0 && !p.isReplayDue && p.seconds >= session_.minSeconds;
         });
     }
     int plays() const noexcept;
-    int again() const noexcept { return again_; } ///< plays that were lost
+    int revokedPlays() const noexcept { return revokedPlays_; } ///< plays that were lost
     int plays(std::size_t part) const noexcept { return parts_[part].plays; }
     double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< time with it
 
@@ -291,18 +295,18 @@ private:
     struct Part {
         int plays = 0;
         double seconds = 0.0;
-        bool isOwed = false;
+        bool isReplayDue = false;
     };
     const SessionPlan& session_;
     std::vector<Part> parts_;
-    int again_ = 0;
+    int revokedPlays_ = 0;
 };
 
-/// Message thread only. `protocol` is valid and outlives the experiment.
+/// Runs the trials of one participant. `protocol` is valid and outlives it. Message thread only.
 class Experiment {
 public:
-    /// `explorersEnd`: the participant ends an exploration by endSession(); else it ends as soon as it may.
-    Experiment(const Protocol& protocol, Participant participant, bool explorersEnd = false);
+    /// `endsOnRequest`: the participant ends an exploration by endSession(); else it ends as soon as it may.
+    Experiment(const Protocol& protocol, Participant participant, bool endsOnRequest = false);
 
     bool isDone() const noexcept { return !trial_; }
 
@@ -312,37 +316,37 @@ public:
     const ConditionPlan& condition() const noexcept { return protocol_.conditions[trial_->condition]; }
 
     /// Why the answer does not fit this trial, e.g. `expected a place, found none`; empty if it fits.
-    std::string refusal(const Answer& answer) const;
+    std::string answerError(const Answer& answer) const;
 
-    /// Stores an answer that refusal() accepts, and advances to the next trial. If the trial was not
+    /// Stores an answer that answerError() accepts, and advances to the next trial. If the trial was not
     /// delivered as planned or timed out, its answer changes no level.
-    TrialRecord take(Answer answer);
+    TrialRecord acceptAnswer(Answer answer);
 
-    /// Replays a recorded trial with take() if it is the one that this experiment expects. Otherwise returns
-    /// the difference and changes nothing.
-    std::string redo(const TrialRecord& record);
+    /// Replays a recorded trial with acceptAnswer() if it is the one that this experiment expects. Otherwise
+    /// returns the difference and changes nothing.
+    std::string replay(const TrialRecord& record);
 
     /// True if the current exploration may end: all stimuli, or enough places, were played.
-    bool mayEnd() const { return trial_ && session().answer() == AnswerKind::wish && hasExplored(); }
+    bool mayEnd() const { return trial_ && session().answerKind() == AnswerKind::request && hasExplored(); }
     /// Starts the next session. Precondition: mayEnd().
     void endSession() {
-        isEnded_ = true;
+        isExplorationEnded_ = true;
         advance();
     }
 
-    int trialsTaken() const noexcept { return taken_; }
+    int answeredTrials() const noexcept { return answeredTrials_; }
 
     /// Trials of the current session; 0 if answers decide (a staircase, an open exploration).
     int sessionTrials() const noexcept {
         if (adaptive_) return adaptive_->trials();
-        return plan().answer() == AnswerKind::wish || plan().untilCorrect > 0
+        return plan().answerKind() == AnswerKind::request || plan().untilCorrect > 0
                    ? 0
                    : static_cast<int>(order_.size());
     }
 
     /// Number of the current session among those of all conditions, from 1, in this participant's order.
     int sessionNumber() const noexcept {
-        return static_cast<int>(conditionAt_ * protocol_.sessions.size() + sessionAt_) + 1;
+        return static_cast<int>(conditionPosition_ * protocol_.sessions.size() + sessionIndex_) + 1;
     }
 
     /// Stimuli that were requested in the current exploration.
@@ -357,34 +361,34 @@ private:
     void advance();
     bool isSessionOver() const;
     bool hasExplored() const {
-        return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches
-                                        : explored_.size() >= items_.size();
+        return plan().minTouches > 0 ? answeredInSession_ >= plan().minTouches
+                                     : explored_.size() >= items_.size();
     }
     Trial nextTrial();
-    double startOf(const Adjustment& adjustment, int trial) const;
+    double adjustmentStartDb(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);
     SeededRandom randomFor(const std::string& purpose) const;
-    std::size_t conditionIndex() const { return conditions_[conditionAt_]; }
-    const SessionPlan& plan() const { return protocol_.sessions[sessionAt_]; }
+    std::size_t conditionIndex() const { return conditions_[conditionPosition_]; }
+    const SessionPlan& plan() const { return protocol_.sessions[sessionIndex_]; }
 
     const Protocol& protocol_;
     Participant participant_;
-    bool explorersEnd_;
+    bool endsOnRequest_;
     std::vector<std::size_t> conditions_; // in this participant's order
-    std::size_t conditionAt_ = 0, sessionAt_ = 0;
+    std::size_t conditionPosition_ = 0, sessionIndex_ = 0;
 
     std::vector<StimulusItem> items_; // of the current condition
     std::vector<PlannedTrial> order_; // of the current session
     std::set<std::string> explored_;
-    bool isEnded_ = false; // the participant ended the exploration
+    bool isExplorationEnded_ = false; // the participant ended the exploration
     std::optional<AdaptiveLevel> adaptive_;
-    int inSession_ = 0; // trials answered
-    int inARow_ = 0;    // right answers
+    int answeredInSession_ = 0;  // trials answered
+    int consecutiveCorrect_ = 0; // correct answers in a row
 
-    // (condition, session), stimulus
+    // adjusted levels in dB by (condition, session) and stimulus
     std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_;
     std::optional<Trial> trial_;
-    int taken_ = 0;
+    int answeredTrials_ = 0;
 };
 
 } // namespace physvib

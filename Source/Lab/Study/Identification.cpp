@@ -44,13 +44,13 @@ int manhattanDistance(const GridCell& a, const GridCell& b) noexcept {
 
 ConfusionMatrix::ConfusionMatrix(const std::vector<IdentificationTrial>& trials)
     : trials_{trials.size()} {
-    Labels stimuli, others;
+    Labels stimuli, extraResponses;
     for (const auto& trial : trials) stimuli.insert(trial.stimulus);
     for (const auto& trial : trials)
-        if (!stimuli.contains(trial.response)) others.insert(trial.response);
+        if (!stimuli.contains(trial.response)) extraResponses.insert(trial.response);
     stimuli_ = stimuli.size();
     labels_.assign(stimuli.begin(), stimuli.end());
-    labels_.insert(labels_.end(), others.begin(), others.end());
+    labels_.insert(labels_.end(), extraResponses.begin(), extraResponses.end());
     counts_.assign(stimuli_ * labels_.size(), 0);
     for (const auto& trial : trials)
         ++counts_[indexOf(trial.stimulus) * labels_.size() + indexOf(trial.response)];
@@ -93,15 +93,15 @@ std::size_t occupied(const std::vector<std::uint64_t>& counts) {
 
 double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives,
                 double shareOutside) noexcept {
-    const double wrong = 1.0 - shareCorrect, all = static_cast<double>(alternatives);
-    const double binary = -plogp(wrong) - plogp(shareCorrect);
-    const double among = alternatives > 1 ? (wrong - shareOutside) * std::log2(all - 1.0) : 0.0;
-    return std::max(0.0, stimulusEntropyBits - binary - among - shareOutside * std::log2(all));
+    const double shareWrong = 1.0 - shareCorrect, count = static_cast<double>(alternatives);
+    const double binaryEntropy = -plogp(shareWrong) - plogp(shareCorrect);
+    const double amongBits = alternatives > 1 ? (shareWrong - shareOutside) * std::log2(count - 1.0) : 0.0;
+    return std::max(0.0, stimulusEntropyBits - binaryEntropy - amongBits - shareOutside * std::log2(count));
 }
 
 InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
-    InformationTransfer it;
-    if (matrix.trials() == 0) return it;
+    InformationTransfer transfer;
+    if (matrix.trials() == 0) return transfer;
     const auto n = static_cast<double>(matrix.trials());
     const auto rows = matrix.stimulusTotals(), columns = matrix.responseTotals();
     std::ptrdiff_t cells = 0;
@@ -110,34 +110,35 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
             const double count = matrix.count(i, j);
             if (count == 0.0) continue;
             ++cells;
-            it.bits +=
+            transfer.bits +=
                 count / n *
                 std::log2(count * n / (static_cast<double>(rows[i]) * static_cast<double>(columns[j])));
         }
-    it.bits = std::max(0.0, it.bits); // rounding can give values below zero
+    transfer.bits = std::max(0.0, transfer.bits); // rounding can give values below zero
     const auto parameters = cells - static_cast<std::ptrdiff_t>(occupied(rows) + occupied(columns)) + 1;
-    it.biasBits =
+    transfer.biasBits =
         static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);
     const auto outside = std::accumulate(columns.begin() + static_cast<std::ptrdiff_t>(matrix.stimuli()),
                                          columns.end(), std::uint64_t{0});
-    it.leastBits = fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n, matrix.stimuli(),
-                            static_cast<double>(outside) / n);
-    it.mostBits = std::log2(static_cast<double>(matrix.stimuli()));
-    it.trialsPerCell = n / static_cast<double>(matrix.stimuli() * matrix.responses());
-    return it;
+    transfer.minBits = fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n,
+                                matrix.stimuli(), static_cast<double>(outside) / n);
+    transfer.maxBits = std::log2(static_cast<double>(matrix.stimuli()));
+    transfer.trialsPerCell = n / static_cast<double>(matrix.stimuli() * matrix.responses());
+    return transfer;
 }
 
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials) {
     std::vector<ParticipantTransfer> transfers;
-    for (const auto& [participant, own] : byParticipant(trials)) {
-        const ConfusionMatrix matrix{own};
+    for (const auto& [participant, participantTrials] : groupByParticipant(trials)) {
+        const ConfusionMatrix matrix{participantTrials};
         transfers.push_back({participant, matrix, informationTransfer(matrix)});
     }
     return transfers;
 }
 
-std::vector<ParticipantTransfer> comparable(std::vector<ParticipantTransfer> people, std::size_t stimuli) {
-    const auto lacks = [=](const ParticipantTransfer& own) { return own.matrix.stimuli() != stimuli; };
+std::vector<ParticipantTransfer> withAllStimuli(std::vector<ParticipantTransfer> people,
+                                                std::size_t stimuli) {
+    const auto lacks = [=](const ParticipantTransfer& person) { return person.matrix.stimuli() != stimuli; };
     if (std::ssize(people) - std::ranges::count_if(people, lacks) > 1) std::erase_if(people, lacks);
     return people;
 }
@@ -179,29 +180,30 @@ std::vector<std::vector<double>> mergedRows(const PercentCounts& counts, const S
     return strips;
 }
 
-/// Enumerates the divisions of the columns into groups that all reach `least` in every strip.
+/// Enumerates the divisions of the columns into groups that all reach `threshold` in every strip.
 class ColumnDivisions {
 public:
-    ColumnDivisions(const std::vector<std::vector<double>>& strips, double least)
+    ColumnDivisions(const std::vector<std::vector<double>>& strips, double threshold)
         : strips_{strips}
-        , least_{least}
+        , threshold_{threshold}
         , columns_{strips.front().size()}
-        , most_(columns_ + 1, 0) {
+        , maxGroups_(columns_ + 1, 0) {
         for (std::size_t from = columns_; from-- > 0;)
-            if (const std::size_t size = fewestFrom(from); size > 0)
-                most_[from] = from + size == columns_ ? 1 : std::max<std::size_t>(most_[from + size] + 1, 1);
+            if (const std::size_t size = minColumnsFrom(from); size > 0)
+                maxGroups_[from] =
+                    from + size == columns_ ? 1 : std::max<std::size_t>(maxGroups_[from + size] + 1, 1);
     }
-    std::size_t most() const { return most_[0]; }
+    std::size_t maxGroups() const { return maxGroups_[0]; }
     std::vector<Sizes> ofSize(std::size_t groups) {
-        found_.clear();
+        divisions_.clear();
         groups_.clear();
         extend(0, groups);
-        return found_;
+        return divisions_;
     }
 
 private:
     /// Smallest number of columns from `from` that reach the threshold; 0 if all of them do not.
-    std::size_t fewestFrom(std::size_t from) const {
+    std::size_t minColumnsFrom(std::size_t from) const {
         for (std::size_t size = 1; from + size <= columns_; ++size)
             if (reaches(from, size)) return size;
         return 0;
@@ -209,37 +211,37 @@ private:
     bool reaches(std::size_t from, std::size_t size) const {
         return std::ranges::all_of(strips_, [=, this](const auto& strip) {
             const auto first = strip.begin() + static_cast<std::ptrdiff_t>(from);
-            return std::accumulate(first, first + static_cast<std::ptrdiff_t>(size), 0.0) >= least_;
+            return std::accumulate(first, first + static_cast<std::ptrdiff_t>(size), 0.0) >= threshold_;
         });
     }
-    void extend(std::size_t from, std::size_t left) {
-        if (from == columns_ && left == 0) found_.push_back(groups_);
-        if (left == 0 || most_[from] < left) return;
+    void extend(std::size_t from, std::size_t remaining) {
+        if (from == columns_ && remaining == 0) divisions_.push_back(groups_);
+        if (remaining == 0 || maxGroups_[from] < remaining) return;
         for (std::size_t size = 1; from + size <= columns_; ++size) {
             if (!reaches(from, size)) continue;
             groups_.push_back(size);
-            extend(from + size, left - 1);
+            extend(from + size, remaining - 1);
             groups_.pop_back();
         }
     }
 
     const std::vector<std::vector<double>>& strips_;
-    double least_;
+    double threshold_;
     std::size_t columns_;
-    std::vector<std::size_t> most_; // maximum number of groups from each column on
+    std::vector<std::size_t> maxGroups_; // maximum number of groups from each column on
     Sizes groups_;
-    std::vector<Sizes> found_;
+    std::vector<Sizes> divisions_;
 };
 
-void addMerges(const PercentCounts& counts, const Sizes& rowGroups, double least, std::size_t& best,
+void addMerges(const PercentCounts& counts, const Sizes& rowGroups, double threshold, std::size_t& best,
                std::vector<GridMerge>& ties) {
     const auto strips = mergedRows(counts, rowGroups);
-    ColumnDivisions columns{strips, least};
-    const std::size_t cells = columns.most() * rowGroups.size();
+    ColumnDivisions columns{strips, threshold};
+    const std::size_t cells = columns.maxGroups() * rowGroups.size();
     if (cells == 0 || cells < best) return;
     if (cells > best) ties.clear();
     best = cells;
-    for (Sizes& groups : columns.ofSize(columns.most())) ties.push_back({std::move(groups), rowGroups});
+    for (Sizes& groups : columns.ofSize(columns.maxGroups())) ties.push_back({std::move(groups), rowGroups});
 }
 
 } // namespace
@@ -259,7 +261,7 @@ PerceptualResolution perceptualResolution(const PercentCounts& counts, double th
     return result;
 }
 
-PercentCounts merged(const PercentCounts& counts, const GridMerge& merge) {
+PercentCounts mergedCounts(const PercentCounts& counts, const GridMerge& merge) {
     PercentCounts result{counts.condition, merge.rowGroups.size(), merge.columnGroups.size(), {}};
     for (const auto& strip : mergedRows(counts, merge.rowGroups)) {
         auto from = strip.begin();

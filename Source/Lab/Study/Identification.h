@@ -90,8 +90,8 @@ constexpr double trialsPerCellForCorrection = 5.0;
 struct InformationTransfer {
     double bits = 0.0;          ///< maximum-likelihood estimate; biased upward with few trials
     double biasBits = 0.0;      ///< expected bias of `bits`; 0 if every stimulus has one response only
-    double leastBits = 0.0;     ///< Fano's lower bound from the percent correct
-    double mostBits = 0.0;      ///< log2 of the number of stimuli
+    double minBits = 0.0;       ///< Fano's lower bound from the percent correct
+    double maxBits = 0.0;       ///< log2 of the number of stimuli
     double trialsPerCell = 0.0; ///< trials / (stimuli x responses)
 
     bool canBeCorrected() const noexcept { return trialsPerCell >= trialsPerCellForCorrection; }
@@ -104,8 +104,8 @@ struct InformationTransfer {
 /// bits = sum_ij n_ij/n log2(n_ij n / (n_i. n_.j))
 /// biasBits = max(0, cells - rows - columns + 1) / (2 n ln 2), counting only cells that occurred. Cells that
 /// cannot occur add no bias, so this is Miller's correction without its overshoot for sparse matrices.
-/// leastBits = H(stimuli) - h(P_e) - (P_e - P_o) log2(M - 1) - P_o log2 M (Fano); M = number of stimuli, P_o
-/// = share of responses that are none of them, after which each may have been felt
+/// minBits = H(stimuli) - h(P_e) - (P_e - P_o) log2(M - 1) - P_o log2 M (Fano); M = number of stimuli, P_o
+/// = share of responses that are no stimulus, after which each stimulus is possible
 InformationTransfer informationTransfer(const ConfusionMatrix& matrix);
 
 /// Fano's lower bound, clamped to at least 0. Any thread.
@@ -119,16 +119,16 @@ struct ParticipantTransfer {
     InformationTransfer transfer;
 };
 
-/// In the order of first trials; without participants one of an empty name. Any thread (allocates).
+/// In the order of first trials; trials without participants have one with an empty name. Any thread.
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
 
 /// Keeps the participants who had all stimuli, so that means can be compared; all if fewer than two had.
-std::vector<ParticipantTransfer> comparable(std::vector<ParticipantTransfer> people, std::size_t stimuli);
+std::vector<ParticipantTransfer> withAllStimuli(std::vector<ParticipantTransfer> people, std::size_t stimuli);
 
 // Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).
 
 /// Bits needed for that number of meanings: log2. Any thread.
-inline double bitsFor(std::size_t meanings) noexcept {
+inline double bitsForMeanings(std::size_t meanings) noexcept {
     return meanings > 1 ? std::log2(static_cast<double>(meanings)) : 0.0;
 }
 
@@ -149,25 +149,25 @@ inline std::vector<std::size_t> leastConfused(const ConfusionMatrix& matrix, std
         return matrix.count(a, b) / static_cast<double>(totals[a]) +
                matrix.count(b, a) / static_cast<double>(totals[b]);
     };
-    std::vector<std::size_t> left(matrix.stimuli());
-    std::iota(left.begin(), left.end(), 0u);
-    std::vector<double> with(matrix.stimuli(), 0.0);
-    for (const std::size_t a : left)
-        for (const std::size_t b : left)
-            if (a != b) with[a] += confusion(a, b);
-    while (left.size() > count) {
-        const auto better = [&](std::size_t a, std::size_t b) {
+    std::vector<std::size_t> remaining(matrix.stimuli());
+    std::iota(remaining.begin(), remaining.end(), 0u);
+    std::vector<double> confusions(matrix.stimuli(), 0.0);
+    for (const std::size_t a : remaining)
+        for (const std::size_t b : remaining)
+            if (a != b) confusions[a] += confusion(a, b);
+    while (remaining.size() > count) {
+        const auto isBetter = [&](std::size_t a, std::size_t b) {
             constexpr double rounding = 1e-9;
-            if (std::abs(with[a] - with[b]) > rounding) return with[a] < with[b];
-            const double ownA = shareCorrect(matrix, a), ownB = shareCorrect(matrix, b);
-            return ownA != ownB ? ownA > ownB : a < b;
+            if (std::abs(confusions[a] - confusions[b]) > rounding) return confusions[a] < confusions[b];
+            const double shareA = shareCorrect(matrix, a), shareB = shareCorrect(matrix, b);
+            return shareA != shareB ? shareA > shareB : a < b;
         };
-        const auto worst = std::ranges::max_element(left, better);
+        const auto worst = std::ranges::max_element(remaining, isBetter);
         const std::size_t dropped = *worst;
-        left.erase(worst);
-        for (const std::size_t a : left) with[a] -= confusion(a, dropped);
+        remaining.erase(worst);
+        for (const std::size_t a : remaining) confusions[a] -= confusion(a, dropped);
     }
-    return left;
+    return remaining;
 }
 
 // Grids of phantom sensations between actuators, percent counts of a grid, and the largest grid obtained by
@@ -177,7 +177,7 @@ inline std::vector<std::size_t> leastConfused(const ConfusionMatrix& matrix, std
 constexpr double defaultPercentThreshold = 1.42;
 
 /// Maximum number of rows or columns of a grid; merging tries every division of them.
-constexpr std::size_t mostGridLines = 16;
+constexpr std::size_t maxGridLines = 16;
 
 /// Share of the field, in percent, in which each target is the most likely one. Row 0 is the top row.
 struct PercentCounts {
@@ -210,12 +210,12 @@ struct PerceptualResolution {
     std::vector<GridMerge> ties; ///< all with that number of cells, wider grids first; first: the result
 };
 
-/// `counts` with 1 to mostGridLines rows and columns, `thresholdPercent` inclusive. Any thread (allocates).
+/// `counts` with 1 to maxGridLines rows and columns, `thresholdPercent` inclusive. Any thread (allocates).
 PerceptualResolution perceptualResolution(const PercentCounts& counts,
                                           double thresholdPercent = defaultPercentThreshold);
 
 /// The percent counts of the merged cells. Any thread (allocates).
-PercentCounts merged(const PercentCounts& counts, const GridMerge& merge);
+PercentCounts mergedCounts(const PercentCounts& counts, const GridMerge& merge);
 
 struct PhantomGrid {
     enum class Points {
@@ -248,11 +248,11 @@ private:
         if (points == Points::middles || lines == 1) return (line - 0.5) / lines;
         return static_cast<double>(line - 1) / (lines - 1);
     }
-    int nearestLine(double at, int lines) const noexcept {
+    int nearestLine(double share, int lines) const noexcept {
         int best = 1;
         for (int line = 2; line <= lines; ++line) {
-            const double now = at - along(line, lines), before = at - along(best, lines);
-            if (now * now < before * before) best = line;
+            const double offset = share - along(line, lines), bestOffset = share - along(best, lines);
+            if (offset * offset < bestOffset * bestOffset) best = line;
         }
         return best;
     }

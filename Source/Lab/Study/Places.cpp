@@ -15,11 +15,11 @@ namespace {
 
 // A determinant below this share of the product of the variances is rounding error. A variance below this
 // limit (a thousandth of the field's width, squared) is finer than a pixel and cannot be resolved.
-constexpr double leastDeterminantShare = 1e-9, leastVariance = 1e-6;
+constexpr double minDeterminantShare = 1e-9, minVariance = 1e-6;
 
 bool canBeInverted(const PlaceNormal& n) noexcept {
-    return n.varianceX >= leastVariance && n.varianceY >= leastVariance &&
-           n.determinant() > leastDeterminantShare * n.varianceX * n.varianceY;
+    return n.varianceX >= minVariance && n.varianceY >= minVariance &&
+           n.determinant() > minDeterminantShare * n.varianceX * n.varianceY;
 }
 
 struct Sums {
@@ -29,14 +29,14 @@ struct Sums {
         yy += dy * dy;
         xy += dx * dy;
     }
-    void give(PlaceNormal& n, double degreesOfFreedom) const noexcept {
+    void setVariances(PlaceNormal& n, double degreesOfFreedom) const noexcept {
         n.varianceX = xx / degreesOfFreedom;
         n.varianceY = yy / degreesOfFreedom;
         n.covariance = xy / degreesOfFreedom;
     }
 };
 
-std::string nameOf(std::size_t index, std::size_t columns) {
+std::string targetName(std::size_t index, std::size_t columns) {
     return "column " + std::to_string(index % columns + 1) + ", row " + std::to_string(index / columns + 1);
 }
 
@@ -45,14 +45,14 @@ std::size_t indexOf(const LocationTrial& trial, std::size_t columns) noexcept {
            static_cast<std::size_t>(trial.targetColumn - 1);
 }
 
-void findMeans(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
+void addMeans(const std::vector<LocationTrial>& trials, ResponseNormals& result) {
     for (const auto& trial : trials) {
-        auto& normal = made.normals[indexOf(trial, made.columns)];
+        auto& normal = result.normals[indexOf(trial, result.columns)];
         ++normal.responses;
         normal.meanX += trial.x;
         normal.meanY += trial.y;
     }
-    for (auto& normal : made.normals) {
+    for (auto& normal : result.normals) {
         if (normal.responses == 0) continue;
         normal.meanX /= static_cast<double>(normal.responses);
         normal.meanY /= static_cast<double>(normal.responses);
@@ -60,44 +60,44 @@ void findMeans(const std::vector<LocationTrial>& trials, ResponseNormals& made) 
 }
 
 /// Computes each target's covariance, and returns the covariance pooled over all targets.
-PlaceNormal findCovariances(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
-    std::vector<Sums> sums(made.normals.size());
+PlaceNormal findCovariances(const std::vector<LocationTrial>& trials, ResponseNormals& result) {
+    std::vector<Sums> sums(result.normals.size());
     Sums all;
     for (const auto& trial : trials) {
-        const std::size_t index = indexOf(trial, made.columns);
-        const double dx = trial.x - made.normals[index].meanX, dy = trial.y - made.normals[index].meanY;
+        const std::size_t index = indexOf(trial, result.columns);
+        const double dx = trial.x - result.normals[index].meanX, dy = trial.y - result.normals[index].meanY;
         sums[index].add(dx, dy);
         all.add(dx, dy);
     }
     std::size_t targets = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        auto& normal = made.normals[i];
+        auto& normal = result.normals[i];
         if (normal.responses > 0) ++targets;
-        if (normal.responses > 1) sums[i].give(normal, static_cast<double>(normal.responses - 1));
+        if (normal.responses > 1) sums[i].setVariances(normal, static_cast<double>(normal.responses - 1));
     }
     PlaceNormal pooled;
-    if (trials.size() > targets) all.give(pooled, static_cast<double>(trials.size() - targets));
+    if (trials.size() > targets) all.setVariances(pooled, static_cast<double>(trials.size() - targets));
     return pooled;
 }
 
-void mend(ResponseNormals& made, const PlaceNormal& pooled) {
-    const bool canBorrow = canBeInverted(pooled);
-    for (std::size_t i = 0; i < made.normals.size() && made.fault.empty(); ++i) {
-        auto& normal = made.normals[i];
-        const std::string name = nameOf(i, made.columns);
+void usePooledCovariances(ResponseNormals& result, const PlaceNormal& pooled) {
+    const bool canPool = canBeInverted(pooled);
+    for (std::size_t i = 0; i < result.normals.size() && result.error.empty(); ++i) {
+        auto& normal = result.normals[i];
+        const std::string name = targetName(i, result.columns);
         if (normal.responses == 0) {
-            made.warnings.push_back(name + ": no responses, so it can never be the likeliest");
+            result.warnings.push_back(name + ": no responses, so it can never be the likeliest");
         } else if (normal.responses >= 3 && canBeInverted(normal)) {
             continue;
-        } else if (canBorrow) {
-            made.warnings.push_back(name + ": " + std::to_string(normal.responses) + " responses" +
-                                    (normal.responses < 3 ? "" : " on one line") +
-                                    ", the condition's pooled covariance is taken");
+        } else if (canPool) {
+            result.warnings.push_back(name + ": " + std::to_string(normal.responses) + " responses" +
+                                      (normal.responses < 3 ? "" : " on one line") +
+                                      ", the condition's pooled covariance is taken");
             normal = {normal.responses, normal.meanX,      normal.meanY, pooled.varianceX,
                       pooled.varianceY, pooled.covariance, true};
         } else {
-            made.fault = name + ": expected three or more responses that are not on one line, and the "
-                                "condition has no pooled covariance to take instead";
+            result.error = name + ": expected three or more responses that are not on one line, and the "
+                                  "condition has no pooled covariance to take instead";
         }
     }
 }
@@ -125,20 +125,20 @@ struct LogLikelihood {
 } // namespace
 
 ResponseNormals responseNormals(const std::vector<LocationTrial>& trials) {
-    ResponseNormals made;
+    ResponseNormals result;
     if (trials.empty()) {
-        made.fault = "expected responses, found none";
-        return made;
+        result.error = "expected responses, found none";
+        return result;
     }
     for (const auto& trial : trials) {
-        made.rows = std::max(made.rows, static_cast<std::size_t>(trial.targetRow));
-        made.columns = std::max(made.columns, static_cast<std::size_t>(trial.targetColumn));
+        result.rows = std::max(result.rows, static_cast<std::size_t>(trial.targetRow));
+        result.columns = std::max(result.columns, static_cast<std::size_t>(trial.targetColumn));
     }
-    made.normals.resize(made.rows * made.columns);
-    findMeans(trials, made);
-    const PlaceNormal pooled = findCovariances(trials, made);
-    mend(made, pooled);
-    return made;
+    result.normals.resize(result.rows * result.columns);
+    addMeans(trials, result);
+    const PlaceNormal pooled = findCovariances(trials, result);
+    usePooledCovariances(result, pooled);
+    return result;
 }
 
 std::vector<std::uint16_t> likelihoodMap(const ResponseNormals& normals, std::size_t width,
@@ -169,11 +169,11 @@ PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<st
 
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent) {
-    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}};
-    if (!made.normals.fault.empty()) return made;
-    made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
-    made.resolution = perceptualResolution(made.counts, thresholdPercent);
-    return made;
+    ConditionResolution result{std::move(condition), responseNormals(trials), {}, {}};
+    if (!result.normals.error.empty()) return result;
+    result.counts = percentCounts(result.normals, likelihoodMap(result.normals), result.condition);
+    result.resolution = perceptualResolution(result.counts, thresholdPercent);
+    return result;
 }
 
 // Pointing errors in two passes (sums, then deviations), as pixel coordinates can be far from 0.
@@ -200,7 +200,7 @@ Moments momentsOf(const std::vector<const PlaceTrial*>& trials, Value value) {
     return Moments{values};
 }
 
-TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
+TargetError targetErrorOf(const std::vector<const PlaceTrial*>& trials) {
     const Moments dx = momentsOf(trials, [](const PlaceTrial&t) { return t.x - t.trueX; }),
                   dy = momentsOf(trials, [](const PlaceTrial&t) { return t.y - t.trueY; });
     return {
@@ -219,11 +219,11 @@ TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
 std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
                             double PlaceTrial::*answer) {
     const double meanTrue = momentsOf(trials, truth).mean, meanAnswer = momentsOf(trials, answer).mean;
-    double squares = 0.0, products = 0.0, size = 0.0;
+    double squares = 0.0, products = 0.0, trueSquares = 0.0;
     for (const PlaceTrial* t : trials)
-        size += t->*truth * t->*truth, squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
+        trueSquares += t->*truth * t->*truth, squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
             products += (t->*truth - meanTrue) * (t->*answer - meanAnswer);
-    return squares > 1e-24 * size ? std::optional{products / squares} : std::nullopt;
+    return squares > 1e-24 * trueSquares ? std::optional{products / squares} : std::nullopt;
 }
 
 } // namespace
@@ -234,7 +234,7 @@ std::vector<TargetError> targetErrors(const std::vector<PlaceTrial>& trials) {
     for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) {
              return std::pair{t.participant, t.target};
          }))
-        errors.push_back(errorOf(group));
+        errors.push_back(targetErrorOf(group));
     return errors;
 }
 
@@ -243,23 +243,24 @@ std::vector<ParticipantError> participantErrors(const std::vector<PlaceTrial>& t
     if (trials.empty()) return people;
     const std::vector<TargetError> targets = targetErrors(trials);
     for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) { return t.participant; })) {
-        ParticipantError one{.participant = group.front()->participant, .trials = group.size()};
-        std::size_t repeated = 0;
+        ParticipantError error{.participant = group.front()->participant, .trials = group.size()};
+        std::size_t repeatedTargets = 0;
         for (const TargetError& target : targets) {
-            if (target.participant != one.participant) continue;
-            ++one.targets;
-            one.constantX += target.constantX, one.constantY += target.constantY,
-                one.distance += target.distance;
-            if (target.trials > 1) ++repeated, one.variable += target.variable;
+            if (target.participant != error.participant) continue;
+            ++error.targets;
+            error.constantX += target.constantX, error.constantY += target.constantY,
+                error.distance += target.distance;
+            if (target.trials > 1) ++repeatedTargets, error.variable += target.variable;
         }
-        const auto count = static_cast<double>(one.targets);
-        one.constantX /= count, one.constantY /= count, one.distance /= count;
-        if (repeated > 0) one.variable /= static_cast<double>(repeated), one.hasVariable = true;
+        const auto count = static_cast<double>(error.targets);
+        error.constantX /= count, error.constantY /= count, error.distance /= count;
+        if (repeatedTargets > 0)
+            error.variable /= static_cast<double>(repeatedTargets), error.hasVariable = true;
         if (const auto gain = slope(group, &PlaceTrial::trueX, &PlaceTrial::x))
-            one.gainX = *gain, one.hasGainX = true;
+            error.gainX = *gain, error.hasGainX = true;
         if (const auto gain = slope(group, &PlaceTrial::trueY, &PlaceTrial::y))
-            one.gainY = *gain, one.hasGainY = true;
-        people.push_back(std::move(one));
+            error.gainY = *gain, error.hasGainY = true;
+        people.push_back(std::move(error));
     }
     return people;
 }

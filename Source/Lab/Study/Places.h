@@ -22,7 +22,8 @@ struct PlaceNormal {
     std::size_t responses = 0;
     double meanX = 0.0, meanY = 0.0;
     double varianceX = 0.0, varianceY = 0.0, covariance = 0.0;
-    bool isBorrowed = false; ///< the pooled covariance is used: the own is singular or of fewer than three
+    bool usesPooledCovariance = false; ///< its own covariance is singular or has fewer than three
+                                       ///< responses, so the pooled one is used
 
     double determinant() const noexcept { return varianceX * varianceY - covariance * covariance; }
 };
@@ -32,7 +33,7 @@ struct ResponseNormals {
     std::size_t rows = 0, columns = 0;
     std::vector<PlaceNormal> normals;  ///< row by row; responses == 0: no distribution
     std::vector<std::string> warnings; ///< one line each: targets without responses, and pooled covariances
-    std::string fault;                 ///< if not empty, why no distributions can be computed
+    std::string error;                 ///< if not empty, why no distributions can be computed
 };
 
 /// Mean and sample covariance per target. A target with a singular covariance gets the condition's pooled

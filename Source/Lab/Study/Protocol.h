@@ -5,7 +5,7 @@
 #include "Core/Actuators/Exposure.h"
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/QuestMethod.h"
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include "Lab/Study/StudyTasks.h"
 #include "Stimuli/PinkNoise.h"
 #include "Stimuli/Stimulus.h"
@@ -44,7 +44,7 @@ struct StudyFactor {
     std::vector<std::string> values;
     std::vector<std::string> labels{}; ///< names of the values in answers and rows; empty: the values
     std::string alternative{};         ///< the only alternative with these values; empty: all parts
-    std::string otherwise{};           ///< value of all other parts
+    std::string otherValue{};          ///< value of all other parts
     bool operator==(const StudyFactor&) const = default;
 };
 
@@ -52,10 +52,10 @@ struct StudyFactor {
 struct StudyVariable {
     std::string name; ///< with its unit, e.g. "decay_per_s"
     double at0Db = 1.0;
-    bool roves = false; ///< follows the trial's rove_db, which then changes nothing else
+    bool isRoving = false; ///< follows the trial's rove_db, which then changes nothing else
     bool operator==(const StudyVariable&) const = default;
-    double at(double levelDb) const noexcept {
-        return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // short text, as of levels
+    double valueAt(double levelDb) const noexcept {
+        return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // few digits, as levels have
     }
 };
 
@@ -70,8 +70,8 @@ struct CallSet {
 
 /// Scenes that the participant sees and feels: calls of `render` with options of its scene.
 struct WorldSet : CallSet {
-    /// The participant drags bodies and tilts the world, for any time; else the scene runs for the call's.
-    bool hasHands = false;
+    /// The participant drags bodies and tilts the world for any time; else the scene ends by its call.
+    bool isInteractive = false;
     /// Metres of the world per metre on the display (50: 1:50); 0: as large as fits.
     double displayScale = 0.0;
     bool operator==(const WorldSet&) const = default;
@@ -121,29 +121,29 @@ struct Alternative {
 /// Method of adjustment: the participant changes this alternative's level.
 struct Adjustment {
     std::string alternative;
-    double startDb = 0.0, stepDb = 1.0, leastDb = -40.0, mostDb = 40.0;
-    bool startsAnywhere = false; ///< start at a random step of the range, from the seed
+    double startDb = 0.0, stepDb = 1.0, minDb = -40.0, maxDb = 40.0;
+    bool hasRandomStart = false; ///< start at a random step of the range, from the seed
     bool operator==(const Adjustment&) const = default;
 };
 
 /// Transformed up-down staircase (Levitt 1971) on this alternative's level: choosing it is correct.
 struct StaircasePlan {
     std::string alternative;
-    double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to leastStepDb
+    double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to minStepDb
     /// Start levels of several staircases, instead of startDb: each trial belongs to a random one of those
     /// that have not ended.
     std::vector<double> startsDb{};
-    double leastStepDb = 0.5, leastDb = 0.0, mostDb = 40.0;
+    double minStepDb = 0.5, minDb = 0.0, maxDb = 40.0;
     double upRatio = 1.0; ///< upward step / downward step; 3, `down` 1: converges to 75 % (Kaernbach 1991)
     int down = 2;         ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
     int reversals = 8;    ///< number of reversals at which it ends
-    int mostTrials = 200; ///< of each staircase
+    int maxTrials = 200;  ///< of each staircase
     bool operator==(const StaircasePlan&) const = default;
     std::vector<double> starts() const { return startsDb.empty() ? std::vector{startDb} : startsDb; }
 };
 
 /// Labels for the ends of rating scales where a session has none.
-inline constexpr std::array<std::string_view, 2> usualAnchors{"Strongly disagree", "Strongly agree"};
+inline constexpr std::array<std::string_view, 2> defaultAnchors{"Strongly disagree", "Strongly agree"};
 
 struct SessionPlan {
     enum class Order {
@@ -156,34 +156,34 @@ struct SessionPlan {
     StudyTask task = StudyTask::identify;
     std::string question;         ///< text for the participant; empty: the default text of the task
     std::string instruction;      ///< text of the page before the session; empty: that of the task
-    bool givesFeedback = false;   ///< tells after each answer whether it was correct
+    bool givesFeedback = false;   ///< shows after each answer whether it was correct
     double intervalSeconds = 0.0; ///< parts are played in sequence at this interval; 0: one by one
     Order order = Order::random;
     int repetitions = 1;
-    int fewestTouches = 0;      ///< explore: minimum number of touches; 0: every stimulus once
-    int mostPlays = 0;          ///< maximum plays of a trial's stimulus; 0: unlimited
-    double leastSeconds = 0.0;  ///< minimum time with each part of a trial before an answer is accepted
+    int minTouches = 0;         ///< explore: minimum number of touches; 0: every stimulus once
+    int maxPlays = 0;           ///< maximum plays of a trial's stimulus; 0: unlimited
+    double minSeconds = 0.0;    ///< minimum time with each part of a trial before an answer is accepted
     double answerSeconds = 0.0; ///< time for an answer, from where one is accepted; 0: unlimited
     double breakBeforeSeconds = 0.0;
     int breakEvery = 0; ///< trials; 0: no breaks
     double breakSeconds = 0.0;
     std::vector<Alternative> alternatives; ///< choose, adjust
     bool bothOrders = false; ///< choose: each order of the two alternatives once, instead of a random order
-    std::vector<std::string> answers; ///< choose: of one stimulus, in place of alternatives
+    std::vector<std::string> answers; ///< choose: answers to one stimulus, instead of alternatives
     std::vector<std::string> objects; ///< rate: parts of every trial, in random order
     std::vector<std::string> scales;  ///< rate; empty: a score of each object, side by side
     std::string reference;            ///< rate: an object that is also presented by name, before the others
-    int points = 0;                   ///< rate: scores from 1 to so many; 0: from 0 to 100
-    bool isOnce = false;              ///< rate, describe: once per condition, without a stimulus
+    int points = 0;                   ///< rate: highest score of scores from 1; 0: from 0 to 100
+    bool isQuestionnaire = false;     ///< rate, describe: one trial per condition, without a stimulus
     bool comparesPairs = false;       ///< rate: the parts of a trial are two of the stimuli
     std::vector<std::string> definitions; ///< description of each scale, shown beside it; may be empty
-    std::vector<std::string> anchors;     ///< labels of the scale ends; empty: usualAnchors
+    std::vector<std::string> anchors;     ///< labels of the scale ends; empty: defaultAnchors
     bool showsNumbers = false;            ///< rate: show the score as a number
     std::optional<Adjustment> adjustment;
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
-    std::string correct;  ///< choose: the alternative that is right; empty: a staircase's, or none
-    int untilCorrect = 0; ///< ends after so many consecutive correct answers; 0: after all trials
+    std::string correct;  ///< choose: the correct alternative; empty: a staircase's, or none
+    int untilCorrect = 0; ///< ends after this many correct answers in a row; 0: after all trials
     double roveDb = 0.0;  ///< all parts of a trial are raised or lowered together by up to this, at random
     std::string modulus;  ///< estimate: the stimulus that each trial begins with
     double modulusNumber = 10.0; ///< number assigned to the modulus
@@ -192,11 +192,11 @@ struct SessionPlan {
     std::string levelsFile; ///< or a file with the levels of other participants (Lab/Files/ProtocolFile.h)
     bool operator==(const SessionPlan&) const = default;
 
-    AnswerKind answer() const noexcept { return describe(task).answer; }
+    AnswerKind answerKind() const noexcept { return taskDescription(task).answer; }
     /// Names of the scores of `rate`; of other tasks, which may have objects, none.
     const std::vector<std::string>& scores() const noexcept {
         static const std::vector<std::string> none;
-        return answer() != AnswerKind::scores ? none : scales.empty() ? objects : scales;
+        return answerKind() != AnswerKind::scores ? none : scales.empty() ? objects : scales;
     }
     bool ratesSideBySide() const noexcept { return scales.empty() && !objects.empty(); }
     /// The alternative whose level a staircase or QUEST+ controls; null if there is none.
@@ -205,7 +205,7 @@ struct SessionPlan {
     }
     /// True if answers are correct or not.
     bool hasCorrectAnswers() const noexcept {
-        return answer() == AnswerKind::label || adaptedAlternative() != nullptr || !correct.empty();
+        return answerKind() == AnswerKind::label || adaptedAlternative() != nullptr || !correct.empty();
     }
     /// Chance of a correct guess in a choice.
     double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); }
@@ -215,15 +215,15 @@ struct Protocol {
     enum class ConditionOrder { given, random, latinSquare };
     std::string name, title;
     int seed = 1;
-    bool hasPinkNoise = false;                  ///< played on another output than the stimuli
-    double pinkNoiseDb = PinkNoise::safeDb;     ///< its root mean square, in dB of full scale
-    double exposureLimit = exposureActionValue; ///< A(8), m/s^2: the study pauses at this exposure
-    std::vector<StudySoundFile> sounds;         ///< recordings for calls with --method SV
-    std::vector<MaterialPictureFile> pictures;  ///< replace the textures of their materials
+    bool hasPinkNoise = false;                             ///< played on another output than the stimuli
+    double pinkNoiseDb = PinkNoise::safeDb;                ///< its root mean square, in dB of full scale
+    double exposureLimit = exposureActionMetresPerSecond2; ///< A(8), m/s^2: the study pauses at this exposure
+    std::vector<StudySoundFile> sounds;                    ///< recordings for calls with --method SV
+    std::vector<MaterialPictureFile> pictures;             ///< replace the textures of their materials
     ConditionOrder conditionOrder = ConditionOrder::given;
     double conditionBreakSeconds = 0.0; ///< before every condition but the first
     std::string closingQuestion;        ///< answered in free text at the end; empty: no question
-    std::string words; ///< texts for participants: a built-in language or a file; empty: English
+    std::string translation; ///< texts for participants: a built-in language or a file; empty: English
     std::vector<ConditionPlan> conditions;
     std::vector<SessionPlan> sessions; ///< each runs in every condition
     std::vector<StimulusLevel> levels; ///< contents of the sessions' levelsFile
@@ -236,16 +236,16 @@ struct Protocol {
 std::string validate(const Protocol& protocol);
 
 /// Empty, or a level that the sessions need and the protocol's levels lack. Any thread (allocates).
-std::string levelsFault(const Protocol& protocol);
+std::string levelsError(const Protocol& protocol);
 
 /// A picture's path for that participant. Any thread (allocates).
 std::string picturePath(const MaterialPictureFile& picture, const std::string& participant);
 
 /// All scales of a protocol, in the order of their first mention. Any thread (allocates).
-std::vector<std::string> scalesOf(const Protocol& protocol);
+std::vector<std::string> protocolScales(const Protocol& protocol);
 
 /// Separates the labels of two stimuli that are compared.
-constexpr std::string_view betweenPair = " & ";
+constexpr std::string_view pairSeparator = " & ";
 
 /// A stimulus of a condition: its label and, for a CallSet, the values of its factors.
 struct StimulusItem {
@@ -254,34 +254,34 @@ struct StimulusItem {
 };
 
 /// All stimuli of a condition, in a fixed order. Any thread (allocates).
-std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
+std::vector<StimulusItem> conditionStimuli(const ConditionPlan& condition);
 
 /// Stimuli of a session's trials: those of the condition, every pair of them ("200 & 250"), or one without a
 /// label that stands for the whole condition. Any thread (allocates).
-std::vector<StimulusItem> itemsOf(const SessionPlan& session, const ConditionPlan& condition);
+std::vector<StimulusItem> stimulusItems(const SessionPlan& session, const ConditionPlan& condition);
 
 /// True if a variable of the condition's calls follows rove_db alone. Any thread.
-bool rovesApart(const ConditionPlan& condition) noexcept;
+bool hasRovingVariable(const ConditionPlan& condition) noexcept;
 
 /// The call of a stimulus, names replaced; `part`: the alternative or object. Any thread (allocates).
-std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
-                   double roveDb = 0.0);
+std::string resolvedCall(const CallSet& set, const StimulusItem& item, const std::string& part,
+                         double levelDb, double roveDb = 0.0);
 
 /// True if the condition's calls name the alternative or object. Any thread (allocates).
-bool namesParts(const ConditionPlan& condition);
+bool hasPartPlaceholders(const ConditionPlan& condition);
 
 /// What a trial's level changes in the condition's calls other than the strength of the stimulus: variables
 /// that are used elsewhere than right after --level-g, and level_db if it is used elsewhere than right after
 /// --level-db. `byRove`: what rove_db changes. Any thread (allocates).
-std::vector<std::string> movedBesideStrength(const ConditionPlan& condition, bool byRove = false);
+std::vector<std::string> nonGainVariables(const ConditionPlan& condition, bool byRove = false);
 
 /// All alternatives and objects that can be put into calls; else one empty name. Any thread (allocates).
-std::set<std::string> callPartsOf(const Protocol& protocol);
+std::set<std::string> callPartNames(const Protocol& protocol);
 
-/// Empty, or the first error that `faultOf` returns for the calls of the condition, each as it stands in a
+/// Empty, or the first error that `check` returns for the calls of the condition, each as it stands in a
 /// row. Any thread (allocates).
-std::string firstCallFault(const Protocol& protocol, const ConditionPlan& condition,
-                           const std::function<std::string(const std::string& call)>& faultOf);
+std::string firstCallError(const Protocol& protocol, const ConditionPlan& condition,
+                           const std::function<std::string(const std::string& call)>& check);
 
 /// Number of stimuli, computed without listing them. Any thread.
 double stimulusCount(const ConditionPlan& condition) noexcept;
@@ -291,7 +291,7 @@ double stimulusCount(const ConditionPlan& condition) noexcept;
 // read files below its folder. The options that write files are listed in Standalone/Calls/CallOptions.h.
 
 /// Length limit of a call with its recordings. A row of the trial file holds the calls of all parts.
-constexpr std::size_t mostCallBytes = 2000;
+constexpr std::size_t maxCallBytes = 2000;
 
 /// Letters (including non-ASCII), digits, and characters that a shell does not interpret.
 constexpr bool isPlainCharacter(char c) noexcept {
@@ -317,7 +317,7 @@ constexpr bool isPlainPath(std::string_view path) noexcept {
 
 /// Empty, or the reason why a protocol may not make this call (with all names filled in), from its characters
 /// and paths. Any thread (allocates).
-inline std::string callFault(std::string_view call) {
+inline std::string callError(std::string_view call) {
     if (!call.starts_with("render ") && !call.starts_with("stimulus "))
         return "expected render or stimulus, and what they take";
     if (const auto unknown = call.find('{'); unknown != std::string_view::npos)

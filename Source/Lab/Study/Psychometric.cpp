@@ -21,13 +21,13 @@ constexpr double normalSpan = 3.289707253902943;  // 2 x 1.644853626951472
 const double weibullSpan = std::log(-std::log(0.05)) - std::log(-std::log(0.95));
 
 /// F: 0.5 at `x` = 0; rises from 0.05 to 0.95 over a width of 1.
-double risen(PsychometricShape shape, double x) noexcept {
+double standardFunction(PsychometricShape shape, double x) noexcept {
     if (shape == PsychometricShape::logistic) return 1.0 / (1.0 + std::exp(-logisticSpan * x));
     if (shape == PsychometricShape::normal) return 0.5 * std::erfc(-normalSpan * x / std::numbers::sqrt2);
     return -std::expm1(-std::numbers::ln2 * std::exp(weibullSpan * x));
 }
 
-double whereRisen(PsychometricShape shape, double share) {
+double standardQuantile(PsychometricShape shape, double share) {
     if (shape == PsychometricShape::logistic) return std::log(share / (1.0 - share)) / logisticSpan;
     if (shape == PsychometricShape::normal) return normalQuantile(share) / normalSpan;
     return std::log(-std::log1p(-share) / std::numbers::ln2) / weibullSpan;
@@ -41,35 +41,35 @@ public:
     Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
         : counts_{counts}
         , model_{model} {
-        const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
-        least_ = least.level;
-        range_ = most.level - least.level;
+        const auto [low, high] = std::ranges::minmax(counts, {}, &LevelCount::level);
+        minLevel_ = low.level;
+        range_ = high.level - low.level;
     }
-    PsychometricFunction function(const Point& at) const {
+    PsychometricFunction function(const Point& point) const {
         // The cosine maps any real number to a lapse rate within its bounds.
-        const double lapse = model_.mostLapses() * 0.5 * (1.0 - std::cos(at[2]));
-        return model_.with(least_ + range_ * at[0], range_ * std::exp(at[1]), lapse);
+        const double lapse = model_.maxFittedLapseRate() * 0.5 * (1.0 - std::cos(point[2]));
+        return model_.functionWith(minLevel_ + range_ * point[0], range_ * std::exp(point[1]), lapse);
     }
     /// Negative log-likelihood.
-    double operator()(const Point& at) const {
-        if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0))
+    double operator()(const Point& point) const {
+        if (point[0] < -3.0 || point[0] > 4.0 || point[1] < std::log(1e-3) || point[1] > std::log(20.0))
             return std::numeric_limits<double>::max();
-        return -logLikelihood(counts_, function(at));
+        return -logLikelihood(counts_, function(point));
     }
 
 private:
     std::span<const LevelCount> counts_;
     PsychometricModel model_;
-    double least_ = 0.0, range_ = 1.0;
+    double minLevel_ = 0.0, range_ = 1.0;
 };
 
 Point bestOfGrid(const Likelihood& likelihood, double width) {
     Point best{};
-    double least = std::numeric_limits<double>::max();
+    double minValue = std::numeric_limits<double>::max();
     for (double threshold = -0.25; threshold < 1.3; threshold += 0.125)
         for (const double lapse : {0.5, 1.5}) {
-            const Point at{threshold, std::log(width), lapse};
-            if (const double value = likelihood(at); value < least) least = value, best = at;
+            const Point point{threshold, std::log(width), lapse};
+            if (const double value = likelihood(point); value < minValue) minValue = value, best = point;
         }
     return best;
 }
@@ -80,53 +80,54 @@ Point between(const Point& a, const Point& b, double share) {
     return point;
 }
 
-/// Runs the simplex until its corners are equal, and returns the best.
-Point climb(const Likelihood& likelihood, const Point& start) {
+/// Runs the simplex until its corners have nearly equal values, and returns the best. Shares of the way from
+/// the worst corner to the centre of the others: 2 mirrors it, 3 expands, 1.5 and 0.5 contract.
+Point nelderMead(const Likelihood& likelihood, const Point& start) {
     struct Corner {
-        Point at{};
+        Point point{};
         double value = 0.0;
     };
     std::array<Corner, 4> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        corners[i].at = start;
-        if (i > 0) corners[i].at[i - 1] += 0.2;
-        corners[i].value = likelihood(corners[i].at);
+        corners[i].point = start;
+        if (i > 0) corners[i].point[i - 1] += 0.2;
+        corners[i].value = likelihood(corners[i].point);
     }
-    constexpr int mostSteps = 1000;
-    for (int step = 0; step < mostSteps; ++step) {
+    constexpr int maxSteps = 1000;
+    for (int step = 0; step < maxSteps; ++step) {
         std::ranges::sort(corners, {}, &Corner::value);
         Corner& worst = corners.back();
         if (worst.value - corners.front().value < 1e-10) break;
         Point centre{};
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t c = 0; c < 3; ++c) centre[i] += corners[c].at[i] / 3.0;
-        const auto at = [&](double share) {
-            const Point point = between(worst.at, centre, share);
+            for (std::size_t c = 0; c < 3; ++c) centre[i] += corners[c].point[i] / 3.0;
+        const auto cornerAt = [&](double share) {
+            const Point point = between(worst.point, centre, share);
             return Corner{point, likelihood(point)};
         };
-        const Corner mirrored = at(2.0);
+        const Corner mirrored = cornerAt(2.0);
         if (mirrored.value < corners.front().value) {
-            const Corner farther = at(3.0);
+            const Corner farther = cornerAt(3.0);
             worst = farther.value < mirrored.value ? farther : mirrored;
         } else if (mirrored.value < corners[2].value) {
             worst = mirrored;
-        } else if (const Corner nearer = at(mirrored.value < worst.value ? 1.5 : 0.5);
+        } else if (const Corner nearer = cornerAt(mirrored.value < worst.value ? 1.5 : 0.5);
                    nearer.value < std::min(worst.value, mirrored.value)) {
             worst = nearer;
         } else {
             for (std::size_t c = 1; c < corners.size(); ++c) {
-                corners[c].at = between(corners.front().at, corners[c].at, 0.5);
-                corners[c].value = likelihood(corners[c].at);
+                corners[c].point = between(corners.front().point, corners[c].point, 0.5);
+                corners[c].value = likelihood(corners[c].point);
             }
         }
     }
-    return std::ranges::min(corners, {}, &Corner::value).at;
+    return std::ranges::min(corners, {}, &Corner::value).point;
 }
 
-std::string faultOfCounts(std::span<const LevelCount> counts) {
+std::string countsError(std::span<const LevelCount> counts) {
     if (counts.empty()) return "expected trials, found none";
-    const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
-    if (least.level == most.level) return "expected trials at two or more levels, found one";
+    const auto [low, high] = std::ranges::minmax(counts, {}, &LevelCount::level);
+    if (low.level == high.level) return "expected trials at two or more levels, found one";
     const auto share = [](const LevelCount& c) {
         return static_cast<double>(c.hits) / static_cast<double>(c.trials);
     };
@@ -136,88 +137,91 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
     return {};
 }
 
-constexpr double sameLikelihood = 0.01; // of its logarithm
+constexpr double likelihoodTolerance = 0.01; // of the log-likelihood
 
 /// Maximum-likelihood lapse rate of a step at `level`, from the answers on both sides.
-double lapseBeside(std::span<const LevelCount> counts, const PsychometricModel& model, double level,
-                   bool isRisenAt) {
+double stepLapseRate(std::span<const LevelCount> counts, const PsychometricModel& model, double level,
+                     bool isRisenAt) {
     double lapses = 0.0, trials = 0.0;
     for (const LevelCount& c : counts) {
         const bool isAbove = c.level > level || (isRisenAt && c.level == level);
-        if (!isAbove && (model.guess > 0.0 || c.level == level)) continue; // guesses tell no lapses
+        if (!isAbove && (model.guess > 0.0 || c.level == level)) continue; // guesses hide lapses
         trials += static_cast<double>(c.trials);
         lapses += static_cast<double>(isAbove ? c.trials - c.hits : c.hits);
     }
-    return trials > 0.0 ? std::min(lapses / trials, model.mostLapses()) : 0.0;
+    return trials > 0.0 ? std::min(lapses / trials, model.maxFittedLapseRate()) : 0.0;
 }
 
 /// If a step is as likely as `f`: the lowest and highest threshold of such steps. Then the answers do not
 /// determine the width, and `f` becomes the likeliest function half way between these thresholds.
-std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount> counts,
-                                                     const PsychometricModel& model, PsychometricFunction& f,
-                                                     double likeliest) {
+std::optional<std::pair<double, double>> stepThresholdRange(std::span<const LevelCount> counts,
+                                                            const PsychometricModel& model,
+                                                            PsychometricFunction& f, double maxLog) {
     const double range = counts.back().level - counts.front().level;
-    std::vector<double> at;
+    std::vector<double> thresholds;
     for (double width = 1e-3 * range; width < range; width *= 1.1) {
         for (const LevelCount& c : counts)
-            for (const double lapse : {f.lapse, lapseBeside(counts, model, c.level, false),
-                                       lapseBeside(counts, model, c.level, true)})
-                for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) { // at this level or
-                                                                                       // beside it
-                    PsychometricFunction one = model.with(c.level, width, lapse);
+            for (const double lapse : {f.lapse, stepLapseRate(counts, model, c.level, false),
+                                       stepLapseRate(counts, model, c.level, true)})
+                for (const std::uint64_t hits : {std::uint64_t{0}, c.hits, c.trials}) { // at this level or
+                                                                                        // beside it
+                    PsychometricFunction step = model.functionWith(c.level, width, lapse);
                     const double share =
-                        (static_cast<double>(own) / static_cast<double>(c.trials) - one.guess) /
-                        (1.0 - one.guess - lapse);
-                    one.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
-                    if (logLikelihood(counts, one) > likeliest - sameLikelihood) at.push_back(one.threshold);
+                        (static_cast<double>(hits) / static_cast<double>(c.trials) - step.guess) /
+                        (1.0 - step.guess - lapse);
+                    step.threshold -=
+                        width * standardQuantile(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
+                    if (logLikelihood(counts, step) > maxLog - likelihoodTolerance)
+                        thresholds.push_back(step.threshold);
                 }
-        if (at.empty()) return {}; // no step
+        if (thresholds.empty()) return {}; // no step
     }
-    const auto [least, most] = std::ranges::minmax(at);
-    const double middle = std::midpoint(least, most);
-    const std::array lapses{f.lapse, lapseBeside(counts, model, middle, false)};
-    f = model.with(middle, 1e-3 * range, f.lapse);
+    const auto [low, high] = std::ranges::minmax(thresholds);
+    const double middle = std::midpoint(low, high);
+    const std::array lapses{f.lapse, stepLapseRate(counts, model, middle, false)};
+    f = model.functionWith(middle, 1e-3 * range, f.lapse);
     for (double width = 1e-3 * range; width < range; width *= 1.1)
         for (const double lapse : lapses)
-            if (const auto one = model.with(middle, width, lapse);
-                logLikelihood(counts, one) > logLikelihood(counts, f))
-                f = one;
-    return std::pair{least, most};
+            if (const auto step = model.functionWith(middle, width, lapse);
+                logLikelihood(counts, step) > logLikelihood(counts, f))
+                f = step;
+    return std::pair{low, high};
 }
 
 /// Error if the levels and answers do not determine the function, though a maximum was found.
-std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFunction& f, double likeliest) {
-    const double least = counts.front().level, most = counts.back().level, range = most - least;
+std::string fitError(std::span<const LevelCount> counts, const PsychometricFunction& f, double maxLog) {
+    const double minLevel = counts.front().level, maxLevel = counts.back().level, range = maxLevel - minLevel;
     double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;
     for (const LevelCount& c : counts) {
         const auto n = static_cast<double>(c.trials), h = static_cast<double>(c.hits);
         trials += n, level += n * c.level, hits += h, product += h * c.level;
     }
     if (product - level * hits / trials <= 0.0) return "the share of answers does not rise with the level";
-    const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
-    const double gain = std::max(0.0, 2.0 * (likeliest - flat));
+    const double constantLog = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
+    const double gain = std::max(0.0, 2.0 * (maxLog - constantLog));
     if (f.width > 19.5 * range) return "the fitted width is 20 times the range of the levels, or more";
-    if (gain < 3.84 && f.threshold >= least && f.threshold <= most)
+    if (gain < 3.84 && f.threshold >= minLevel && f.threshold <= maxLevel)
         return "the function fits no better than a constant (likelihood ratio, p = " +
-               fixedNumber(std::erfc(std::sqrt(0.5 * gain)), 3) + ")"; // chi-squared of one degree of freedom
-    if (f.threshold < least || f.threshold > most)
-        return "the fitted threshold lies outside the levels that were played, " + plainNumber(least) +
-               " to " + plainNumber(most);
+               fixedNumber(std::erfc(std::sqrt(0.5 * gain)), 3) + ")"; // 3.84: 95 % of chi-squared, 1 degree
+                                                                       // of freedom
+    if (f.threshold < minLevel || f.threshold > maxLevel)
+        return "the fitted threshold lies outside the levels that were played, " + plainNumber(minLevel) +
+               " to " + plainNumber(maxLevel);
     return {};
 }
 
 } // namespace
 
 double PsychometricFunction::probability(double level) const noexcept {
-    return guess + (1.0 - guess - lapse) * risen(shape, (level - threshold) / width);
+    return guess + (1.0 - guess - lapse) * standardFunction(shape, (level - threshold) / width);
 }
 
-double PsychometricFunction::levelOf(double probability) const {
-    return threshold + width * whereRisen(shape, (probability - guess) / (1.0 - guess - lapse));
+double PsychometricFunction::levelAt(double probability) const {
+    return threshold + width * standardQuantile(shape, (probability - guess) / (1.0 - guess - lapse));
 }
 
 double PsychometricFunction::jnd() const noexcept {
-    return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25));
+    return 0.5 * width * (standardQuantile(shape, 0.75) - standardQuantile(shape, 0.25));
 }
 
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function) {
@@ -231,35 +235,35 @@ double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunct
 }
 
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
-    if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
+    if (auto error = countsError(counts); !error.empty()) return {error};
     const Likelihood likelihood{counts, model};
-    std::vector<Point> tops;
+    std::vector<Point> maxima;
     for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
-        tops.push_back(climb(likelihood, bestOfGrid(likelihood, width)));
-    const Point best = climb(likelihood, std::ranges::min(tops, {}, likelihood)); // step 3
+        maxima.push_back(nelderMead(likelihood, bestOfGrid(likelihood, width)));
+    const Point best = nelderMead(likelihood, std::ranges::min(maxima, {}, likelihood)); // step 3
     PsychometricFunction found = likelihood.function(best);
-    const double likeliest = -likelihood(best);
-    const auto steps = becomesStep(counts, model, found, likeliest);
-    return {faultOfFit(counts, found, likeliest), found, likeliest, !steps,
-            steps.value_or(std::pair{0.0, 0.0})};
+    const double maxLog = -likelihood(best);
+    const auto steps = stepThresholdRange(counts, model, found, maxLog);
+    return {fitError(counts, found, maxLog), found, maxLog, !steps, steps.value_or(std::pair{0.0, 0.0})};
 }
 
 // Groups trials by participant and fits each group.
 
-std::vector<OfParticipant<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
-                                                                      const PsychometricModel& model) {
-    std::vector<OfParticipant<PsychometricFit>> fits;
-    for (const auto& [participant, own] : byParticipant(trials)) {
-        const auto counts = countByLevel(own, [](const LevelAnswer& trial) { return trial.counted(); });
-        fits.push_back({participant, own.size(), fitPsychometric(counts, model)});
+std::vector<ParticipantFit<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                                       const PsychometricModel& model) {
+    std::vector<ParticipantFit<PsychometricFit>> fits;
+    for (const auto& [participant, answers] : groupByParticipant(trials)) {
+        const auto counts =
+            countByLevel(answers, [](const LevelAnswer& trial) { return trial.levelAndHit(); });
+        fits.push_back({participant, answers.size(), fitPsychometric(counts, model)});
     }
     return fits;
 }
 
-std::vector<OfParticipant<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials) {
-    std::vector<OfParticipant<PowerLaw>> laws;
-    for (const auto& [participant, own] : byParticipant(trials))
-        laws.push_back({participant, own.size(), fitPowerLaw(own)});
+std::vector<ParticipantFit<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials) {
+    std::vector<ParticipantFit<PowerLaw>> laws;
+    for (const auto& [participant, answers] : groupByParticipant(trials))
+        laws.push_back({participant, answers.size(), fitPowerLaw(answers)});
     return laws;
 }
 

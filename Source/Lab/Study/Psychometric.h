@@ -30,26 +30,29 @@ struct PsychometricFunction {
 
     /// Any thread.
     double probability(double level) const noexcept;
-    double levelOf(double probability) const; ///< inverse, for one between guess and 1 - lapse
+    double levelAt(double probability) const; ///< inverse, for one between guess and 1 - lapse
     /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
     double jnd() const noexcept;
 };
 
-constexpr double mostLapse = 0.1;   // maximum plausible lapse rate
-constexpr double mostOfBoth = 0.02; // of equal lapse rates at both ends: a higher bound biases the width
+constexpr double maxLapseRate = 0.1;           // maximum plausible lapse rate
+constexpr double maxSymmetricLapseRate = 0.02; // of equal lapse rates at both ends: a higher bound biases the
+                                               // width
 
 /// Model choices, made before the fit.
 struct PsychometricModel {
     PsychometricShape shape = PsychometricShape::logistic;
-    double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
-    double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
+    double guess = 0.5;                   ///< 1 / alternatives of a forced choice; 0: answers yes and no
+    double lapseRateBound = maxLapseRate; ///< upper bound of the fitted lapse rate
     bool operator==(const PsychometricModel&) const = default;
 
     /// Yes/no answers (guess 0) have two equal lapse rates: one alone shifts the threshold. Any thread.
-    PsychometricFunction with(double threshold, double width, double lapse) const noexcept {
+    PsychometricFunction functionWith(double threshold, double width, double lapse) const noexcept {
         return {shape, threshold, width, guess > 0.0 ? guess : lapse, lapse};
     }
-    double mostLapses() const noexcept { return guess > 0.0 ? lapseUpTo : std::fmin(lapseUpTo, mostOfBoth); }
+    double maxFittedLapseRate() const noexcept {
+        return guess > 0.0 ? lapseRateBound : std::fmin(lapseRateBound, maxSymmetricLapseRate);
+    }
 };
 
 /// Trials at one level.
@@ -58,30 +61,31 @@ struct LevelCount {
     std::uint64_t hits = 0, trials = 0;
 };
 
-/// Counts trials and hits by rising level; `of(trial)` returns the level and whether it is a hit. Any thread.
-template <class Trials, class Of>
-std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
+/// Counts trials and hits by rising level; `levelAndHit(trial)` returns the level and whether it is a hit.
+/// Any thread.
+template <class Trials, class LevelAndHit>
+std::vector<LevelCount> countByLevel(const Trials& trials, LevelAndHit levelAndHit) {
     std::map<double, LevelCount> counts;
     for (const auto& trial : trials) {
-        const std::pair<double, bool> one = of(trial);
-        LevelCount& count = counts.try_emplace(one.first, LevelCount{one.first}).first->second;
+        const std::pair<double, bool> answer = levelAndHit(trial);
+        LevelCount& count = counts.try_emplace(answer.first, LevelCount{answer.first}).first->second;
         ++count.trials;
-        count.hits += one.second;
+        count.hits += answer.second;
     }
     std::vector<LevelCount> all;
     for (const auto& [level, count] : counts) all.push_back(count);
     return all;
 }
 
-/// Natural logarithm of the answers' probability. 0 and 1 count as 1e-12 away from it. Any thread.
+/// Natural logarithm of the answers' probability; functions are limited to 1e-12 from 0 and 1. Any thread.
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
 
 struct PsychometricFit {
-    std::string fault; ///< error in one line; if set, the rest is invalid
+    std::string error; ///< error in one line; if set, the rest is invalid
     PsychometricFunction function{};
     double logLikelihood = 0.0;
-    bool hasJnd = false;               ///< false: the width and the JND are invalid
-    std::pair<double, double> steps{}; ///< without a JND: lowest and highest threshold of equal fit
+    bool hasJnd = false;                        ///< false: the width and the JND are invalid
+    std::pair<double, double> stepThresholds{}; ///< without a JND: lowest and highest threshold of equal fit
 };
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
@@ -93,15 +97,16 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
 struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
-    std::pair<double, bool> counted() const noexcept { return {level, answer > 0.5}; } ///< for countByLevel()
+    /// For countByLevel().
+    std::pair<double, bool> levelAndHit() const noexcept { return {level, answer > 0.5}; }
 };
 
 // Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
 
 struct PowerLaw {
-    std::string fault; ///< error in one line; if set, the rest is invalid
+    std::string error; ///< error in one line; if set, the rest is invalid
     double exponent = 0.0, factor = 1.0;
-    double determination = 0.0; ///< r squared of the regression of logarithms
+    double rSquared = 0.0; ///< r squared of the regression of logarithms
 };
 
 /// Fits one participant's trials, of magnitudes at linear levels (g, not dB). Average exponents over
@@ -127,15 +132,15 @@ inline PowerLaw fitPowerLaw(std::span<const LevelAnswer> trials) {
 
 /// A fit to one participant's trials.
 template <class Fit>
-struct OfParticipant {
+struct ParticipantFit {
     std::string participant;
     std::size_t trials = 0;
     Fit fit;
 };
 
 // One result per participant, in the order of first trials. Any thread (allocates).
-std::vector<OfParticipant<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
-                                                                      const PsychometricModel& model);
-std::vector<OfParticipant<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
+std::vector<ParticipantFit<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                                       const PsychometricModel& model);
+std::vector<ParticipantFit<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
 
 } // namespace physvib

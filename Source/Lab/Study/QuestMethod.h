@@ -35,22 +35,22 @@ public:
     int trials() const noexcept { return trials_; }
 
 private:
-    PsychometricFunction possible(std::size_t index) const;
+    PsychometricFunction gridFunction(std::size_t index) const;
     double correct(std::size_t level, std::size_t index) const {
-        return correct_[level * belief_.size() + index];
+        return correct_[level * posterior_.size() + index];
     }
     void chooseNext();
 
     QuestPlan plan_;
-    std::vector<double> belief_;  ///< posterior probability of each function of the grid; sums to 1
-    std::vector<double> correct_; ///< probability of a correct answer, by level and function
-    std::vector<double> unsure_;  ///< entropy of that answer
+    std::vector<double> posterior_;       ///< posterior probability of each function of the grid; sums to 1
+    std::vector<double> correct_;         ///< probability of a correct answer, by level and function
+    std::vector<double> answerEntropies_; ///< entropy of that answer
     std::size_t next_ = 0;
     int trials_ = 0;
 };
 
-// Thresholds of several observers' QUEST+ runs: what the runs say together about the width of the
-// psychometric function replaces the uniform prior of each.
+// Thresholds of several observers' QUEST+ runs: all runs together estimate the width of the psychometric
+// function, which replaces the uniform prior of each run.
 
 struct PooledThresholds {
     std::vector<double> thresholds; ///< posterior mean of each run
@@ -58,16 +58,16 @@ struct PooledThresholds {
                             ///< error of all runs alike, which does not show in their spread
 };
 
-/// Each run is its answers by level (any order). All runs have the plan. Precondition: every list of `plan`
-/// and `runs` has at least one entry. Any thread (allocates).
+/// `runs`: the answers of each run by level, in any order; all runs have the same plan. Precondition: every
+/// list of `plan` and `runs` has at least one entry. Any thread (allocates).
 PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::vector<LevelCount>> runs);
 
 /// QUEST+ (Watson 2017) on this alternative's level: choosing it is correct.
 struct QuestMethod {
     std::string alternative;
     PsychometricShape shape = PsychometricShape::weibull;
-    double leastDb = 0.0, mostDb = 20.0, stepDb = 0.5; ///< that can be presented; also the prior's thresholds
-    double leastWidthDb = 2.0, mostWidthDb = 20.0;     ///< widths of the psychometric function in the prior
+    double minDb = 0.0, maxDb = 20.0, stepDb = 0.5; ///< that can be presented; also the prior's thresholds
+    double minWidthDb = 2.0, maxWidthDb = 20.0;     ///< widths of the psychometric function in the prior
     double lapse = 0.02;
     int trials = 40;
     double deviationDb = 0.0; ///< target standard deviation of the threshold, at which it ends early; 0: none
@@ -75,16 +75,16 @@ struct QuestMethod {
 };
 
 /// Empty, or the first inconsistency, e.g. `.step_db: expected ...`. Any thread (allocates).
-std::string questFault(const QuestMethod& method);
+std::string questError(const QuestMethod& method);
 
 /// The prior before the first trial. Any thread (allocates).
 QuestPlan questPlan(const QuestMethod& method, double guess);
 
 /// All settings of the plan as text, `weibull guess 0.5 lapse 0.02 levels_db 0 0.5 20 widths_db 2 20`. Any
 /// thread (allocates).
-std::string questWords(const QuestMethod& method, double guess);
+std::string questText(const QuestMethod& method, double guess);
 
-/// Parses the text of questWords(); nullopt if it is invalid. Any thread (allocates).
+/// Parses the text of questText(); nullopt if it is invalid. Any thread (allocates).
 std::optional<QuestPlan> questPlan(std::string_view words);
 
 } // namespace physvib

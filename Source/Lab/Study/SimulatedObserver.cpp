@@ -19,7 +19,7 @@ bool varies(const std::string& label, const char* part) {
 }
 
 /// Means as the thesis prints them; spreads so that its printed tests follow (ObserverTest checks this).
-ObserverSettings fittedToTheThesis(ObserverSettings settings) {
+ObserverSettings thesisObserver(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;
     settings.blurSpread = 0.11;
@@ -32,8 +32,8 @@ ObserverSettings fittedToTheThesis(ObserverSettings settings) {
 }
 
 /// Individual parameters of a participant, from the seed and the number alone.
-ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protocol,
-                               const Participant& participant) {
+ObserverSettings individualObserver(ObserverSettings settings, const Protocol& protocol,
+                                    const Participant& participant) {
     SeededRandom random{static_cast<std::uint64_t>(protocol.seed),
                         "observer/" + std::to_string(participant.number) + "/self"};
     settings.placeBlur *= std::exp(settings.blurSpread * random.normal());
@@ -48,8 +48,8 @@ ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protoc
 
 /// Level of the alternative that an adjustment is compared with.
 double comparedLevelDb(const SessionPlan& session) {
-    for (const Alternative& one : session.alternatives)
-        if (one.name != session.adjustment->alternative) return one.levelDb;
+    for (const Alternative& alternative : session.alternatives)
+        if (alternative.name != session.adjustment->alternative) return alternative.levelDb;
     return 0.0;
 }
 
@@ -65,26 +65,31 @@ struct Response {
         Answer answer;
         answer.plays =
             1 + static_cast<int>(random.below(
-                    session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
-        const double felt = session.leastSeconds *
-                            static_cast<double>(std::max<std::size_t>(1, trial.parts.size())),
-                     thinks = 0.8 - 1.5 * std::log(1.0 - random.uniform());
-        answer.ranOut = session.answerSeconds > 0.0 && thinks > session.answerSeconds;
-        answer.seconds = roundedTo(felt + (answer.ranOut ? session.answerSeconds : thinks), 1000.0);
-        if (answer.ranOut) return answer;
-        switch (session.answer()) {
-        case AnswerKind::wish:
-            if (session.fewestTouches > 0)
+                    session.maxPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.maxPlays))));
+        const double playedSeconds = session.minSeconds *
+                                     static_cast<double>(std::max<std::size_t>(1, trial.parts.size())),
+                     thinkingSeconds = 0.8 - 1.5 * std::log(1.0 - random.uniform());
+        answer.timedOut = session.answerSeconds > 0.0 && thinkingSeconds > session.answerSeconds;
+        answer.seconds =
+            roundedTo(playedSeconds + (answer.timedOut ? session.answerSeconds : thinkingSeconds), 1000.0);
+        if (answer.timedOut) return answer;
+        switch (session.answerKind()) {
+        case AnswerKind::request:
+            if (session.minTouches > 0)
                 answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
             else
-                answer.response = explored();
+                answer.response = requestedLabel();
             break;
-        case AnswerKind::label: answer.response = identified(); break;
-        case AnswerKind::place: answer.place = feltTarget(std::get<GridSet>(condition.stimuli).grid()); break;
-        case AnswerKind::choice: answer.response = session.answers.empty() ? chosen() : answered(); break;
+        case AnswerKind::label: answer.response = identifiedLabel(); break;
+        case AnswerKind::place:
+            answer.place = perceivedPlace(std::get<GridSet>(condition.stimuli).grid());
+            break;
+        case AnswerKind::choice:
+            answer.response = session.answers.empty() ? chosenAlternative() : answerByRank();
+            break;
         case AnswerKind::scores:
             for (std::size_t s = 0; s < session.scores().size(); ++s) {
-                const double score = scored();
+                const double score = ratingScore();
                 answer.scores.push_back(
                     session.points > 0 ? 1.0 + std::round(0.01 * score * (session.points - 1)) : score);
             }
@@ -93,36 +98,38 @@ struct Response {
             answer.value =
                 std::clamp(roundedTo(comparedLevelDb(session) + settings.levelNoiseDb * random.normal(),
                                      1.0 / session.adjustment->stepDb),
-                           session.adjustment->leastDb, session.adjustment->mostDb);
+                           session.adjustment->minDb, session.adjustment->maxDb);
             break;
-        case AnswerKind::number: answer.value = std::clamp(magnitude(), leastEstimate, mostEstimate); break;
-        case AnswerKind::words: answer.response = described(); break;
+        case AnswerKind::number:
+            answer.value = std::clamp(magnitudeEstimate(), minEstimate, maxEstimate);
+            break;
+        case AnswerKind::words: answer.response = verbalAnswer(); break;
         }
         return answer;
     }
 
 private:
-    std::string explored() const {
-        const auto items = stimuliOf(condition);
+    std::string requestedLabel() const {
+        const auto items = conditionStimuli(condition);
         return items[static_cast<std::size_t>(trial.number - 1) % items.size()].label;
     }
 
-    std::string identified() {
+    std::string identifiedLabel() {
         if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli))
-            return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns));
+            return patternLabel(perceivedPattern(*parsePatternLabel(trial.stimulus), *patterns));
         if (const auto* set = std::get_if<GridSet>(&condition.stimuli))
-            return gridLabel(set->grid().nearest(feltTarget(set->grid())));
-        const auto items = stimuliOf(condition); // unknown kind of stimulus: confused at a fixed rate
+            return gridLabel(set->grid().nearest(perceivedPlace(set->grid())));
+        const auto items = conditionStimuli(condition); // unknown kind of stimulus: confused at a fixed rate
         return random.chance(settings.pulsePlaceConfusion) ? items[random.below(items.size())].label
                                                            : trial.stimulus;
     }
 
-    PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set) {
-        const auto others = static_cast<std::size_t>(set.enchanters - 1);
+    PulsePattern perceivedPattern(PulsePattern pattern, const PatternSet& set) {
+        const auto otherCount = static_cast<std::size_t>(set.enchanters - 1);
         for (int k = 0; k < pattern.count; ++k) {
-            int& place = pattern.enchanters[static_cast<std::size_t>(k)];
-            if (others > 0 && random.chance(settings.pulsePlaceConfusion))
-                place = (place + 1 + static_cast<int>(random.below(others))) % set.enchanters;
+            int& place = pattern.actuators[static_cast<std::size_t>(k)];
+            if (otherCount > 0 && random.chance(settings.pulsePlaceConfusion))
+                place = (place + 1 + static_cast<int>(random.below(otherCount))) % set.enchanters;
         }
         if (set.pulseSeconds.size() > 1 && random.chance(settings.durationConfusion)) {
             const double played = pattern.pulseSeconds;
@@ -139,42 +146,44 @@ private:
                                                                                : settings.placeBlur;
     }
 
-    FieldPlace feltTarget(const PhantomGrid& grid) {
-        const auto felt = [&](double at, double offset) {
-            const double middle = 0.5 + (1.0 - settings.pullToMiddle) * (at - 0.5) + offset;
+    FieldPlace perceivedPlace(const PhantomGrid& grid) {
+        const auto perceived = [&](double at, double offset) {
+            const double middle = 0.5 + (1.0 - settings.centralTendency) * (at - 0.5) + offset;
             return roundedTo(std::clamp(middle + blur() * random.normal(), 0.0, 1.0), 1e6);
         };
-        const FieldPlace place = grid.place(*targetOf(condition, trial));
-        const double x = felt(place.x, settings.offsetX);
-        return {x, felt(place.y, settings.offsetY)};
+        const FieldPlace place = grid.place(*targetCell(condition, trial));
+        const double x = perceived(place.x, settings.offsetX);
+        return {x, perceived(place.y, settings.offsetY)};
     }
 
     /// Rank of the stimulus among all, by its number or its position in the list, from 0 to 1.
-    double standing() const {
-        const auto items = stimuliOf(condition);
-        const auto own = parseNumber<double>(trial.stimulus);
+    double relativeRank() const {
+        const auto items = conditionStimuli(condition);
+        const auto number = parseNumber<double>(trial.stimulus);
         const auto before =
-            own ? std::ranges::count_if(
-                      items, [&](const StimulusItem& item) { return parseNumber<double>(item.label) < own; })
-                : std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin();
+            number ? std::ranges::count_if(
+                         items,
+                         [&](const StimulusItem& item) { return parseNumber<double>(item.label) < number; })
+                   : std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin();
         return (static_cast<double>(before) + 0.5) / static_cast<double>(items.size());
     }
 
     /// Picks the stronger of two different levels; otherwise the first listed alternative, by its preference.
-    std::string chosen() {
+    std::string chosenAlternative() {
         if (session.adaptedAlternative()) {
             std::size_t strongest = 0;
-            double most = -1e9;
+            double maxPerceivedDb = -1e9;
             for (std::size_t i = 0; i < trial.parts.size(); ++i)
-                if (const double felt = trial.partLevelsDb[i] + settings.levelNoiseDb * random.normal();
-                    felt > most) {
-                    most = felt;
+                if (const double perceivedDb =
+                        trial.partLevelsDb[i] + settings.levelNoiseDb * random.normal();
+                    perceivedDb > maxPerceivedDb) {
+                    maxPerceivedDb = perceivedDb;
                     strongest = i;
                 }
             return trial.parts[strongest];
         }
         if (!session.correct.empty()) // more often correct at higher ranks
-            return random.chance(1.25 * standing() - 0.125)
+            return random.chance(1.25 * relativeRank() - 0.125)
                        ? session.correct
                        : session.alternatives[random.below(session.alternatives.size())].name;
         if (random.chance(settings.firstAlternativePreference)) return session.alternatives.front().name;
@@ -182,21 +191,21 @@ private:
     }
 
     /// The answer at the stimulus' rank in the list of answers, with noise.
-    std::string answered() {
-        const double share = standing() + 0.2 * random.normal();
+    std::string answerByRank() {
+        const double share = relativeRank() + 0.2 * random.normal();
         return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
                                                         static_cast<double>(session.answers.size()))];
     }
 
     /// Answers with characters that CSV, HTML and spreadsheets must not change; sometimes empty.
-    std::string described() {
+    std::string verbalAnswer() {
         static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
                                           "\uac15\ud55c"};
         if (session.mayBeEmpty && random.chance(0.25)) return {};
         return words[random.below(words.size())];
     }
 
-    double scored() {
+    double ratingScore() {
         const double score = settings.scoreBase + settings.amplitudeScore * varies(trial.stimulus, "AV") +
                              settings.frequencyScore * varies(trial.stimulus, "FV") +
                              settings.decayScore * varies(trial.stimulus, "DRV") +
@@ -205,7 +214,7 @@ private:
     }
 
     /// Stevens' power law with an exponent near one and the same level noise.
-    double magnitude() {
+    double magnitudeEstimate() {
         const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
         const double db =
             toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings.levelNoiseDb * random.normal();
@@ -220,14 +229,14 @@ std::optional<ObserverSettings> observerNamed(std::string_view name) {
     settings.name = name;
     if (name == "simulated-PHONE") settings.placeBlur = 0.2073;
     if (name == "simulated-RING") settings.placeBlur = 0.1524;
-    if (name == "simulated-thesis") return fittedToTheThesis(settings);
+    if (name == "simulated-thesis") return thesisObserver(settings);
     return name == "simulated" || settings.placeBlur != ObserverSettings{}.placeBlur ? std::optional{settings}
                                                                                      : std::nullopt;
 }
 
 SimulatedObserver::SimulatedObserver(ObserverSettings settings, const Protocol& protocol,
                                      const Participant& participant)
-    : settings_{ofParticipant(std::move(settings), protocol, participant)}
+    : settings_{individualObserver(std::move(settings), protocol, participant)}
     , protocol_{protocol}
     , participant_{participant} {}
 

@@ -12,11 +12,11 @@ namespace physvib {
 struct ObserverSettings {
     std::string name = "simulated";
     double placeBlur = 0.15;             ///< standard deviation, share of the field's width and height
-    double pullToMiddle = 0.0;           ///< of places, as a share of their distance from the centre
+    double centralTendency = 0.0;        ///< of places, as a share of their distance from the centre
     double offsetX = 0.0, offsetY = 0.0; ///< constant localisation error, as shares of the field
     double pulsePlaceConfusion = 0.01;   ///< probability that a pulse is felt at another actuator
     double durationConfusion = 0.03;     ///< probability that a pattern's duration is confused with another
-    double numerosityConfusion = 0.02;   ///< that one pulse too few is counted (as is usual)
+    double numerosityConfusion = 0.02;   ///< that one pulse too few is counted
     double firstAlternativePreference = 0.59;   ///< probability, for alternatives at equal levels
     double levelNoiseDb = 2.0;                  ///< of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings

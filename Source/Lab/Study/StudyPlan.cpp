@@ -13,44 +13,44 @@ namespace {
 
 using Levels = std::set<double>; // in dB
 
-/// One more than mostPlannedLevels from `least` to `most`, evenly spread.
-Levels spread(double least, double most) {
-    Levels levels{most};
-    for (std::size_t i = 0; i < mostPlannedLevels; ++i)
-        levels.insert(least + (most - least) * static_cast<double>(i) / mostPlannedLevels);
+/// maxPlannedLevels + 1 levels from `minDb` to `maxDb`, evenly spread.
+Levels spread(double minDb, double maxDb) {
+    Levels levels{maxDb};
+    for (std::size_t i = 0; i < maxPlannedLevels; ++i)
+        levels.insert(minDb + (maxDb - minDb) * static_cast<double>(i) / maxPlannedLevels);
     return levels;
 }
 
-/// `start` and all that `steps` lead to within the range, up and down. Steps that do not divide one another
-/// reach ever more: then the range is spread.
-Levels reachedFrom(double start, std::vector<double> steps, double least, double most) {
+/// All levels within the range that `steps` up and down reach from `start`. If they are more than
+/// maxPlannedLevels, as with steps that do not divide one another, levels spread over the range.
+Levels reachedFrom(double start, std::vector<double> steps, double minDb, double maxDb) {
     Levels reached{start};
     for (std::vector<double> next{start}; !next.empty();) {
-        if (reached.size() > mostPlannedLevels) return spread(least, most);
+        if (reached.size() > maxPlannedLevels) return spread(minDb, maxDb);
         const double level = next.back();
         next.pop_back();
         for (const double step : steps)
-            for (const double other : {level - step, level + step})
-                if (const double at = std::round(std::clamp(other, least, most) * 1e6) * 1e-6;
-                    reached.insert(at).second)
-                    next.push_back(at);
+            for (const double neighbour : {level - step, level + step})
+                if (const double rounded = std::round(std::clamp(neighbour, minDb, maxDb) * 1e6) * 1e-6;
+                    reached.insert(rounded).second)
+                    next.push_back(rounded);
     }
     return reached;
 }
 
 Levels levelsOf(const Adjustment& a) {
-    Levels levels = reachedFrom(a.startDb, {a.stepDb}, a.leastDb, a.mostDb);
-    if (a.startsAnywhere) levels.merge(reachedFrom(a.leastDb, {a.stepDb}, a.leastDb, a.mostDb));
+    Levels levels = reachedFrom(a.startDb, {a.stepDb}, a.minDb, a.maxDb);
+    if (a.hasRandomStart) levels.merge(reachedFrom(a.minDb, {a.stepDb}, a.minDb, a.maxDb));
     return levels;
 }
 
 Levels levelsOf(const StaircasePlan& s) {
     std::vector<double> steps{s.stepDb};
-    while (steps.back() > s.leastStepDb) steps.push_back(std::max(s.leastStepDb, 0.5 * steps.back()));
+    while (steps.back() > s.minStepDb) steps.push_back(std::max(s.minStepDb, 0.5 * steps.back()));
     if (s.upRatio != 1.0)
         for (std::size_t i = steps.size(); i-- > 0;) steps.push_back(s.upRatio * steps[i]);
     Levels levels;
-    for (const double start : s.starts()) levels.merge(reachedFrom(start, steps, s.leastDb, s.mostDb));
+    for (const double start : s.starts()) levels.merge(reachedFrom(start, steps, s.minDb, s.maxDb));
     return levels;
 }
 
@@ -62,15 +62,15 @@ Levels levelsOf(const QuestMethod& q) {
 /// Levels that an alternative can have in a session, summed as Experiment does. An adjusted alternative is
 /// played at the adjusted level.
 Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
-    const auto moves = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
-    if (moves(session.adjustment)) return levelsOf(*session.adjustment);
+    const auto varies = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
+    if (varies(session.adjustment)) return levelsOf(*session.adjustment);
     const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
     Levels added;
-    if (!session.levelsFrom.empty() && from != protocol.sessions.end() && moves(from->adjustment))
-        added = spread(from->adjustment->leastDb, from->adjustment->mostDb); // means of what was set
-    else if (moves(session.staircase))
+    if (!session.levelsFrom.empty() && from != protocol.sessions.end() && varies(from->adjustment))
+        added = spread(from->adjustment->minDb, from->adjustment->maxDb); // means of adjusted levels
+    else if (varies(session.staircase))
         added = levelsOf(*session.staircase);
-    else if (moves(session.quest))
+    else if (varies(session.quest))
         added = levelsOf(*session.quest);
     else if (!session.levelsFile.empty())
         for (const StimulusLevel& level : protocol.levels)
@@ -88,46 +88,46 @@ std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPla
         for (const double db : levelsOf(protocol, session, alternative)) {
             Levels& levels = parts[alternative.name];
             levels.insert(db);
-            if (std::ranges::any_of(protocol.conditions, rovesApart)) continue;
+            if (std::ranges::any_of(protocol.conditions, hasRovingVariable)) continue;
             for (int tenth = 1; tenth <= std::lround(10.0 * session.roveDb); ++tenth)
                 levels.insert(
                     {std::round((db - 0.1 * tenth) * 1e6) / 1e6, std::round((db + 0.1 * tenth) * 1e6) / 1e6});
         }
     for (const std::string& object : session.objects) parts[object] = {0.0};
-    if (parts.empty() && !session.isOnce) parts[{}] = {0.0};
+    if (parts.empty() && !session.isQuestionnaire) parts[{}] = {0.0};
     return parts;
 }
 
 /// True if a level only scales the samples of this condition's stimuli.
 bool isGain(const ConditionPlan& condition) {
     const CallSet* const calls = callSetOf(condition.stimuli);
-    return calls == nullptr || (calls->variables.empty() && movedBesideStrength(condition).empty());
+    return calls == nullptr || (calls->variables.empty() && nonGainVariables(condition).empty());
 }
 
 /// One session in one condition.
 struct PlannedSession {
     std::size_t session = 0, condition = 0;
     int trials = 0;
-    std::vector<PlannedTrials> felt; ///< every part of every stimulus, with its number of plays
+    std::vector<PlannedTrials> plays; ///< every part of every stimulus, with its number of plays
 };
 
 /// In protocol order, as for one participant.
 std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
     std::vector<PlannedSession> all;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
-        const auto items = stimuliOf(protocol.conditions[c]);
+        const auto items = conditionStimuli(protocol.conditions[c]);
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s) {
-            PlannedSession& planned =
-                all.emplace_back(PlannedSession{s, c, mostTrialsOf(protocol.sessions[s], items.size()), {}});
-            const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size()) *
-                                (protocol.sessions[s].comparesPairs ? 2.0 : 1.0);
+            PlannedSession& planned = all.emplace_back(
+                PlannedSession{s, c, maxSessionTrials(protocol.sessions[s], items.size()), {}});
+            const double plays = static_cast<double>(planned.trials) / static_cast<double>(items.size()) *
+                                 (protocol.sessions[s].comparesPairs ? 2.0 : 1.0);
             for (const StimulusItem& item : items)
                 for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
-                    planned.felt.push_back(
+                    planned.plays.push_back(
                         {c, item.label, part,
-                         !part.empty() && part == protocol.sessions[s].reference ? 2.0 * each : each});
+                         !part.empty() && part == protocol.sessions[s].reference ? 2.0 * plays : plays});
             if (const std::string& modulus = protocol.sessions[s].modulus; !modulus.empty())
-                planned.felt.push_back({c, modulus, {}, static_cast<double>(planned.trials)});
+                planned.plays.push_back({c, modulus, {}, static_cast<double>(planned.trials)});
         }
     }
     return all;
@@ -135,22 +135,23 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
 
 } // namespace
 
-int mostTrialsOf(const SessionPlan& session, std::size_t stimuli) {
-    const auto count = static_cast<int>(session.isOnce          ? 1
+int maxSessionTrials(const SessionPlan& session, std::size_t stimuli) {
+    const auto count = static_cast<int>(session.isQuestionnaire ? 1
                                         : session.comparesPairs ? stimuli * (stimuli - 1) / 2
                                                                 : stimuli);
-    if (session.answer() == AnswerKind::wish)
-        return session.fewestTouches > 0 ? session.fewestTouches : count;
+    if (session.answerKind() == AnswerKind::request)
+        return session.minTouches > 0 ? session.minTouches : count;
     if (session.quest) return session.quest->trials;
     if (session.staircase)
-        return session.staircase->mostTrials * static_cast<int>(session.staircase->starts().size());
+        return session.staircase->maxTrials * static_cast<int>(session.staircase->starts().size());
     return count * session.repetitions * (session.bothOrders ? 2 : 1);
 }
 
-std::vector<std::string> withoutBreaks(const Protocol& protocol, const SessionPlan& session) {
+std::vector<std::string> conditionsWithoutBreaks(const Protocol& protocol, const SessionPlan& session) {
     std::vector<std::string> names;
     for (const ConditionPlan& condition : protocol.conditions)
-        if (mostTrialsOf(session, static_cast<std::size_t>(stimulusCount(condition))) <= session.breakEvery)
+        if (maxSessionTrials(session, static_cast<std::size_t>(stimulusCount(condition))) <=
+            session.breakEvery)
             names.push_back(condition.name);
     return names;
 }
@@ -164,10 +165,10 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
         record.trial.parts = {part};
         record.trial.partLevelsDb = {levelDb};
         record.answer.value = levelDb; // an adjustment plays its answered level
-        if (rovesApart(protocol.conditions[condition]))
+        if (hasRovingVariable(protocol.conditions[condition]))
             record.trial.roveDb = protocol.sessions[session].roveDb;
     }
-    return jobsOf(protocol, record).front();
+    return trialJobs(protocol, record).front();
 }
 
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
@@ -180,21 +181,21 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
     if (parts.size() > 1) parts.erase(std::string{});
     std::set<std::string> spreadParts;
     for (auto& [name, levels] : parts) {
-        if (levels.size() <= mostPlannedLevels) continue;
+        if (levels.size() <= maxPlannedLevels) continue;
         spreadParts.insert(name);
-        std::map<double, std::size_t> even;
+        std::map<double, std::size_t> spreadLevels;
         for (const double db : spread(levels.begin()->first, levels.rbegin()->first))
-            even[db] = std::prev(levels.upper_bound(db))->second;
-        levels = std::move(even);
+            spreadLevels[db] = std::prev(levels.upper_bound(db))->second;
+        levels = std::move(spreadLevels);
     }
     std::vector<PlannedStimulus> planned;
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
-        const bool scales = isGain(protocol.conditions[c]);
-        for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))
+        const bool isLevelGain = isGain(protocol.conditions[c]);
+        for (const StimulusItem& item : conditionStimuli(protocol.conditions[c]))
             for (const auto& [name, levels] : parts)
                 for (const auto& [db, session] : levels) {
                     const bool isHighest = db == levels.rbegin()->first;
-                    if (!scales)
+                    if (!isLevelGain)
                         planned.push_back(
                             {c, session, item.label, name, db, true, spreadParts.contains(name)});
                     else if (isHighest || db == levels.begin()->first)
@@ -207,7 +208,7 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
 std::vector<PlannedTrials> plannedTrials(const Protocol& protocol) {
     std::vector<PlannedTrials> all;
     for (PlannedSession& session : plannedSessions(protocol))
-        std::ranges::move(session.felt, std::back_inserter(all));
+        std::ranges::move(session.plays, std::back_inserter(all));
     return all;
 }
 
@@ -215,29 +216,33 @@ PlannedTime
 plannedTime(const Protocol& protocol,
             const std::function<double(std::size_t, const std::string&, const std::string&)>& secondsOf) {
     PlannedTime time;
-    double stretch = 0.0;
+    double stretchSeconds = 0.0;
     std::size_t condition = 0;
-    const auto work = [&](double seconds) {
+    const auto addWork = [&](double seconds) {
         time.seconds += seconds,
-            time.longestStretchSeconds = std::max(time.longestStretchSeconds, stretch += seconds);
+            time.maxStretchSeconds = std::max(time.maxStretchSeconds, stretchSeconds += seconds);
     };
-    const auto rest = [&](double seconds) {
-        if (seconds > 0.0) time.seconds += seconds, stretch = 0.0;
+    const auto addBreak = [&](double seconds) {
+        if (seconds > 0.0) time.seconds += seconds, stretchSeconds = 0.0;
     };
     for (const PlannedSession& planned : plannedSessions(protocol)) {
         const SessionPlan& session = protocol.sessions[planned.session];
         if (std::exchange(condition, planned.condition) != planned.condition)
-            rest(protocol.conditionBreakSeconds);
-        rest(session.breakBeforeSeconds);
-        double felt = 0.0; // sum over all trials of the session
-        for (const PlannedTrials& one : planned.felt)
-            felt += one.count * std::max(session.leastSeconds, secondsOf(one.condition, one.label, one.part));
+            addBreak(protocol.conditionBreakSeconds);
+        addBreak(session.breakBeforeSeconds);
+        double playSeconds = 0.0; // sum over all trials of the session
+        for (const PlannedTrials& play : planned.plays)
+            playSeconds +=
+                play.count * std::max(session.minSeconds, secondsOf(play.condition, play.label, play.part));
         for (int t = 0; t < planned.trials; ++t) {
-            if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0) rest(session.breakSeconds);
-            const double most =
+            if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0)
+                addBreak(session.breakSeconds);
+            const double limitSeconds =
                 session.answerSeconds > 0.0 ? session.answerSeconds : PlannedTime::answerSeconds;
-            work(felt / planned.trials +
-                 (session.answer() == AnswerKind::wish ? 0.0 : std::min(most, PlannedTime::answerSeconds)));
+            addWork(playSeconds / planned.trials +
+                    (session.answerKind() == AnswerKind::request
+                         ? 0.0
+                         : std::min(limitSeconds, PlannedTime::answerSeconds)));
         }
         time.trials += planned.trials;
     }
@@ -245,23 +250,23 @@ plannedTime(const Protocol& protocol,
 }
 
 OrderBalance orderBalance(const Protocol& protocol, int participants) {
-    std::map<std::pair<std::size_t, std::size_t>, int> atPlace; // by condition and place
+    std::map<std::pair<std::size_t, std::size_t>, int> counts; // by condition and position
     std::set<std::pair<std::size_t, std::size_t>> successions;
     for (int number = 1; number <= participants; ++number) {
         const auto order = conditionOrder(protocol, number);
-        for (std::size_t place = 0; place < order.size(); ++place) {
-            ++atPlace[{order[place], place}];
-            if (place > 0) successions.emplace(order[place - 1], order[place]);
+        for (std::size_t position = 0; position < order.size(); ++position) {
+            ++counts[{order[position], position}];
+            if (position > 0) successions.emplace(order[position - 1], order[position]);
         }
     }
     const std::size_t count = protocol.conditions.size();
     OrderBalance balance{participants, 0, static_cast<int>(successions.size()),
                          static_cast<int>(count * (count - 1))};
     for (std::size_t condition = 0; condition < count; ++condition)
-        for (std::size_t place = 0; place < count; ++place) {
-            const int times = atPlace[{condition, place}];
-            balance.fewestAtPlace = std::min(balance.fewestAtPlace, times);
-            balance.mostAtPlace = std::max(balance.mostAtPlace, times);
+        for (std::size_t position = 0; position < count; ++position) {
+            const int occurrences = counts[{condition, position}];
+            balance.minAtPosition = std::min(balance.minAtPosition, occurrences);
+            balance.maxAtPosition = std::max(balance.maxAtPosition, occurrences);
         }
     return balance;
 }

@@ -14,26 +14,26 @@ struct PlannedStimulus {
     std::size_t condition = 0, session = 0; ///< the session is one that sets the level
     std::string label, part;                ///< part is empty if trials have none
     double levelDb = 0.0;
-    bool isHighest = true; ///< false: a lower level of the same samples
-    bool isSpread = false; ///< one of levels that are spread evenly, as sessions can reach more
+    bool isHighest = true;       ///< false: a lower level of the same samples
+    bool isEvenlySpaced = false; ///< one of levels that are spread evenly, as sessions can reach more
 
     /// The job that creates the stimulus. Any thread (allocates).
     TrialJob job(const Protocol& protocol) const;
 };
 
 /// If a part can have more levels than this, one more than this number is planned, evenly spaced.
-inline constexpr std::size_t mostPlannedLevels = 512;
+inline constexpr std::size_t maxPlannedLevels = 512;
 
 /// All planned stimuli in the order of conditions, each with its levels from the lowest. A level that is only
 /// a gain scales the samples, so its lowest and its highest stand for all; any other use of it is listed
 /// level by level. Any thread (allocates).
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol);
 
-/// Trials of a session with so many stimuli; the most where answers decide. Any thread.
-int mostTrialsOf(const SessionPlan& session, std::size_t stimuli);
+/// Number of trials of a session; the maximum where answers decide. Any thread.
+int maxSessionTrials(const SessionPlan& session, std::size_t stimuli);
 
 /// Conditions in which no break of `break_every` comes before the last trial. Any thread (allocates).
-std::vector<std::string> withoutBreaks(const Protocol& protocol, const SessionPlan& session);
+std::vector<std::string> conditionsWithoutBreaks(const Protocol& protocol, const SessionPlan& session);
 
 /// Number of plays of one part of a stimulus per participant, at one play per trial.
 struct PlannedTrials {
@@ -47,9 +47,9 @@ std::vector<PlannedTrials> plannedTrials(const Protocol& protocol);
 
 /// Duration of a study for one participant.
 struct PlannedTime {
-    int trials = 0;       ///< over all conditions; the maximum where levels follow the answers
-    double seconds = 0.0; ///< including breaks, one play of each part, and answerSeconds per answer
-    double longestStretchSeconds = 0.0; ///< without a break in between
+    int trials = 0;                 ///< over all conditions; the maximum where levels follow the answers
+    double seconds = 0.0;           ///< including breaks, one play of each part, and answerSeconds per answer
+    double maxStretchSeconds = 0.0; ///< without a break in between
     static constexpr double answerSeconds = 5.0;
 };
 
@@ -61,11 +61,11 @@ PlannedTime plannedTime(const Protocol& protocol,
 
 /// Balance of the condition orders of participants 1 to `participants`.
 struct OrderBalance {
-    int fewestAtPlace = 0, mostAtPlace = 0;       ///< how often a condition has a position: least and most
+    int minAtPosition = 0, maxAtPosition = 0;     ///< how often a condition has a position
     int successions = 0, possibleSuccessions = 0; ///< ordered pairs of neighbouring conditions: how many
                                                   ///< occur, and how many there are
     bool isBalanced() const noexcept {
-        return fewestAtPlace == mostAtPlace && successions == possibleSuccessions;
+        return minAtPosition == maxAtPosition && successions == possibleSuccessions;
     }
 };
 

@@ -21,10 +21,10 @@ struct StudyRun {
 };
 
 /// True if the code can be part of file names: at most 32 letters, digits, - and _. Any thread.
-bool isStudyCode(const std::string& code) noexcept;
+bool isParticipantCode(const std::string& code) noexcept;
 
 /// Empty, or one line on what is invalid, before any trial or file. Any thread (allocates).
-std::string faultOf(const StudyRun& run);
+std::string studyRunError(const StudyRun& run);
 
 /// A run from its first unanswered trial to its last. Message thread only.
 class StudyInProgress {
@@ -34,70 +34,73 @@ public:
     StudyInProgress(const StudyInProgress&) = delete;
     StudyInProgress& operator=(const StudyInProgress&) = delete;
 
-    /// Empty, or one line; after an error the experiment must not be used.
+    /// Empty, or one error line, after which the experiment must not be used.
     const std::string& error() const noexcept { return error_; }
 
     const Protocol& protocol() const noexcept { return run_.protocol; }
     const std::filesystem::path& path() const noexcept { return path_; }
     const Experiment& experiment() const noexcept { return experiment_; }
-    int trialsBefore() const noexcept { return before_; } ///< trials that the file had when it was opened
+    /// Trials that the file had when it was opened.
+    int resumedTrials() const noexcept { return resumedTrials_; }
     /// Empty, or one line naming the setting of the apparatus that differs from the last recorded trial, or
-    /// the outputs that differ from those of the last start. A
-    /// newer program version is allowed, since each row has its version. Any thread (allocates).
-    std::string apparatusFault(const Apparatus& now) const;
+    /// the outputs that differ from those of the last start. A newer program version is allowed, since each
+    /// row has its version. Any thread (allocates).
+    std::string apparatusError(const Apparatus& current) const;
     /// Master level in dB of the earlier trials if it differs from the current one; else nullopt. Any thread.
-    std::optional<double> otherLevelDb(const Apparatus& now) const {
+    std::optional<double> previousMasterDb(const Apparatus& current) const {
         const auto& records = log_.records();
         const auto before = records.empty() ? std::nullopt : records.back().answer.apparatus;
-        return before && before->masterDb != now.masterDb ? std::optional{before->masterDb} : std::nullopt;
+        return before && before->masterDb != current.masterDb ? std::optional{before->masterDb}
+                                                              : std::nullopt;
     }
-    /// Writes the start or resume with this apparatus into the file of times. Empty, or why not.
-    std::string begin(const Apparatus& now) {
-        return note(log_.records().empty() ? studyEvents::start : studyEvents::resume, now);
+    /// Writes the start or resume with this apparatus into the file of times. Returns an error, or empty.
+    std::string logStart(const Apparatus& current) {
+        return logEvent(log_.records().empty() ? studyEvents::start : studyEvents::resume, current);
     }
-    /// Adds an event (studyEvents) with the current time. Empty, or why not.
+    /// Adds an event (studyEvents) with the current time. Returns an error, or empty.
     /// After the end nothing is added, however often the study is opened again.
-    std::string note(std::string_view event, const Apparatus& now = {});
-    /// Seconds left of the break before the current trial: it goes on while the window is closed.
-    double restLeft() const;
-    bool isResting() const noexcept { return rests_.isResting; } ///< true until a go-on after a break
+    std::string logEvent(std::string_view event, const Apparatus& current = {});
+    /// Remaining seconds of the break before the current trial; it also runs while the window is closed.
+    double remainingBreakSeconds() const;
+    /// From the start of a break until the participant goes on.
+    bool isOnBreak() const noexcept { return breakState_.isOnBreak; }
     /// True if the break before the current trial has begun, in this sitting or an earlier one.
-    bool hasRested() const { return restBegan() != nullptr; }
+    bool hasBreakBegun() const { return breakStart() != nullptr; }
     /// A(8) in m/s^2 after these trials, if the last of them is of today.
     double exposureToday() const noexcept { return exposureToday_; }
 
     /// Accepts the answer to the current trial and writes its row before it returns. Returns false and sets
     /// error() if the answer is invalid or cannot be written.
-    bool take(Answer answer);
+    bool acceptAnswer(Answer answer);
 
     /// Starts the next session. Precondition: the experiment's mayEnd().
     void endSession() { experiment_.endSession(); }
 
     /// Folder beside the trial file for the sessions of worlds that the participant felt.
-    std::filesystem::path feltFolder() const {
+    std::filesystem::path worldSessionsFolder() const {
         return std::filesystem::path{path_}.replace_extension(".felt");
     }
 
-    /// Writes the participant's comment beside the trial file as .comment.txt. Empty, or why that failed.
-    std::string keepComment(const std::string& words) const;
+    /// Writes the participant's comment beside the trial file as .comment.txt. Returns an error, or empty.
+    std::string saveComment(const std::string& words) const;
 
 private:
     // the break before the current trial; null if none was noted
-    const StudyMoment* restBegan() const {
-        const auto found = std::ranges::find_if(times_, [&](const StudyMoment& m) {
-            return m.event == studyEvents::rest && m.trials == experiment_.trialsTaken();
+    const StudyEvent* breakStart() const {
+        const auto found = std::ranges::find_if(times_, [&](const StudyEvent& entry) {
+            return entry.event == studyEvents::breakStart && entry.trials == experiment_.answeredTrials();
         });
         return found != times_.end() ? &*found : nullptr;
     }
 
     StudyRun run_;
     std::filesystem::path path_;
-    bool isOfToday_;
+    bool wasWrittenToday_;
     TrialLogFile log_;
-    std::vector<StudyMoment> times_; // of the file of times
-    StudyRests rests_;               // of these
+    std::vector<StudyEvent> times_; // events of the file of times
+    StudyBreakState breakState_;    // after these events
     Experiment experiment_;
-    int before_ = 0;
+    int resumedTrials_ = 0;
     double exposureToday_ = 0.0;
     std::string error_;
 };

@@ -18,19 +18,20 @@ enum class StudyTask { explore, identify, locate, choose, rate, adjust, estimate
 /// Kind of an answer. It decides which fields of Answer and columns of the row are used, and what session and
 /// condition must have.
 enum class AnswerKind {
-    wish,   ///< the requested stimulus, or a place if the session counts touches; training only, not analysed
-    label,  ///< label of a stimulus
-    place,  ///< place on the field of a grid
-    choice, ///< one of the session's alternatives
-    scores, ///< one score per scale of the session
-    level,  ///< level in dB of the alternative that is adjusted
-    number, ///< greater than 0
-    words   ///< of the participant, on one line; listed, not analysed
+    request, ///< the requested stimulus, or a place if the session counts touches; training only, not
+             ///< analysed
+    label,   ///< label of a stimulus
+    place,   ///< place on the field of a grid
+    choice,  ///< one of the session's alternatives
+    scores,  ///< one score per scale of the session
+    level,   ///< level in dB of the alternative that is adjusted
+    number,  ///< greater than 0
+    words    ///< of the participant, on one line; listed, not analysed
 };
 
-/// English text, translated line by line. Where a variant is empty, `usual` applies.
+/// English text, translated line by line. Where a variant is empty, `standard` applies.
 struct TaskText {
-    std::string_view usual, onGrid{}, ofPatterns{};
+    std::string_view standard, forGrid{}, forPatterns{};
 };
 
 /// An entry of the table.
@@ -43,11 +44,10 @@ struct StudyTaskDescription {
     TaskText instruction; ///< course of a session, after the line on how often a stimulus may be played
 };
 
-/// The table of all tasks.
 inline constexpr std::array studyTasks{
     StudyTaskDescription{StudyTask::explore,
                          "explore",
-                         AnswerKind::wish,
+                         AnswerKind::request,
                          "",
                          {"What do you want to feel?", "Where do you want to feel it?"},
                          {"Choose what you want to feel, as often as you like.\nWhen everything was felt "
@@ -98,20 +98,20 @@ inline constexpr std::array studyTasks{
                          {"Then write it in your own words, and go on."}}};
 
 /// The task's entry. Any thread.
-constexpr const StudyTaskDescription& describe(StudyTask task) noexcept {
+constexpr const StudyTaskDescription& taskDescription(StudyTask task) noexcept {
     return studyTasks[static_cast<std::size_t>(task)];
 }
 
 /// The entry with that name; null if there is none. Any thread.
-constexpr const StudyTaskDescription* studyTaskNamed(std::string_view name) noexcept {
+constexpr const StudyTaskDescription* findStudyTask(std::string_view name) noexcept {
     for (const auto& one : studyTasks)
         if (one.name == name) return &one;
     return nullptr;
 }
 
 /// Kind of answer of the task with that name; nullopt if there is no such task. Any thread.
-constexpr std::optional<AnswerKind> answerOf(std::string_view name) noexcept {
-    const StudyTaskDescription* const found = studyTaskNamed(name);
+constexpr std::optional<AnswerKind> answerKindOf(std::string_view name) noexcept {
+    const StudyTaskDescription* const found = findStudyTask(name);
     return found != nullptr ? std::optional{found->answer} : std::nullopt;
 }
 
@@ -131,7 +131,7 @@ static_assert(
     "each task at the place of its number");
 
 /// "the task rate", "the tasks choose and adjust": those with answers of these kinds. Any thread (allocates).
-inline std::string tasksThatAnswer(std::initializer_list<AnswerKind> kinds) {
+inline std::string taskNames(std::initializer_list<AnswerKind> kinds) {
     std::string names;
     std::size_t count = 0;
     for (const auto& one : studyTasks)

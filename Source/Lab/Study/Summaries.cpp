@@ -13,17 +13,17 @@
 namespace physvib {
 namespace {
 
-/// Where a rising function reaches `target`, to the last bit, between 0 and `most` > 0.
+/// Where a rising function reaches `target`, to the last bit, between 0 and `upper` > 0.
 template <class Function>
-double crossing(Function rising, double target, double most) {
-    double least = 0.0;
-    for (double middle = 0.5 * most; middle > least && middle < most; middle = std::midpoint(least, most))
-        (rising(middle) < target ? least : most) = middle;
-    return most;
+double solveRising(Function rising, double target, double upper) {
+    double lower = 0.0;
+    for (double middle = 0.5 * upper; middle > lower && middle < upper; middle = std::midpoint(lower, upper))
+        (rising(middle) < target ? lower : upper) = middle;
+    return upper;
 }
 
 /// Probability that Student's t lies within -t and t (Abramowitz and Stegun 26.7.3, 26.7.4).
-double studentWithin(double t, std::size_t df) {
+double studentCoverage(double t, std::size_t df) {
     const double root = std::sqrt(static_cast<double>(df)), reach = std::hypot(root, t);
     const double sine = t / reach, cosine = root / reach;
     const bool isOdd = df % 2 == 1;
@@ -39,13 +39,13 @@ double studentWithin(double t, std::size_t df) {
 
 double studentQuantile(double probability, std::size_t df) {
     if (probability < 0.5) return -studentQuantile(1.0 - probability, df);
-    return crossing([df](double t) { return studentWithin(t, df); }, 2.0 * probability - 1.0, 1e6);
+    return solveRising([df](double t) { return studentCoverage(t, df); }, 2.0 * probability - 1.0, 1e6);
 }
 
 double normalQuantile(double probability) {
     const double tail = std::min(probability, 1.0 - probability);
     const double z =
-        crossing([](double at) { return -std::erfc(at / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
+        solveRising([](double at) { return -std::erfc(at / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
     return probability < 0.5 ? -z : z;
 }
 
@@ -65,7 +65,7 @@ RankInterval rankInterval(std::vector<double> values) {
 }
 
 /// "pair=wood", "size=very small" of "pair=wood size=very small".
-std::vector<std::string> factorWords(std::string_view condition) {
+std::vector<std::string> factorTokens(std::string_view condition) {
     std::vector<std::string> words;
     while (!condition.empty()) {
         const std::string_view word = takeUntil(' ', condition);
@@ -82,10 +82,10 @@ std::vector<std::string> factorWords(std::string_view condition) {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
 std::set<std::string> factorsOf(const std::string& condition) {
-    std::set<std::string> factors; // a pair's parts may share them
-    for (std::string_view word : factorWords(condition)) {
+    std::set<std::string> factors; // a set, because both stimuli of a pair may have them
+    for (std::string_view word : factorTokens(condition)) {
         RenderingMethod method;
-        const bool isMethod = renderingMethodNamed(word, method);
+        const bool isMethod = parseRenderingMethod(word, method);
         if (word.find('=') != word.npos || (isMethod && word.size() < condition.size()))
             factors.emplace(word);
         while (isMethod && !word.empty()) factors.emplace(takeUntil('-', word));
@@ -95,14 +95,14 @@ std::set<std::string> factorsOf(const std::string& condition) {
 
 ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
                     const std::vector<double>& shares, bool isKnown) {
-    constexpr std::size_t fewest = 6; // two values of five cover the median in 94 % of samples
+    constexpr std::size_t minRankValues = 6; // two values of five cover the median in 94 % of samples
     const double none = std::nan("");
     ChoiceShare share{alternative, hits, trials, shares.size(), none, none};
     if (!isKnown) return share;
     share.share = Moments(shares).mean, share.median = median(shares);
-    if (shares.size() >= fewest) share.interval = rankInterval(shares);
+    if (shares.size() >= minRankValues) share.interval = rankInterval(shares);
     if (shares.size() < 2)
-        share.interval = RankInterval{proportion(hits, trials).least, proportion(hits, trials).most};
+        share.interval = RankInterval{proportion(hits, trials).lower, proportion(hits, trials).upper};
     return share;
 }
 
@@ -110,16 +110,16 @@ using Alternatives = std::set<std::string, std::less<>>;
 
 /// The alternatives that each trial offered: its parts, else those of its stimulus, else all. `isKnown`
 /// becomes false if neither parts nor stimuli determine them.
-std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials, bool& isKnown) {
+std::vector<Alternatives> offeredAlternatives(const std::vector<ChoiceTrial>& trials, bool& isKnown) {
     Alternatives all, chosen;
-    std::vector<Alternatives> each;
+    std::vector<Alternatives> offers;
     std::map<std::string, Alternatives> answers; // by stimulus
-    bool isTold = true;
+    bool areChoicesOffered = true;
     for (const ChoiceTrial& trial : trials) {
-        Alternatives& own = each.emplace_back();
-        for (std::string_view rest = trial.offered; !rest.empty();) own.emplace(takeUntil('|', rest));
-        isTold &= own.empty() || own.contains(trial.choice);
-        all.insert(own.begin(), own.end()), chosen.insert(trial.choice);
+        Alternatives& offered = offers.emplace_back();
+        for (std::string_view rest = trial.offered; !rest.empty();) offered.emplace(takeUntil('|', rest));
+        areChoicesOffered &= offered.empty() || offered.contains(trial.choice);
+        all.insert(offered.begin(), offered.end()), chosen.insert(trial.choice);
         answers[trial.stimulus].insert(trial.choice);
     }
     const bool hasParts = !all.empty();
@@ -127,12 +127,13 @@ std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials, bool
     const std::size_t size = answers.empty() ? 0 : answers.begin()->second.size();
     const bool arePairs =
         !hasParts && size > 1 && size < all.size() && // as AB, BC, AC
-        std::ranges::all_of(answers, [&](const auto& one) { return one.second.size() == size; });
-    isKnown = hasParts || arePairs || all.size() < 3 || // as analysis.R has it
-              std::ranges::any_of(answers, [&](const auto& one) { return one.second.size() == all.size(); });
+        std::ranges::all_of(answers, [&](const auto& entry) { return entry.second.size() == size; });
+    isKnown =
+        hasParts || arePairs || all.size() < 3 || // as analysis.R has it
+        std::ranges::any_of(answers, [&](const auto& entry) { return entry.second.size() == all.size(); });
     for (std::size_t i = 0; i < trials.size(); ++i)
-        if (!isTold || each[i].empty()) each[i] = arePairs ? answers[trials[i].stimulus] : all;
-    return each;
+        if (!areChoicesOffered || offers[i].empty()) offers[i] = arePairs ? answers[trials[i].stimulus] : all;
+    return offers;
 }
 
 using Offered = std::map<const ChoiceTrial*, Alternatives>;
@@ -147,50 +148,50 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
     for (const auto* trial : trials) {
         people.insert(trial->participant);
         for (const std::string& alternative : offered.at(trial)) {
-            Votes& own = votes[alternative][trial->participant];
-            own.hits += alternative == trial->choice, ++own.trials;
+            Votes& tally = votes[alternative][trial->participant];
+            tally.hits += alternative == trial->choice, ++tally.trials;
         }
     }
     ChoiceSummary summary{condition, people.size(), trials.size(), {}};
-    for (const auto& [alternative, own] : votes) {
+    for (const auto& [alternative, byParticipant] : votes) {
         std::vector<double> shares;
         Votes all;
-        for (const auto& [participant, one] : own) {
-            shares.push_back(static_cast<double>(one.hits) / static_cast<double>(one.trials));
-            all.hits += one.hits, all.trials += one.trials;
+        for (const auto& [participant, tally] : byParticipant) {
+            shares.push_back(static_cast<double>(tally.hits) / static_cast<double>(tally.trials));
+            all.hits += tally.hits, all.trials += tally.trials;
         }
         summary.shares.push_back(shareOf(alternative, all.hits, all.trials, shares, isKnown));
     }
     return summary;
 }
 
-using Chosen = std::vector<const RatingTrial*>;
+using RatingTrials = std::vector<const RatingTrial*>;
 
-std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
+std::vector<double> participantMeans(const RatingTrials& trials, std::size_t scale) {
     std::map<std::string, std::vector<double>> scores;
     for (const auto* trial : trials)
         if (const double score = trial->scores[scale]; !std::isnan(score))
             scores[trial->participant].push_back(score);
     std::vector<double> means;
-    for (const auto& [participant, own] : scores) means.push_back(Moments(own).mean);
+    for (const auto& [participant, values] : scores) means.push_back(Moments(values).mean);
     return means;
 }
 
-/// `ofSeveral`: deviations and intervals are over participants, else over one participant's trials.
-RatingSummary summarise(const std::string& condition, const Chosen& trials, bool ofSeveral) {
+/// `isOverParticipants`: deviations and intervals are over participants, else over one participant's trials.
+RatingSummary summarise(const std::string& condition, const RatingTrials& trials, bool isOverParticipants) {
     RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}, {}};
     for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
         std::vector<double> scores;
         for (const auto* trial : trials)
             if (!std::isnan(trial->scores[scale])) scores.push_back(trial->scores[scale]);
-        summary.scored.push_back(scores.size());
+        summary.scoreCounts.push_back(scores.size());
         const auto means = participantMeans(trials, scale);
-        summary.raters.push_back(means.size());
+        summary.raterCounts.push_back(means.size());
         summary.participants = std::max(summary.participants, means.size());
         summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.medians.push_back(median(means));
-        summary.deviations.push_back(Moments(ofSeveral ? means : scores).deviation);
-        summary.halfIntervals.push_back(Moments(ofSeveral ? means : scores).halfInterval());
+        summary.deviations.push_back(Moments(isOverParticipants ? means : scores).deviation);
+        summary.halfIntervals.push_back(Moments(isOverParticipants ? means : scores).halfInterval());
     }
     return summary;
 }
@@ -221,24 +222,25 @@ std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& tria
     std::vector<const ChoiceTrial*> all;
     Offered offered;
     bool isKnown = true;
-    const auto each = offeredIn(trials, isKnown);
-    for (const auto& trial : trials) offered[&trial] = each[all.size()], all.push_back(&trial);
+    const auto offers = offeredAlternatives(trials, isKnown);
+    for (const auto& trial : trials) offered[&trial] = offers[all.size()], all.push_back(&trial);
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
     summaries.push_back(summarise("all", all, offered, isKnown));
     const auto conditions = byCondition(trials);
     if (conditions.size() < 2) return summaries;
     for (const auto& groups : {byFactor(trials, conditions), conditions})
-        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, offered, isKnown));
+        for (const auto& [name, group] : groups)
+            summaries.push_back(summarise(name, group, offered, isKnown));
     return summaries;
 }
 
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
     std::vector<RatingSummary> summaries;
-    const bool ofSeveral = std::ranges::any_of(
-        trials, [&](const RatingTrial& one) { return one.participant != trials.front().participant; });
-    for (const auto& [condition, own] : byCondition(trials))
-        summaries.push_back(summarise(condition, own, ofSeveral));
+    const bool isOverParticipants = std::ranges::any_of(
+        trials, [&](const RatingTrial& trial) { return trial.participant != trials.front().participant; });
+    for (const auto& [condition, group] : byCondition(trials))
+        summaries.push_back(summarise(condition, group, isOverParticipants));
     return summaries;
 }
 
@@ -286,19 +288,22 @@ double staircaseThreshold(const Run& run) {
     const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
                           reversals.end()};
     const auto& range = run.front()->range;
-    const auto isLeast = [&](double level) { return range && level <= range->first; };
-    const auto isEnd = [&](double level) { return range && (isLeast(level) || level >= range->second); };
-    const auto atEnd = std::ranges::count_if(later, isEnd), heldAtEnd = std::ranges::count_if(levels, isEnd);
-    if (2 * static_cast<std::size_t>(atEnd) < later.size() && 2 * heldAtEnd < std::ssize(levels))
+    const auto isAtLowerEnd = [&](double level) { return range && level <= range->first; };
+    const auto isAtEnd = [&](double level) {
+        return range && (isAtLowerEnd(level) || level >= range->second);
+    };
+    const auto reversalsAtEnd = std::ranges::count_if(later, isAtEnd),
+               trialsAtEnd = std::ranges::count_if(levels, isAtEnd);
+    if (2 * static_cast<std::size_t>(reversalsAtEnd) < later.size() && 2 * trialsAtEnd < std::ssize(levels))
         return meanOf(reversals, reversals.size() / 2);
     const double beyond = std::numeric_limits<double>::infinity();
-    return 2 * std::ranges::count_if(levels, isLeast) >= heldAtEnd ? -beyond : beyond;
+    return 2 * std::ranges::count_if(levels, isAtLowerEnd) >= trialsAtEnd ? -beyond : beyond;
 }
 
 double questThreshold(const Run& run, LevelSummary& summary) {
     QuestPlus quest{*questPlan(run.front()->quest)};
     for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
-    // variances add up: this becomes the half-interval of the sum of thresholds
+    // variances add up, so this becomes the half-interval of the sum of thresholds
     summary.halfInterval =
         std::hypot(summary.halfInterval, normalQuantile(0.975) * quest.thresholdDeviation());
     return quest.estimate().threshold;
@@ -314,20 +319,21 @@ std::map<SessionKey, Run> runsOf(const Run& trials) {
 
 /// Thresholds of several people's runs, in the order of participants and runsOf(). Returns the error that all
 /// share, as a standard deviation.
-double poolThresholds(const std::map<std::string, Run>& participants, std::vector<std::vector<double>>& own) {
+double poolThresholds(const std::map<std::string, Run>& participants,
+                      std::vector<std::vector<double>>& runThresholds) {
     struct Place {
         std::size_t participant, run;
     };
     std::map<std::string, std::pair<std::vector<std::vector<LevelCount>>, std::vector<Place>>> plans;
     std::size_t total = 0;
     for (const auto& [participant, trials] : participants) {
-        auto& thresholds = own.emplace_back();
+        auto& thresholds = runThresholds.emplace_back();
         for (const auto& [key, run] : runsOf(trials)) {
             auto& [counts, places] = plans[key.second];
             counts.push_back(countByLevel(run, [](const LevelTrial* t) {
                 return std::pair{t->levelDb, t->value > 0.5};
             }));
-            places.push_back({own.size() - 1, thresholds.size()});
+            places.push_back({runThresholds.size() - 1, thresholds.size()});
             thresholds.push_back(0.0);
             ++total;
         }
@@ -336,7 +342,7 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     for (const auto& [words, runs] : plans) {
         const PooledThresholds pooled = pooledThresholds(*questPlan(words), runs.first);
         for (std::size_t r = 0; r < runs.second.size(); ++r)
-            own[runs.second[r].participant][runs.second[r].run] = pooled.thresholds[r];
+            runThresholds[runs.second[r].participant][runs.second[r].run] = pooled.thresholds[r];
         deviation = std::hypot(deviation, pooled.deviation * static_cast<double>(runs.first.size()) /
                                               static_cast<double>(total));
     }
@@ -344,47 +350,47 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
 }
 
 /// Why the trials give no threshold, staircase by staircase; empty if they do.
-std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
-                    const std::vector<double>& each) {
+std::string noThresholdReason(LevelTrial::Kind kind, const Run& trials, double threshold,
+                              const std::vector<double>& runThresholds) {
     if (kind == LevelTrial::Kind::staircase) {
         std::string words;
-        std::size_t at = 0, bad = 0;
+        std::size_t at = 0, reasonCount = 0;
         for (const auto& [key, run] : runsOf(trials)) {
-            const double own = each[at++];
-            if (std::isfinite(own)) continue;
+            const double runThreshold = runThresholds[at++];
+            if (std::isfinite(runThreshold)) continue;
             const std::size_t slash = key.first.find('/');
-            words += (bad++ > 0 ? "; " : "") +
-                     (each.size() == 1             ? std::string{"a staircase"}
+            words += (reasonCount++ > 0 ? "; " : "") +
+                     (runThresholds.size() == 1    ? std::string{"a staircase"}
                       : slash == std::string::npos ? "the staircase of " + key.first
                                                    : "staircase " + key.first.substr(slash + 1) + " of " +
                                                          key.first.substr(0, slash)) +
-                     (std::isnan(own)
+                     (std::isnan(runThreshold)
                           ? " has fewer than two reversals"
                           : " had half or more of its trials, or of the reversals that count, at the " +
-                                std::string{own < 0.0 ? "lower" : "upper"} + " end of its levels");
+                                std::string{runThreshold < 0.0 ? "lower" : "upper"} + " end of its levels");
         }
         return words;
     }
-    double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
+    double lower = -std::numeric_limits<double>::max(), upper = std::numeric_limits<double>::max();
     for (const LevelTrial* trial : trials) {
         const auto levels = questPlan(trial->quest)->levels;
         const double step = levels.size() > 1 ? levels[1] - levels[0] : 0.0;
-        least = std::max(least, levels.front() + 0.5 * step),
-        most = std::min(most, levels.back() - 0.5 * step);
+        lower = std::max(lower, levels.front() + 0.5 * step),
+        upper = std::min(upper, levels.back() - 0.5 * step);
     }
-    if (threshold >= least && threshold <= most) return {};
-    return std::string{"threshold at the "} + (threshold < least ? "lower" : "upper") +
+    if (threshold >= lower && threshold <= upper) return {};
+    return std::string{"threshold at the "} + (threshold < lower ? "lower" : "upper") +
            " end of the levels of QUEST+";
 }
 
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
-    std::vector<std::vector<double>> own;
-    double shared = 0.0;
+    std::vector<std::vector<double>> runThresholds;
+    double sharedDeviation = 0.0;
     if (summary.kind == LevelTrial::Kind::quest && participants.size() > 1)
-        shared = poolThresholds(participants, own);
+        sharedDeviation = poolThresholds(participants, runThresholds);
     else
         for (const auto& [participant, trials] : participants) {
-            auto& thresholds = own.emplace_back();
+            auto& thresholds = runThresholds.emplace_back();
             for (const auto& [session, run] : runsOf(trials))
                 thresholds.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
                                                                              : staircaseThreshold(run));
@@ -393,9 +399,10 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
     std::vector<double> thresholds;
     std::size_t at = 0;
     for (const auto& [participant, trials] : participants) {
-        const double threshold = meanOf(own[at++]);
-        if (const auto why = faultOf(summary.kind, trials, threshold, own[at - 1]); !why.empty()) {
-            summary.leftOut.emplace_back(participant, why);
+        const double threshold = meanOf(runThresholds[at++]);
+        if (const auto reason = noThresholdReason(summary.kind, trials, threshold, runThresholds[at - 1]);
+            !reason.empty()) {
+            summary.excluded.emplace_back(participant, reason);
             summary.trials -= trials.size();
             continue;
         }
@@ -407,7 +414,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
     summary.estimate = thresholds.empty() ? std::numeric_limits<double>::quiet_NaN() : moments.mean;
     summary.deviation = moments.deviation;
     if (thresholds.size() > 1)
-        summary.halfInterval = std::hypot(moments.halfInterval(), normalQuantile(0.975) * shared);
+        summary.halfInterval = std::hypot(moments.halfInterval(), normalQuantile(0.975) * sharedDeviation);
 }
 
 } // namespace
@@ -423,26 +430,27 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
                                           : ByNumbers{}(a.stimulus, b.stimulus);
     });
     for (LevelSummary& summary : summaries) {
-        std::map<std::string, Run> byParticipant;
+        std::map<std::string, Run> trialsByParticipant;
         for (const LevelTrial& trial : trials)
-            if (isSame(summary, trial)) byParticipant[trial.participant].push_back(&trial), ++summary.trials;
-        summary.participants = byParticipant.size();
+            if (isSame(summary, trial))
+                trialsByParticipant[trial.participant].push_back(&trial), ++summary.trials;
+        summary.participants = trialsByParticipant.size();
         if (isThreshold(summary.kind)) {
-            summariseThresholds(summary, byParticipant);
+            summariseThresholds(summary, trialsByParticipant);
             continue;
         }
         const bool isMagnitude = summary.kind == LevelTrial::Kind::magnitude;
-        std::vector<double> means, set;
-        for (const auto& [participant, own] : byParticipant) {
-            set.clear();
-            for (const LevelTrial* trial : own)
-                set.push_back(isMagnitude ? std::log10(trial->value) : trial->value);
-            means.push_back(meanOf(set));
+        std::vector<double> means, values;
+        for (const auto& [participant, participantTrials] : trialsByParticipant) {
+            values.clear();
+            for (const LevelTrial* trial : participantTrials)
+                values.push_back(isMagnitude ? std::log10(trial->value) : trial->value);
+            means.push_back(meanOf(values));
         }
-        const Moments over{means.size() > 1 ? means : set};
+        const Moments moments{means.size() > 1 ? means : values};
         if (!isMagnitude) summary.halfInterval = Moments(means).halfInterval();
-        summary.deviation = over.deviation;
-        summary.estimate = isMagnitude ? std::pow(10.0, over.mean) : over.mean;
+        summary.deviation = moments.deviation;
+        summary.estimate = isMagnitude ? std::pow(10.0, moments.mean) : moments.mean;
     }
     return summaries;
 }

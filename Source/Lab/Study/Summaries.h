@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Summary statistics of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
-// participant: trials of one are averaged first, so that many trials of a few do not look like many people.
+// participant: the trials of each are averaged first, so that many trials do not count as many people.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ inline double median(std::vector<double> values) {
 }
 
 struct RankInterval {
-    double least = 0.0, most = 0.0;
+    double lower = 0.0, upper = 0.0;
 };
 
 struct Moments {
@@ -50,28 +50,28 @@ struct Moments {
     }
     /// Half of the 95 % interval by Student's t; 0 for fewer than two values.
     double halfInterval() const { return n > 1 ? studentQuantile(0.975, n - 1) * standardError() : 0.0; }
-    double least() const { return mean - halfInterval(); }
-    double most() const { return mean + halfInterval(); }
+    double lowerLimit() const { return mean - halfInterval(); }
+    double upperLimit() const { return mean + halfInterval(); }
 };
 
 /// The trials of each participant, in the order of first trials. Any thread (allocates).
 template <class Trial>
-std::vector<std::pair<std::string, std::vector<Trial>>> byParticipant(const std::vector<Trial>& trials) {
+std::vector<std::pair<std::string, std::vector<Trial>>> groupByParticipant(const std::vector<Trial>& trials) {
     std::map<std::string_view, std::size_t> places;
-    std::vector<std::pair<std::string, std::vector<Trial>>> own;
+    std::vector<std::pair<std::string, std::vector<Trial>>> groups;
     for (const Trial& trial : trials) {
-        const auto [at, isNew] = places.try_emplace(trial.participant, own.size());
-        if (isNew) own.emplace_back(trial.participant, std::vector<Trial>{});
-        own[at->second].second.push_back(trial);
+        const auto [at, isNew] = places.try_emplace(trial.participant, groups.size());
+        if (isNew) groups.emplace_back(trial.participant, std::vector<Trial>{});
+        groups[at->second].second.push_back(trial);
     }
-    return own;
+    return groups;
 }
 
 /// Share of trials.
 struct Proportion {
     std::uint64_t hits = 0, trials = 0;
-    double share = 0.0;             ///< hits / trials; 0 without a trial
-    double least = 0.0, most = 1.0; ///< 95 % confidence interval (Wilson 1927), assuming independent trials
+    double share = 0.0;              ///< hits / trials; 0 without a trial
+    double lower = 0.0, upper = 1.0; ///< 95 % confidence interval (Wilson 1927), assuming independent trials
 };
 
 /// `hits` <= `trials`. Any thread.
@@ -85,8 +85,8 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
                  half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
     const double scale = 1.0 + z * z / n;
     result.share = p;
-    result.least = std::max(0.0, (middle - half) / scale);
-    result.most = std::min(1.0, (middle + half) / scale);
+    result.lower = std::max(0.0, (middle - half) / scale);
+    result.upper = std::min(1.0, (middle + half) / scale);
     return result;
 }
 
@@ -95,18 +95,18 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
-    std::string offered{}; ///< alternatives of the trial, "a|b|c"; empty: inferred from stimuli, else all
+    std::string offered{}; ///< its alternatives, "a|b|c"; empty: inferred from stimuli, else all
     std::string stimulus{};
 };
 
 /// How often an alternative was chosen. The unit is the participant, whose trials give one share.
 struct ChoiceShare {
     std::string alternative;
-    std::uint64_t hits = 0, trials = 0; ///< trials: that offered it
-    std::size_t participants = 0;       ///< to whom it was offered
-    double share = 0.0, median = 0.0;   ///< of the participants' shares; NaN: what was offered is not known
-    std::optional<RankInterval> interval{}; ///< 95 %: of the median by ranks, from 6 participants on; of one
-                                            ///< Wilson's over trials
+    std::uint64_t hits = 0, trials = 0;     ///< times chosen; trials that offered it
+    std::size_t participants = 0;           ///< to whom it was offered
+    double share = 0.0, median = 0.0;       ///< over the participants' shares; NaN: the offer is unknown
+    std::optional<RankInterval> interval{}; ///< 95 %: of the median by ranks for six or more participants;
+                                            ///< for one, Wilson's over trials
 };
 
 struct ChoiceSummary {
@@ -115,7 +115,7 @@ struct ChoiceSummary {
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative; of those that were offered
 
-    const ChoiceShare* of(std::string_view alternative) const noexcept {
+    const ChoiceShare* shareOf(std::string_view alternative) const noexcept {
         const auto found = std::ranges::find(shares, alternative, &ChoiceShare::alternative);
         return found == shares.end() ? nullptr : &*found;
     }
@@ -134,9 +134,9 @@ struct RatingTrial {
 struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
-    std::vector<std::size_t> scored, raters;        ///< per scale: trials with a score, and people
-    std::vector<double> means, medians, deviations; ///< over participants; over trials, 0 for one; NaN: not
-                                                    ///< asked
+    std::vector<std::size_t> scoreCounts, raterCounts; ///< per scale: trials with a score, and people
+    std::vector<double> means, medians, deviations;    ///< over participants, or over the trials of a
+                                                       ///< single one; NaN: not asked
     std::vector<double> halfIntervals; ///< 95 %: t interval over participants' means, or over trials if
                                        ///< participants are unknown; 0 for one value
 };
@@ -154,14 +154,15 @@ struct LevelTrial {
     double levelDb = 0.0;           ///< staircase, QUEST+: level of the trial
     double value = 0.0;             ///< adjustment: dB; magnitude: > 0; else 1 if correct, 0 if not
     std::string session{}, quest{}; ///< QUEST+: the text of its plan (QuestMethod.h)
-    std::optional<std::pair<double, double>> range{}; ///< staircase: its least and most level, if known
+    std::optional<std::pair<double, double>> range{}; ///< staircase: its minimum and maximum level, if known
 };
 
 struct LevelSummary {
     LevelTrial::Kind kind = LevelTrial::Kind::staircase;
     std::string condition, stimulus; ///< stimulus is empty for staircases and QUEST+, which pool all stimuli
     std::size_t trials = 0, participants = 0;
-    std::vector<std::pair<std::string, std::string>> leftOut{}; ///< participants without a threshold, and why
+    std::vector<std::pair<std::string, std::string>> excluded{}; ///< participants without a threshold, and
+                                                                 ///< why
     double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
                             ///< geometric mean; NaN: no participant has a threshold
     double deviation = 0.0; ///< sample standard deviation over participants of thresholds, dB, or log10; of
@@ -173,8 +174,8 @@ struct LevelSummary {
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the
 /// reversals (Levitt 1971). Left out: staircases of fewer than two, and staircases and QUEST+ at an end of
-/// their levels. A QUEST+ threshold is the posterior mean, recomputed from levels and answers; of several
-/// participants with the widths that all tell together (QuestMethod.h). Several sessions of a participant are
+/// their levels. A QUEST+ threshold is the posterior mean, recomputed from levels and answers; for several
+/// participants, their widths are estimated together (QuestMethod.h). Several sessions of a participant are
 /// averaged. Any thread (allocates).
 std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials);
 

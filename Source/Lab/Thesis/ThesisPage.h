@@ -12,18 +12,18 @@
 namespace physvib {
 
 /// Sections, equations, figures, tables or studies of the thesis that one call reproduces.
-struct ThesisRow {
-    std::string at;       ///< "Fig. 3.4, Eq. 3.1"
-    std::string what;     ///< in a few words
-    std::string run;      ///< the call; empty: none
-    std::string needs;    ///< hands, hardware or participants that it needs; empty: none
-    std::string misprint; ///< a misprint in the thesis; empty: none
-    std::string differs;  ///< how PhysVib differs; empty: no difference is known
+struct ThesisEntry {
+    std::string sections;     ///< "Fig. 3.4, Eq. 3.1"
+    std::string subject;      ///< what these sections are about
+    std::string call;         ///< the call; empty: none
+    std::string requirements; ///< hands, hardware or participants that it needs; empty: none
+    std::string misprint;     ///< a misprint in the thesis; empty: none
+    std::string difference;   ///< how PhysVib differs; empty: no difference is known
 };
 
-/// All rows, in the order of the thesis; those of studies tell the deviations that their version as published
-/// has left. Made on first use; any thread.
-const std::vector<ThesisRow>& thesisRows();
+/// All rows, in the order of the thesis; those of studies list the remaining deviations of the version as
+/// published. Created on first use; any thread.
+const std::vector<ThesisEntry>& thesisEntries();
 
 /// A page about the thesis under construction, with the files beside it.
 struct ThesisPage {
@@ -31,9 +31,9 @@ struct ThesisPage {
     std::map<std::string, std::string> files{}; ///< name -> bytes, without index.html
 
     /// Adds the table to page and files.
-    void addTable(const std::string& name, const std::string& csv, std::size_t mostRows = 100) {
+    void addTable(const std::string& name, const std::string& csv, std::size_t maxRows = 100) {
         files[name] = csv;
-        page.table(csv, name, mostRows);
+        page.addTable(csv, name, maxRows);
     }
     /// Adds charts, each also as a file NAME.svg or NAME-2.svg.
     void addFigure(const std::string& name, const std::vector<std::string>& charts,
@@ -82,7 +82,7 @@ struct Counts {
     std::array<double, 35> percent{};
 };
 
-inline constexpr std::size_t countColumns = 7, countRows = 5;
+inline constexpr std::size_t printedColumns = 7, printedRows = 5;
 inline constexpr std::array counts{
     Counts{"PHONE-LINEAR", 1.32, 5, 5, {2.87, 3.18, 3.39, 3.46, 3.22, 2.62, 3.45, 0.01, 1.60,
                                         3.26, 1.42, 2.77, 0.76, 1.20, 6.51, 1.22, 3.14, 4.20,

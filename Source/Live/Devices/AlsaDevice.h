@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Audio devices of ALSA, and their list. A thread of each open device asks for blocks at its pace.
+// Plays on ALSA devices: its library, a PCM stream, a device with its thread, and the driver that lists them.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <alsa/asoundlib.h>
@@ -12,7 +12,7 @@ namespace physvib {
 
 // Loads ALSA's library (LGPL) at run time, when devices are first looked for.
 
-// One list, not a staircase.
+// clang-format would indent this list in steps.
 // clang-format off
 #define PHYSVIB_ALSA_FUNCTIONS(use)                                                                          \
     use(lib_error_set_handler) use(strerror) use(device_name_hint) use(device_name_get_hint)                 \
@@ -40,15 +40,14 @@ struct AlsaLibrary {
 /// or too old. Any thread.
 const AlsaLibrary* alsaLibrary();
 
-// One direction of an ALSA device: its parameters, and interleaved samples to or from it.
-
 /// What a device offers in one direction; no channels if it cannot be queried.
 struct AlsaRange {
     int minChannels = 0, maxChannels = 0;
     bool isMissing = false; ///< cannot be opened for another reason than rights or use by another program
-    int rateHz = 0;         ///< the first usual rate from 44.1 kHz on that it has; 0: none
+    int rateHz = 0;         ///< a rate that it supports, 44.1 kHz if possible; 0: none
 };
 
+/// One direction of an ALSA device, with interleaved samples. M is the message thread.
 class AlsaPcm {
 public:
     AlsaPcm(const AlsaLibrary& alsa, std::string id, snd_pcm_stream_t direction)
@@ -59,32 +58,32 @@ public:
     AlsaPcm(const AlsaPcm&) = delete;
     AlsaPcm& operator=(const AlsaPcm&) = delete;
 
-    /// Opens the device for a moment. M; may wait for the driver.
-    AlsaRange range() const;
+    /// Opens the device, reads its range and closes it. M; may wait for the driver.
+    AlsaRange queryRange() const;
 
     /// Opens near `rateHz` and `blockFrames`, which become what the device chose. Samples are floats, which
     /// ALSA converts if necessary. Returns empty or the error in one line. M; may wait for the driver.
     std::string open(int channels, int& rateHz, int& blockFrames);
     void close();
     bool isOpen() const noexcept { return pcm_ != nullptr; }
-    bool hasName() const noexcept { return !id_.empty(); }
+    bool hasId() const noexcept { return !id_.empty(); }
     int channels() const noexcept { return channels_; }
     int latencyFrames() const noexcept { return latencyFrames_; }
 
-    /// Starts recording; playing starts with the first block. Device thread.
+    /// Starts recording; playback starts with the first block. Device thread.
     void begin();
 
-    enum class Moved { some, none, failed };
+    enum class Transfer { some, none, failed };
     /// Moves interleaved `frames` after waiting at most 100 ms; returns how many in `done`. Device thread.
-    Moved move(float* samples, int frames, int& done) noexcept;
+    Transfer transfer(float* samples, int frames, int& done) noexcept;
     int xruns() const noexcept { return xruns_; } ///< any thread
 
 private:
-    int openAs(const std::string& id);
+    int openId(const std::string& id);
     int chooseHardware(int channels, unsigned int& rateHz, snd_pcm_uframes_t& periodFrames);
     int chooseSoftware(snd_pcm_uframes_t periodFrames);
     bool hasFloats() const;
-    void countGap() noexcept;
+    void countXrun() noexcept;
 
     const AlsaLibrary& alsa_;
     const std::string id_;
@@ -93,7 +92,7 @@ private:
     int channels_ = 0, latencyFrames_ = 0;
     snd_pcm_uframes_t bufferFrames_ = 0;
     std::atomic<int> xruns_{0};
-    bool isLate_ = false; // since the last block that came in time
+    bool isInXrun_ = false; // the last block came too late
 };
 
 /// A device by ALSA's names for output and input. It is opened by name, so one that was plugged in while
@@ -105,7 +104,7 @@ public:
                const std::string& inputId);
     ~AlsaDevice() override { close(); }
 
-    bool isThere() const noexcept { return !outputRange_.isMissing; } ///< when it was made
+    bool exists() const noexcept { return !outputRange_.isMissing; } ///< when it was constructed
 
     std::string name() const override { return name_; }
     int outputs() override { return outputRange_.maxChannels; }
@@ -117,7 +116,7 @@ public:
                      int blockFrames) override;
     void close() override;
     bool isOpen() override { return thread_.joinable() && !hasFailed_; }
-    void start(DeviceUser& user) override;
+    void start(AudioDeviceCallback& callback) override;
     void stop() override;
     int sampleRateHz() override { return rateHz_; }
     int blockFrames() override { return blockFrames_; }
@@ -133,19 +132,19 @@ private:
         ChannelSet active;
         std::vector<float> interleaved;           // one block, all channels
         std::vector<std::vector<float>> channels; // the active ones, one after the other
-        std::vector<float*> buffers;              // of these
+        std::vector<float*> buffers;              // pointers to `channels`
         std::string open(const ChannelSet& wanted, const AlsaRange& range, int& rateHz, int& blockFrames);
         void prepare(int blockFrames);
-        void copy(bool isPlayed) noexcept; // channels to interleaved samples, or these to channels
+        void copy(bool isOutput) noexcept; // channels to interleaved samples, or these to channels
     };
 
     void run() noexcept;
-    bool moveAll(Direction& direction) noexcept;
+    bool transferAll(Direction& direction) noexcept;
 
     const std::string name_;
     Direction in_, out_;
     AlsaRange inputRange_, outputRange_;
-    UserSlot slot_;
+    CallbackSlot slot_;
     std::thread thread_;
     std::atomic<bool> isEnding_{false}, hasFailed_{false};
     int rateHz_ = 0, blockFrames_ = 0;
@@ -154,37 +153,37 @@ private:
 // Lists ALSA's devices: those that `aplay -L` lists, by their descriptions.
 
 /// "ALSA". A scan opens no device but "default" and "pulse", and these only if ALSA does not list them. A
-/// description that several devices have gets a number: "Audio (1)", "Audio (2)". What ends in JACK is left
-/// out: a second client of the server in this process, which outlives it and is used when JACK has freed it.
+/// description that several devices share gets a number: "Audio (1)", "Audio (2)". Devices that lead to JACK
+/// are left out: ALSA would use their JACK client after JACK has freed it, when the server has gone.
 class AlsaDriver final : public AudioDriver {
 public:
-    /// `isJackThere`: a JACK server runs. What ends in PulseAudio is then created by its name, but not
-    /// listed.
-    AlsaDriver(const AlsaLibrary& alsa, bool (*isJackThere)())
+    /// `isJackRunning` tells whether a JACK server runs. Devices that lead to PulseAudio are then not listed,
+    /// but create() still accepts their names.
+    AlsaDriver(const AlsaLibrary& alsa, bool (*isJackRunning)())
         : alsa_{alsa}
-        , isJackThere_{isJackThere} {}
+        , isJackRunning_{isJackRunning} {}
     std::string name() const override { return "ALSA"; }
     void scan() override;
     std::vector<std::string> deviceNames(bool inputs) override;
     std::unique_ptr<AudioDevice> create(const std::string& name, bool withInputs) override;
 
 private:
-    struct Listed {
-        std::string id, name, end; // see endOf()
+    struct Entry {
+        std::string id, name, pluginType; // see lastPluginType()
     };
-    using List = std::vector<Listed>;
+    using List = std::vector<Entry>;
 
-    void addHint(const void* hint);
-    /// The type of the last in a device's chain of plug-ins: "hw", "jack", "pulse"; empty: not known. Opens
-    /// no device. A chain may be a circle.
-    std::string endOf(const std::string& id, int mostPlugins = 16) const;
-    std::string configText(snd_config_t* node) const;
+    void addListed(const void* hint);
+    /// The type of the last plug-in in a device's chain: "hw", "jack", "pulse"; empty: not known. Opens no
+    /// device. `maxDepth` ends the search in a chain that refers to itself.
+    std::string lastPluginType(const std::string& id, int maxDepth = 16) const;
+    std::string configString(snd_config_t* node) const;
     void addUnlisted(const std::string& id, const std::string& name);
-    std::string hintText(const void* hint, const char* kind) const;
-    static std::string idOf(const List& list, const std::string& name);
+    std::string hintValue(const void* hint, const char* kind) const;
+    static std::string deviceId(const List& list, const std::string& name);
 
     const AlsaLibrary& alsa_;
-    bool (*isJackThere_)();
+    bool (*isJackRunning_)();
     List inputs_, outputs_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Interfaces of audio devices and their drivers; lists of devices and the choice among them; a thread for
-// driver calls that may hang; the null device; recognition of the Raspberry Pi Pico by its name.
+// Interfaces of audio devices and drivers; lists of devices, and their ranking; a thread for calls that may
+// hang; the null device; the Raspberry Pi Pico. Threads: M, the message thread; R, the render thread.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -19,15 +19,15 @@ using ChannelSet = std::set<int>;
 
 class AudioDevice;
 
-/// The callbacks of a device; implemented by whoever plays on it.
-class DeviceUser {
+/// Gets the calls of a device; implemented by the object that plays on it.
+class AudioDeviceCallback {
 public:
-    virtual ~DeviceUser() = default;
+    virtual ~AudioDeviceCallback() = default;
     /// Called by start() before the first block.
     virtual void aboutToStart(AudioDevice& device) = 0;
     /// Fills all `outputs` channels of `out`, which are the active outputs in order. R, wait-free.
-    virtual void block(const float* const* in, int inputs, float* const* out, int outputs,
-                       int frames) noexcept = 0;
+    virtual void processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                              int frames) noexcept = 0;
     /// Called by AudioDevice::stop(), or when the device has failed. Any thread.
     virtual void stopped() = 0;
 };
@@ -42,21 +42,21 @@ public:
     virtual int inputs() = 0;  ///< number of inputs of the device
     virtual int defaultBlockFrames() = 0;
 
-    /// Opens those of the channels that exist. Rate or block 0: the default. Empty, or the error.
+    /// Opens the channels that exist; a rate or block of 0 is the default. Returns empty, or the error.
     virtual std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
                              int blockFrames) = 0;
     virtual void close() = 0;
     virtual bool isOpen() = 0;
 
-    /// Asks `user` for blocks from now on.
-    virtual void start(DeviceUser& user) = 0;
-    /// No block runs afterwards.
+    /// Asks `callback` for blocks from now on.
+    virtual void start(AudioDeviceCallback& callback) = 0;
+    /// When it returns, no block is being rendered and none will be.
     virtual void stop() = 0;
 
-    /// This and the next four return the present values of the open device.
+    /// The next five describe the device while it is open.
     virtual int sampleRateHz() = 0;
-    virtual int blockFrames() = 0;                ///< usual length of a block
-    virtual ChannelSet activeOutputs() const = 0; ///< those that block() gets; empty: none is connected
+    virtual int blockFrames() = 0;                ///< nominal length of a block
+    virtual ChannelSet activeOutputs() const = 0; ///< those of processBlock(); empty: none is connected
     virtual int deviceLatencyFrames() = 0;
     virtual int xruns() const = 0; ///< -1: the device does not count. Any thread
     /// False for a device that discards its samples, so that nothing is lost while it pauses.
@@ -68,7 +68,7 @@ class AudioDriver {
 public:
     virtual ~AudioDriver() = default;
     virtual std::string name() const = 0; ///< "ALSA", "JACK", "CoreAudio"...
-    virtual void scan() = 0;              ///< before the next two, which tell what it found
+    virtual void scan() = 0;              ///< lists the devices for the next two methods
     virtual std::vector<std::string> deviceNames(bool inputs) = 0;
     /// The device with that output, and with the same name's inputs if `withInputs`; null: there is none.
     virtual std::unique_ptr<AudioDevice> create(const std::string& name, bool withInputs) = 0;
@@ -79,23 +79,23 @@ using AudioDrivers = std::function<std::vector<std::unique_ptr<AudioDriver>>()>;
 
 // Forwards the blocks of a device to its user, and can be detached without a lock in the render thread.
 
-class UserSlot {
+class CallbackSlot {
 public:
-    UserSlot() = default;
-    explicit UserSlot(DeviceUser& user) noexcept
-        : user_{&user} {}
+    CallbackSlot() = default;
+    explicit CallbackSlot(AudioDeviceCallback& callback) noexcept
+        : callback_{&callback} {}
 
-    /// Blocks go to `user` from now on. M.
-    void begin(AudioDevice& device, DeviceUser& user) {
-        user.aboutToStart(device);
-        user_ = &user;
+    /// Blocks go to `callback` from now on. M.
+    void begin(AudioDevice& device, AudioDeviceCallback& callback) {
+        callback.aboutToStart(device);
+        callback_ = &callback;
     }
 
     /// Returns the user, if any, when the render thread has left its last block. M.
-    DeviceUser* end() noexcept {
-        DeviceUser* const user = user_.exchange(nullptr);
+    AudioDeviceCallback* end() noexcept {
+        AudioDeviceCallback* const callback = callback_.exchange(nullptr);
         awaitBlock();
-        return user;
+        return callback;
     }
 
     /// Returns when the render thread has left the block it was in, if any. M.
@@ -103,17 +103,17 @@ public:
         while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
     }
 
-    /// Calls `words` with the user, or with null if nobody has started the device; end() returns after it.
-    /// R, wait-free if `words` is.
-    template <class Words>
-    void call(const Words& words) {
-        ++calls_; // sequentially consistent, as user_: either this call sees the end, or end() sees this call
-        words(user_.load());
+    /// Calls `function` with the user, or null if the device is not started; end() waits for this call.
+    /// R, wait-free if `function` is.
+    template <class Function>
+    void call(const Function& function) {
+        ++calls_; // sequentially consistent, as callback_: this call sees the null, or end() sees it
+        function(callback_.load());
         --calls_;
     }
 
 private:
-    std::atomic<DeviceUser*> user_{nullptr};
+    std::atomic<AudioDeviceCallback*> callback_{nullptr};
     std::atomic<int> calls_{0};
 };
 
@@ -126,8 +126,8 @@ struct AudioDeviceName {
     int channels = 0; ///< number of outputs; 0 if the driver could not be queried
 };
 
-/// All output devices that can be opened, or that another program has; of a driver that has not answered for
-/// two seconds, an entry without outputs that says so. M; scans the drivers, which takes a while.
+/// All output devices, including those that another program has open. A driver that does not answer within
+/// two seconds gets an entry without outputs that says so. M; scans the drivers, which takes a while.
 std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers);
 
 /// A device that is not open yet, and its driver, which must outlive the device.
@@ -145,21 +145,21 @@ struct FoundDevice {
 FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& name, bool withInputs = false);
 
 /// The layout preset of the Pico with that name, or of the one that `pico` finds: "pico4", "pico8"; empty:
-/// that is no Pico. M; scans drivers for `pico` alone.
-std::string picoLayout(const AudioDrivers& drivers, const std::string& name);
+/// it is no Pico. M; scans drivers for `pico` alone.
+std::string picoLayoutPreset(const AudioDrivers& drivers, const std::string& name);
 
-// Guesses which audio device the actuators are connected to.
+// Ranks devices by how likely the actuators are connected to them.
 
 /// Number of outputs that reach the hardware one to one. A device that mixes for a sound server counts as
 /// two at most, whatever it reports. Any thread.
-int ownOutputs(const AudioDeviceName& device);
+int hardwareOutputCount(const AudioDeviceName& device);
 
 /// Sorted by likelihood: many outputs before few, a Pico and a running JACK server before other devices,
 /// displays and "no device" last. Any thread.
-std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices);
+std::vector<AudioDeviceName> sortedByLikelihood(std::vector<AudioDeviceName> devices);
 
 /// The layout preset for that many outputs, at most four; a Pico's own for its four or eight. Any thread.
-const char* layoutFor(int outputs, std::string_view device = {});
+const char* layoutPresetFor(int outputs, std::string_view device = {});
 
 // The audio drivers of this system.
 
@@ -168,12 +168,12 @@ std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers();
 
 // Thread for calls of an audio driver that may hang; the caller waits for a limited time only.
 
-/// One call at a time. M, except threadsLeft().
+/// One call at a time. M, except abandonedThreads().
 class DeviceThread {
 public:
     DeviceThread() = default;
     /// A call that has not finished is abandoned to its thread.
-    ~DeviceThread() { leave(); }
+    ~DeviceThread() { abandon(); }
     DeviceThread(const DeviceThread&) = delete;
     DeviceThread& operator=(const DeviceThread&) = delete;
 
@@ -181,15 +181,15 @@ public:
     void begin(std::function<void()> call);
 
     using Clock = std::chrono::steady_clock;
-    /// Whether the call has finished; waits until `end`, or until `hurry` (may be null) is true.
-    bool isOver(Clock::time_point end = {}, const std::atomic<bool>* hurry = nullptr);
+    /// Whether the call has finished; waits until `end`, or until `cancel` (may be null) is true.
+    bool isOver(Clock::time_point end = {}, const std::atomic<bool>* cancel = nullptr);
 
-    /// Allows another call to start; one that has not finished is abandoned to its thread.
-    void leave();
+    /// Allows another call to start; a call that has not finished goes on in its thread, which is detached.
+    void abandon();
 
     /// Number of abandoned calls of this process that are still running. While there are any, a program exits
     /// without destructors of static objects, which such a thread may still use (endProgram). Any thread.
-    static int threadsLeft() noexcept;
+    static int abandonedThreads() noexcept;
 
 private:
     struct Call;
@@ -200,13 +200,13 @@ private:
 // Null audio device that asks for blocks by a steady clock and discards them. It lets a world run, be shown
 // and be recorded on a machine without an audio interface.
 
-/// The driver's name; its device is noDeviceName.
-inline constexpr const char* noDeviceType = "None";
-inline constexpr const char* noDeviceName = "no device";
+/// The driver's name; its device is nullDeviceName.
+inline constexpr const char* nullDeviceType = "None";
+inline constexpr const char* nullDeviceName = "no device";
 
 /// These drivers, and one with that device alone: 64 outputs, 48 kHz and blocks of 512 frames unless set
 /// otherwise. M.
-AudioDrivers withNoDevice(AudioDrivers drivers);
+AudioDrivers withNullDevice(AudioDrivers drivers);
 
 // The Raspberry Pi Pico (Docs/pico.md) among the audio devices: an ordinary sound card that is known by its
 // product's name.
@@ -214,19 +214,19 @@ AudioDrivers withNoDevice(AudioDrivers drivers);
 /// Finds the first Pico under any driver, as a device's name.
 inline constexpr std::string_view picoDeviceName = "pico";
 
-/// Part of its name as every operating system has it (Firmware/Pico/Usb.cpp); behind it 4 or 8.
-inline constexpr std::string_view picoProduct = "PhysVib pico";
+/// Part of its name under every operating system (Firmware/Pico/Usb.cpp), followed by 4 or 8 (outputs).
+inline constexpr std::string_view picoProductName = "PhysVib pico";
 
 /// From a USB packet to the first of its frames at the pins (Tests/Firmware/pico.sh). No driver reports it.
 inline constexpr double picoLatencySeconds = 0.0028;
 
 inline bool isPico(std::string_view device) {
-    return device == picoDeviceName || device.find(picoProduct) != std::string_view::npos;
+    return device == picoDeviceName || device.find(picoProductName) != std::string_view::npos;
 }
 
 /// The Pico among a driver's devices; empty: there is none. ALSA lists parts of a card, too: the card itself
 /// is preferred, because it has all its channels in their order. Any thread.
-inline std::string picoAmong(const std::vector<std::string>& devices) {
+inline std::string findPicoIn(const std::vector<std::string>& devices) {
     std::string found;
     for (const std::string& device : devices) {
         if (!isPico(device)) continue;
@@ -237,10 +237,10 @@ inline std::string picoAmong(const std::vector<std::string>& devices) {
 }
 
 /// The layout preset for the Pico with that name: "pico4", "pico8"; empty: the name does not say. Any thread.
-inline std::string picoLayoutOf(std::string_view device) {
-    const auto at = device.find(picoProduct);
-    if (at == std::string_view::npos) return {};
-    const std::string preset{device.substr(at + picoProduct.size() - picoDeviceName.size(), 5)};
+inline std::string picoLayoutPresetOf(std::string_view device) {
+    const auto start = device.find(picoProductName);
+    if (start == std::string_view::npos) return {};
+    const std::string preset{device.substr(start + picoProductName.size() - picoDeviceName.size(), 5)};
     return preset == "pico4" || preset == "pico8" ? preset : std::string{};
 }
 

@@ -9,17 +9,17 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceSession::Limit opening = 10s;     // time limit for a device that a user opens
-constexpr DeviceSession::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
-constexpr DeviceSession::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
-constexpr auto firstBlock = 1s;                   // time for a newly opened device to ask for a block
-constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
-constexpr int mostOutputs = 65'536;                                      // of a device
+constexpr DeviceSession::Limit openLimit = 10s;    // time limit for a device that a user opens
+constexpr DeviceSession::Limit retryLimit = 500ms; // a driver that takes longer is tried again a second later
+constexpr DeviceSession::Limit closeLimit = 400ms; // a JACK client aborted here keeps its server busy
+constexpr auto firstBlockLimit = 1s;               // time for a newly opened device to ask for a block
+constexpr std::chrono::milliseconds minFade = 100ms, maxFade = 400ms; // limits of three blocks' time
+constexpr int maxOutputs = 65'536;                                    // of a device
 
 /// The latency that the driver reports, plus what it cannot know.
 int latencyFrames(AudioDevice& device) {
-    const double own = isPico(device.name()) ? picoLatencySeconds : 0.0;
-    return device.deviceLatencyFrames() + static_cast<int>(std::lround(own * device.sampleRateHz()));
+    const double addedSeconds = isPico(device.name()) ? picoLatencySeconds : 0.0;
+    return device.deviceLatencyFrames() + static_cast<int>(std::lround(addedSeconds * device.sampleRateHz()));
 }
 
 } // namespace
@@ -28,111 +28,113 @@ AudioOutput::AudioOutput(Session& session, AudioDrivers drivers, const std::atom
     : OutputClock{isEnded}
     , played_{session}
     , receipts_{session.channels()}
-    , keeper_{std::move(drivers), isEnded} {}
+    , deviceSession_{std::move(drivers), isEnded} {}
 
 AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.want(played_.own().channels(), settings.channelMap, settings.enchanters,
-                               settings.listening.outputs());
+    if (auto error = map_.request(played_.ownSession().channels(), settings.channelMap, settings.enchanters,
+                                  settings.listening.outputs());
         !error.empty())
         return error;
     settings_ = settings;
     setLevel(settings.level);
-    heard_.setLevels(settings.listening);
+    monitorMix_.setLevels(settings.listening);
     openedAt_ = Clock::now();
-    return openDevice(opening);
+    return openDevice(openLimit);
 }
 
-std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters,
-                               const ListeningSettings& listening) {
-    if (auto error = map_.want(played_.own().channels(), channelMap, enchanters, listening.outputs());
+std::string AudioOutput::setMap(const std::vector<int>& channelMap, int enchanters,
+                                const ListeningSettings& listening) {
+    if (auto error =
+            map_.request(played_.ownSession().channels(), channelMap, enchanters, listening.outputs());
         !error.empty())
         return error;
-    const AudioOutputSettings before = settings_;
+    const AudioOutputSettings previous = settings_;
     settings_.channelMap = channelMap;
     settings_.enchanters = enchanters;
     settings_.listening = listening;
-    if (auto error = listeningFault(); !error.empty()) {
-        settings_ = before;
-        map_.want(played_.own().channels(), before.channelMap, before.enchanters, before.listening.outputs());
+    if (auto error = listeningError(); !error.empty()) {
+        settings_ = previous;
+        map_.request(played_.ownSession().channels(), previous.channelMap, previous.enchanters,
+                     previous.listening.outputs());
         return error;
     }
-    heard_.setLevels(listening);
-    if (!keeper_.device() || !running_) return {};
-    if (settings_.opensAll) return map_.place(keeper_.device()->activeOutputs()), std::string{};
-    keeper_.close();
-    running_ = false;
-    openDevice(opening);
+    monitorMix_.setLevels(listening);
+    if (!deviceSession_.device() || !isRunning_) return {};
+    if (settings_.opensAll) return map_.place(deviceSession_.device()->activeOutputs()), std::string{};
+    deviceSession_.close();
+    isRunning_ = false;
+    openDevice(openLimit);
     return {};
 }
 
 // A missing actuator output is noticed because nothing is felt there. A missing noise output would go
 // unnoticed, so it is an error.
-std::string AudioOutput::listeningFault() const {
-    if (!settings_.listening.contacts.empty() && played_.own().rendered().heard() == 0)
+std::string AudioOutput::listeningError() const {
+    if (!settings_.listening.contacts.empty() && played_.ownSession().rendered().contactAudioChannels() == 0)
         return "expected a session that makes contact sounds, found none";
-    if (!settings_.listening.marks.empty() && !played_.own().rendered().marks())
+    if (!settings_.listening.marks.empty() && !played_.ownSession().rendered().marks())
         return "expected a session that marks its onsets, found none";
-    return keeper_.device() ? wish().fault(*keeper_.device()) : std::string{};
+    return deviceSession_.device() ? deviceRequest().errorFor(*deviceSession_.device()) : std::string{};
 }
 
-DeviceRequest AudioOutput::wish() const {
-    DeviceRequest w{settings_.device,          {},
-                    map_.outputs(mostOutputs), map_.highestHeard(),
-                    settings_.sampleRateHz,    settings_.blockFrames,
-                    settings_.opensAll};
-    w.inputs.insert(settings_.inputs.begin(), settings_.inputs.end());
-    return w;
+DeviceRequest AudioOutput::deviceRequest() const {
+    DeviceRequest request{settings_.device,         {},
+                          map_.outputs(maxOutputs), map_.highestListeningOutput(),
+                          settings_.sampleRateHz,   settings_.blockFrames,
+                          settings_.opensAll};
+    request.inputs.insert(settings_.inputs.begin(), settings_.inputs.end());
+    return request;
 }
 
 std::string AudioOutput::openDevice(DeviceSession::Limit limit) {
-    if (auto error = listeningFault(); !error.empty()) return error;
-    if (auto error = keeper_.open(wish(), limit); !error.empty()) return error;
-    largestBlock_ = 0;
-    keeper_.start(*this);
-    if (!running_) {
-        const int rate = keeper_.device()->sampleRateHz();
-        keeper_.close();
+    if (auto error = listeningError(); !error.empty()) return error;
+    if (auto error = deviceSession_.open(deviceRequest(), limit); !error.empty()) return error;
+    maxFrames_ = 0;
+    deviceSession_.start(*this);
+    if (!isRunning_) {
+        const int rate = deviceSession_.device()->sampleRateHz();
+        deviceSession_.close();
         return settings_.device +
                (isSampleRate(rate) ? ": the device does not start"
                                    : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
     }
-    wasConnected_ = !keeper_.device()->activeOutputs().empty();
-    settings_.device = keeper_.fullName(); // from now on this very device, even if another driver has one
-                                           // with the same name
+    wasConnected_ = !deviceSession_.device()->activeOutputs().empty();
+    settings_.device = deviceSession_.fullName(); // from now on this very device, even if another driver has
+                                                  // one with the same name
     return {};
 }
 
 // Waits until the fade has been played, but for a limited time, because the device may have stopped calling.
 void AudioOutput::fadeOut() {
-    if (!running_) return;
-    ending_ = true;
-    const auto blocks = status().blocks + 2; // one block may have started before `ending_` was set
+    if (!isRunning_) return;
+    isEnding_ = true;
+    const auto lastBlock = status().blocks + 2; // one block may have started before `isEnding_` was set
     const auto end =
         Clock::now() +
-        std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, leastFade, mostFade);
-    while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(1ms);
+        std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, minFade, maxFade);
+    while (isRunning_ && status().blocks < lastBlock && Clock::now() < end) std::this_thread::sleep_for(1ms);
 }
 
 void AudioOutput::stop() {
     fadeOut();
-    keeper_.letGo();
-    guard_.giveBack();
-    running_ = false;
+    deviceSession_.detach();
+    deviceGuard_.storeSums();
+    isRunning_ = false;
 }
 
 bool AudioOutput::playInstead(Session* other) {
     if (sampleRateHz() == 0) return false;
     played_.playInstead(other);
-    keeper_.awaitBlock();
+    deviceSession_.awaitBlock();
     return true;
 }
 
 void AudioOutput::close() {
     stop();
-    keeper_.close(ending);
+    deviceSession_.close(closeLimit);
     played_.end();
     settings_.device.clear();
 }
@@ -140,161 +142,164 @@ void AudioOutput::close() {
 std::string AudioOutput::maintain(Clock::time_point now) {
     if (settings_.device.empty()) return {};
     const int before = watch_.losses();
-    if (hasGone(now)) {
-        if (keeper_.device()) keeper_.close();
-        running_ = false;
-        if (auto error = openDevice(reopening); !error.empty())
-            return keeper_.isMissing()
+    if (isGone(now)) {
+        if (deviceSession_.device()) deviceSession_.close();
+        isRunning_ = false;
+        if (auto error = openDevice(retryLimit); !error.empty())
+            return deviceSession_.isMissing()
                        ? settings_.device +
                              " has stopped; it is looked for every second, and time stands still"
                        : error;
-        watch_.lose(now);
+        watch_.countLoss(now);
     }
-    const bool isStill = watch_.losses() == before && now - openedAt_ > firstBlock && !isPlaying();
-    std::string changed = follow();
-    if (settings_.device.starts_with(std::string{noDeviceType} + ":"))
-        return changed; // nothing is felt there
-    if (changed.empty() && isStill && map_.unfelt() < map_.enchanters())
-        changed = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
-    if (changed.empty() && guard_.hasNews(status().guarded))
-        changed = settings_.device +
+    const bool isPaused = watch_.losses() == before && now - openedAt_ > firstBlockLimit && !isPlaying();
+    std::string message = adaptToDevice();
+    if (settings_.device.starts_with(std::string{nullDeviceType} + ":"))
+        return message; // nothing is felt there
+    if (message.empty() && isPaused && map_.unassignedActuators() < map_.enchanters())
+        message = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
+    if (message.empty() && deviceGuard_.hasNewEpisodes(status().guardEpisodes))
+        message = settings_.device +
                   ": an actuator was turned down: what it got held its coil at nearly direct current";
-    if (!changed.empty() || map_.unfelt() == 0) return changed;
-    return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " +
+    if (!message.empty() || map_.unassignedActuators() == 0) return message;
+    return settings_.device + ": " + std::to_string(map_.unassignedActuators()) + " of " +
            std::to_string(map_.enchanters()) + " actuators have no output there";
 }
 
 // Some drivers report that a device has gone, others just stop asking. A device whose outputs were
 // disconnected may not be called, but has not gone. A driver may also miss that JACK connects the outputs,
 // and then sees none from the start.
-bool AudioOutput::hasGone(Clock::time_point now) {
-    auto* const device = keeper_.device();
-    if (!device || !device->isOpen() || !running_) return true;
+bool AudioOutput::isGone(Clock::time_point now) {
+    auto* const device = deviceSession_.device();
+    if (!device || !device->isOpen() || !isRunning_) return true;
     const bool isConnected = !device->activeOutputs().empty();
     wasConnected_ = wasConnected_ || isConnected;
-    return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
+    return watch_.isGone(now, loadMeter_.read().blocks, wasConnected_ && !isConnected);
 }
 
 // Restarts the session at another sample rate, or with a longer output latency for longer blocks or a new
 // sink. Empty, or one line on the changed rate.
-std::string AudioOutput::follow() {
-    const int rate = keeper_.device()->sampleRateHz(), before = sampleRateHz();
-    const bool isChanged = rate != before && rate > 0;
-    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames() ||
-        !coversSinks(played_.now()))
-        keeper_.restart();
+std::string AudioOutput::adaptToDevice() {
+    const int rate = deviceSession_.device()->sampleRateHz(), formerRate = sampleRateHz();
+    const bool isChanged = rate != formerRate && rate > 0;
+    if (isChanged || std::min(maxFrames_.load(), limits::maxBlockFrames) > blockFrames() ||
+        !coversSinks(played_.currentSession()))
+        deviceSession_.restart();
     return isChanged ? settings_.device + ": runs at " + std::to_string(rate) + " Hz now, at " +
-                           std::to_string(before) + " Hz before"
+                           std::to_string(formerRate) + " Hz before"
                      : std::string{};
 }
 
 void AudioOutput::aboutToStart(AudioDevice& device) {
     const int rate = device.sampleRateHz();
-    const int block = std::min(std::max(device.blockFrames(), largestBlock_.load()), limits::maxBlockFrames);
+    const int block = std::min(std::max(device.blockFrames(), maxFrames_.load()), limits::maxBlockFrames);
     if (!isSampleRate(rate) || block < 1) return; // the device plays silence
     played_.begin(rate, block, latencyFrames(device), device.isReal());
     inputTap_ = settings_.tap;
     converter_ = settings_.converter;
     exposure_.prepare(rate);
     receipts_.begin();
-    guard_.begin(keeper_.fullName(), device.activeOutputs(), rate);
-    motors_.prepare(settings_.onOff, rate, settings_.onOffThreshold);
-    heard_.prepare(rate, block);
+    deviceGuard_.begin(deviceSession_.fullName(), device.activeOutputs(), rate);
+    onOffMotors_.prepare(settings_.onOffActuators, rate, settings_.onOffThreshold);
+    monitorMix_.prepare(rate, block);
     map_.place(device.activeOutputs());
     map_.settle(rate);
-    ending_ = false;
-    master_.prepare(rate, fadeInSeconds, 0.0f);
-    running_ = true;
+    isEnding_ = false;
+    masterRamp_.prepare(rate, fadeInSeconds, 0.0f);
+    isRunning_ = true;
 }
 
-void AudioOutput::block(const float* const* in, int inputs, float* const* out, int outputs,
-                        int frames) noexcept {
-    if (inputTap_ != nullptr && inputs > 0 && frames > 0 && running_.load(std::memory_order_relaxed))
-        inputTap_->take(in, inputs, frames, played_.now().timeline().nextNs(0), sampleRateHz());
+void AudioOutput::processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                               int frames) noexcept {
+    if (inputTap_ != nullptr && inputs > 0 && frames > 0 && isRunning_.load(std::memory_order_relaxed))
+        inputTap_->push(in, inputs, frames, played_.currentSession().timeline().nextNs(0), sampleRateHz());
     renderBlock(out, outputs, frames);
 }
 
 void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING {
     for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
-    if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
+    if (frames < 1 || !isRunning_.load(std::memory_order_relaxed)) return;
     const auto start = Clock::now();
-    Session& session = played_.now();
+    Session& session = played_.currentSession();
     const std::int64_t startNs = steadyNs(start);
-    const OutputMoment felt = played_.nextFelt(startNs);
-    if (session.pulse().isStill(startNs)) { // this is the first block after a pause
+    const OutputMoment moment = played_.nextOutputMoment(startNs);
+    if (session.pulse().isPaused(startNs)) { // this is the first block after a pause
         receipts_.begin();
-        session.comeBack(startNs);
-        master_.prepare(sampleRateHz(), fadeInSeconds, 0.0f);
+        session.endPause(startNs);
+        masterRamp_.prepare(sampleRateHz(), fadeInSeconds, 0.0f);
     }
-    if (frames > largestBlock_.load(std::memory_order_relaxed))
-        largestBlock_.store(frames, std::memory_order_relaxed);
-    const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
-    if (rests)
-        master_.moveTo(0.0f, frames);
+    if (frames > maxFrames_.load(std::memory_order_relaxed))
+        maxFrames_.store(frames, std::memory_order_relaxed);
+    const bool isSilenced = isSilent() || isEnding_.load(std::memory_order_relaxed);
+    if (isSilenced)
+        masterRamp_.moveTo(0.0f, frames);
     else
-        master_.moveTo(level());
-    heard_.begin(rests, frames);
+        masterRamp_.moveTo(level());
+    monitorMix_.begin(isSilenced, frames);
     for (int done = 0; done < frames; done += blockFrames())
         renderPart(session, out, outputs, done, std::min(blockFrames(), frames - done));
-    if (session.timeline().nextFeltNs() != felt.sessionNs)
-        tell(felt); // otherwise nothing steps the world, and session time stands still
-    session.pulse().beat(startNs);
-    load_.take(start, frames, sampleRateHz());
+    if (session.timeline().nextOutputNs() != moment.sessionNs)
+        publish(moment); // otherwise nothing steps the world, and session time stands still
+    session.pulse().blockRendered(startNs);
+    loadMeter_.addBlock(start, frames, sampleRateHz());
 }
 
 void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first,
                              int frames) noexcept {
     float* const* const samples = played_.samples();
     const Timeline& time = session.timeline();
-    const std::int64_t before = time.framesRendered();
+    const std::int64_t renderedBefore = time.framesRendered();
     session.render(samples, frames, RenderMode::realtime);
-    heard_.render(session, samples, out, outputs, first, frames);
-    for (int j = session.channels(); j < played_.own().channels(); ++j) std::fill_n(samples[j], frames, 0.0f);
-    played_.own().sinks().rendered({samples, frames, time.framesRendered() - frames, sampleRateHz()});
-    motors_.apply(samples, frames);
+    monitorMix_.render(session, samples, out, outputs, first, frames);
+    for (int j = session.channels(); j < played_.ownSession().channels(); ++j)
+        std::fill_n(samples[j], frames, 0.0f);
+    played_.ownSession().sinks().onBlock({samples, frames, time.framesRendered() - frames, sampleRateHz()});
+    onOffMotors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // with the limiter on, nothing is clipped here
         clip(samples[j], session.rendered().ceiling(j), frames);
     }
-    master_.apply(samples, session.channels(), frames);
+    masterRamp_.apply(samples, session.channels(), frames);
     if (converter_ != nullptr && !converter_->convert(samples, frames)) converter_ = nullptr;
-    std::array<float*, limits::maxEnchanters> left{}, felt{}; // at each actuator's output; those with a coil
+    std::array<float*, limits::maxActuators> sent{}, coilSamples{}; // each actuator's output; if not on/off
     for (int j = 0; j < session.channels(); ++j) {
-        float* at = samples[j];
-        const int k = map_.play(j, at, frames);
+        float* signal = samples[j];
+        const int k = map_.play(j, signal, frames);
         if (k < 0 || k >= outputs) continue;
-        std::copy_n(at, frames, out[k] + first);
-        left[static_cast<std::size_t>(j)] = out[k] + first;
-        if (motors_.has(j)) continue;
-        felt[static_cast<std::size_t>(j)] = out[k] + first;
-        guard_.follow(j, k);
+        std::copy_n(signal, frames, out[k] + first);
+        sent[static_cast<std::size_t>(j)] = out[k] + first;
+        if (onOffMotors_.has(j)) continue;
+        coilSamples[static_cast<std::size_t>(j)] = out[k] + first;
+        deviceGuard_.setChannel(j, k);
     }
-    guard_.process(felt.data(), frames);
-    const std::int64_t next = time.framesRendered() - time.outputLatencyFrames();
-    if (time.framesRendered() > before) // else session time stands still, as nothing steps the world yet
-        receipts_.take(played_.number(), next - frames, sampleRateHz(), left.data(), frames);
+    deviceGuard_.process(coilSamples.data(), frames);
+    const std::int64_t nextFrame = time.framesRendered() - time.outputLatencyFrames();
+    if (time.framesRendered() > renderedBefore) // else session time stands still
+        receipts_.addBlock(played_.borrowNumber(), nextFrame - frames, sampleRateHz(), sent.data(), frames);
     for (int j = 0; j < session.channels(); ++j)
-        if (const float* const at = felt[static_cast<std::size_t>(j)]) exposure_.take(j, at, frames);
+        if (const float* const s = coilSamples[static_cast<std::size_t>(j)]) exposure_.add(j, s, frames);
     exposure_.publish(); // on/off motors are left out: their vibration level is unknown
 }
 
 AudioOutputStatus AudioOutput::status() {
-    const LoadMeter::Load load = load_.read();
-    const RenderStatus& rendered = played_.now().status().render;
-    const bool isRunning = running_;
+    const LoadMeter::Load load = loadMeter_.read();
+    const RenderStatus& rendered = played_.currentSession().status().render;
+    const bool isRunning = isRunning_;
     return {load.blocks,
             load.last,
             load.worst,
-            keeper_.device() ? keeper_.device()->xruns() : -1,
+            deviceSession_.device() ? deviceSession_.device()->xruns() : -1,
             isRunning,
             watch_.losses(),
-            std::min(guard_.gain(), rendered.guardGain),
-            guard_.episodes() + rendered.guarded};
+            std::min(deviceGuard_.gain(), rendered.guardGain),
+            deviceGuard_.episodes() + rendered.guarded};
 }
 
 int AudioOutput::deviceLatencyFrames() const {
-    return keeper_.device() ? latencyFrames(*keeper_.device()) : 0;
+    return deviceSession_.device() ? latencyFrames(*deviceSession_.device()) : 0;
 }
 
-int AudioOutput::deviceOutputs() const { return keeper_.device() ? keeper_.device()->outputs() : 0; }
+int AudioOutput::deviceOutputs() const {
+    return deviceSession_.device() ? deviceSession_.device()->outputs() : 0;
+}
 
 } // namespace physvib

@@ -3,8 +3,8 @@
 // device, because the outputs drive actuators on a person's skin. Levels rise in a ramp, and one switch
 // silences everything within a block.
 //
-// No manager of devices chooses for it: one that opens the default device (the loudspeakers) when the chosen
-// device disappears would play there what is meant for skin.
+// It opens devices itself, because JUCE's device manager would fall back to the default device, the
+// loudspeakers. Threads: M, the message thread; R, the render thread.
 #pragma once
 #include "Core/Actuators/Exposure.h"
 #include "Core/Actuators/GainRamp.h"
@@ -22,7 +22,7 @@
 
 namespace physvib {
 
-class AudioOutput final : public OutputClock, private DeviceUser {
+class AudioOutput final : public OutputClock, private AudioDeviceCallback {
 public:
     using Clock = DeviceWatch::Clock;
 
@@ -37,19 +37,19 @@ public:
     /// Changes the assignment of outputs and the number of actuators, without interruption if the device's
     /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
     std::string assign(const std::vector<int>& channelMap, int enchanters) {
-        return remap(channelMap, enchanters, settings_.listening);
+        return setMap(channelMap, enchanters, settings_.listening);
     }
 
     /// The device output of each actuator, from 0, as assigned last; -1: none. M.
     const std::vector<int>& channelMap() const noexcept { return settings_.channelMap; }
 
     /// Whether a device runs that has the actuator's output. Any thread.
-    bool isPlaced(int enchanter) const noexcept { return running_ && map_.at(enchanter) >= 0; }
+    bool hasOutput(int enchanter) const noexcept { return isRunning_ && map_.channelOf(enchanter) >= 0; }
 
     /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
     /// one line with the reason, in which case nothing changes. M.
-    std::string hear(const ListeningSettings& listening) {
-        return remap(settings_.channelMap, settings_.enchanters, listening);
+    std::string setListening(const ListeningSettings& listening) {
+        return setMap(settings_.channelMap, settings_.enchanters, listening);
     }
 
     /// Plays `other` from its beginning, from the next block on, while the output's own session pauses; null
@@ -75,56 +75,63 @@ public:
     const std::string& device() const noexcept { return settings_.device; }
 
     /// Whether a session borrowed through playInstead() is playing. Any thread.
-    bool isLent() const noexcept { return played_.isLent(); }
+    bool isPlayingBorrowed() const noexcept { return played_.isPlayingBorrowed(); }
 
     /// What was sent to an actuator (from 0) between `fromNs` and `untilNs`, in the time of the session that
     /// plays now, or of the `session` that playedSession() returned. Any thread, wait-free.
-    Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator) const noexcept {
-        return left(fromNs, untilNs, actuator, playedSession());
+    Receipt receiptFor(std::int64_t fromNs, std::int64_t untilNs, int actuator) const noexcept {
+        return receiptFor(fromNs, untilNs, actuator, playedSession());
     }
-    Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
-                 std::uint32_t session) const noexcept {
-        return receipts_.left(fromNs, untilNs, actuator, session);
+    Receipt receiptFor(std::int64_t fromNs, std::int64_t untilNs, int actuator,
+                       std::uint32_t session) const noexcept {
+        return receipts_.receiptFor(fromNs, untilNs, actuator, session);
     }
-    std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own session
-    /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 10 ms. M.
-    void expect(std::int64_t fromNs, std::int64_t untilNs) noexcept { receipts_.expect(fromNs, untilNs); }
-    Receipts::Total leftInAll(int actuator) const noexcept { return receipts_.all(actuator); } ///< any thread
+    std::uint32_t playedSession() const noexcept { return played_.borrowNumber(); } ///< 0: its own session
+    /// Makes receiptFor() exact for this span in the future; otherwise it is extended to whole bins of 10 ms.
+    /// M.
+    void alignBinsTo(std::int64_t fromNs, std::int64_t untilNs) noexcept {
+        receipts_.alignBinsTo(fromNs, untilNs);
+    }
+    /// Any thread.
+    Receipts::Total outputTotal(int actuator) const noexcept { return receipts_.total(actuator); }
     /// Whether a device is open and asks for blocks without a pause of more than three blocks and 100 ms.
     /// Pauses of a device that discards its samples do not count. Any thread.
-    bool isPlaying() const noexcept { return running_ && !played_.now().pulse().isStill(steadyNs()); }
+    bool isPlaying() const noexcept {
+        return isRunning_ && !played_.currentSession().pulse().isPaused(steadyNs());
+    }
 
     /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
 
-    /// M.
+    /// State of device, load and guard at this moment, for display. M.
     AudioOutputStatus status();
     int sampleRateHz() const noexcept { return played_.sampleRateHz(); }
     int blockFrames() const noexcept { return played_.blockFrames(); }
     int deviceLatencyFrames() const;
-    int deviceOutputs() const; ///< number of outputs the device has; 0: no device
+    int deviceOutputs() const; ///< number of outputs of the device; 0: no device
 
 private:
-    void block(const float* const* in, int inputs, float* const* out, int outputs,
-               int frames) noexcept override;
+    void processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                      int frames) noexcept override;
     void aboutToStart(AudioDevice& device) override;
-    void stopped() override { running_ = false; }
+    void stopped() override { isRunning_ = false; }
 
-    std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
-    std::string listeningFault() const; // empty, or why listening outputs cannot play
-    DeviceRequest wish() const;         // the device to open, by settings and output map
+    std::string setMap(const std::vector<int>& channelMap, int enchanters,
+                       const ListeningSettings& listening);
+    std::string listeningError() const;  // empty, or why listening outputs cannot play
+    DeviceRequest deviceRequest() const; // the device to open, by settings and output map
     std::string openDevice(DeviceSession::Limit limit);
     void fadeOut(); // returns when the outputs are silent, or after a time limit
-    bool hasGone(Clock::time_point now);
-    std::string follow(); // restarts for another sample rate, longer blocks or a new sink
+    bool isGone(Clock::time_point now);
+    std::string adaptToDevice(); // restarts for another sample rate, longer blocks or a new sink
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
 
     PlayedSession played_;
     AudioOutputSettings settings_;
-    std::atomic<bool> running_{false}, ending_{false};
-    std::atomic<int> largestBlock_{0}; // largest block that the device has asked for
-    LoadMeter load_;
+    std::atomic<bool> isRunning_{false}, isEnding_{false};
+    std::atomic<int> maxFrames_{0}; // largest block that the device has asked for
+    LoadMeter loadMeter_;
 
     // M
     DeviceWatch watch_;
@@ -135,13 +142,13 @@ private:
     InputTap* inputTap_ = nullptr;
     VibrationConverter* converter_ = nullptr;
     OutputMap map_;
-    GainRamp master_;
-    MonitorMix heard_{map_};
+    GainRamp masterRamp_;
+    MonitorMix monitorMix_{map_};
     ExposureMeter exposure_;
     Receipts receipts_;
-    OnOffMotors motors_;
-    DeviceGuard guard_;
-    DeviceSession keeper_; // last: its thread calls the members above
+    OnOffMotors onOffMotors_;
+    DeviceGuard deviceGuard_;
+    DeviceSession deviceSession_; // last: its thread calls the members above
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measurements of an output (load, missing blocks, levels), and queues for its input and its signals.
+// Load, losses and levels of an output; queues from the render thread (R) to others (M: message thread).
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/Limits.h"
@@ -18,6 +18,7 @@
 
 namespace physvib {
 
+/// Share of real time that rendering takes.
 class LoadMeter {
 public:
     struct Load {
@@ -27,20 +28,20 @@ public:
 
     using Clock = std::chrono::steady_clock;
     /// Measures a block of `frames`, whose rendering began at `start` and has just ended. R, wait-free.
-    void take(Clock::time_point start, int frames, int sampleRateHz) noexcept {
-        const std::chrono::duration<double> taken = Clock::now() - start;
-        measured_.last = static_cast<float>(taken.count() * sampleRateHz / frames);
-        measured_.worst = std::max(measured_.worst, measured_.last);
-        ++measured_.blocks;
-        load_.write(measured_);
+    void addBlock(Clock::time_point start, int frames, int sampleRateHz) noexcept {
+        const std::chrono::duration<double> duration = Clock::now() - start;
+        latest_.last = static_cast<float>(duration.count() * sampleRateHz / frames);
+        latest_.worst = std::max(latest_.worst, latest_.last);
+        ++latest_.blocks;
+        load_.write(latest_);
     }
 
-    /// M.
+    /// The latest measurements. M.
     Load read() noexcept { return load_.read(); }
 
 private:
     LatestValue<Load> load_;
-    Load measured_; // R
+    Load latest_; // R
 };
 
 // Detects that a device has stopped asking for blocks, because some drivers do not report that a device has
@@ -53,22 +54,22 @@ public:
 
     /// A device that asks for no block during this time counts as gone; the longest block lasts 1.6 s (8192
     /// frames at 5 kHz).
-    static constexpr std::chrono::nanoseconds patience{DevicePulse::goneNs};
+    static constexpr std::chrono::nanoseconds timeOut{DevicePulse::goneAfterNs};
 
     /// Whether the device has gone; call about once a second. `blocks`: number the device has asked for so
-    /// far. `isIdle`: the device has no reason to ask. If more than `patience` passed since the last call,
+    /// far. `isIdle`: the device has no reason to ask. If more than `timeOut` passed since the last call,
     /// the program was paused together with the device, and the watch restarts.
-    bool hasGone(Clock::time_point now, std::uint64_t blocks, bool isIdle) noexcept {
-        const bool wasAway = now - lookedAt_ > patience;
-        if (blocks != blocks_ || isIdle || wasAway) movedAt_ = now;
+    bool isGone(Clock::time_point now, std::uint64_t blocks, bool isIdle) noexcept {
+        const bool wasPaused = now - checkedAt_ > timeOut;
+        if (blocks != blocks_ || isIdle || wasPaused) progressAt_ = now;
         blocks_ = blocks;
-        lookedAt_ = now;
-        return now - movedAt_ > patience;
+        checkedAt_ = now;
+        return now - progressAt_ > timeOut;
     }
 
     /// Counts a loss of the device, and restarts the watch for the device that runs now.
-    void lose(Clock::time_point now) noexcept {
-        movedAt_ = lookedAt_ = now;
+    void countLoss(Clock::time_point now) noexcept {
+        progressAt_ = checkedAt_ = now;
         ++losses_;
     }
     int losses() const noexcept { return losses_; }
@@ -76,14 +77,13 @@ public:
 private:
     int losses_ = 0;
     std::uint64_t blocks_ = 0;
-    Clock::time_point movedAt_, lookedAt_; // zero before the first call
+    Clock::time_point progressAt_, checkedAt_; // zero before the first call
 };
 
-// Meter values of the outputs, for the views of plug-in and mixer.
-
+/// Meter values of the outputs, for the views of plug-in and mixer.
 struct ChannelMeters {
-    std::array<float, limits::maxEnchanters> peaks{}; ///< 1 = full scale; falling by `meterFallDbPerSecond`
-    std::array<bool, limits::maxEnchanters> isConnected{};
+    std::array<float, limits::maxActuators> peaks{}; ///< 1 = full scale; falling by `meterFallDbPerSecond`
+    std::array<bool, limits::maxActuators> isConnected{};
     int enchanters = 0;
     int connected = 0;
     float limiterGain = 1.0f;
@@ -92,8 +92,8 @@ struct ChannelMeters {
 
 constexpr double meterFallDbPerSecond = 20.0;
 
-/// Up to 256 samples of the mean of all inputs.
-struct HeardPiece {
+/// Up to 256 samples of the device's input: the mean of all its channels.
+struct InputChunk {
     std::int64_t sessionNs = 0; ///< of the first sample
     int rateHz = 0;
     int count = 0;
@@ -104,37 +104,37 @@ struct HeardPiece {
     }
 };
 
-/// One writer, one reader. The capacity is half a megabyte, 2.7 s at 48 kHz.
+/// A queue of input samples, for one writer and one reader. It holds 2.7 s at 48 kHz (half a megabyte).
 class InputTap {
 public:
-    /// Queues the next samples of each input; the first is at session time `sessionNs`. Pieces that find the
-    /// queue full are lost; the time of the next piece shows the gap. R, wait-free.
-    void take(const float* const* in, int inputs, int frames, std::int64_t sessionNs,
+    /// Queues the next samples of each input; the first is at session time `sessionNs`. Chunks that find the
+    /// queue full are lost; the time of the next chunk shows the gap. R, wait-free.
+    void push(const float* const* in, int inputs, int frames, std::int64_t sessionNs,
               int rateHz) noexcept PHYSVIB_NONBLOCKING {
-        HeardPiece piece;
-        piece.rateHz = rateHz;
-        for (int done = 0; done < frames; done += piece.count) {
-            piece.sessionNs = sessionNs + std::int64_t{1'000'000'000} * done / rateHz;
-            piece.count = std::min(frames - done, static_cast<int>(piece.samples.size()));
-            for (int i = 0; i < piece.count; ++i)
-                piece.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
-            pieces_.push(piece);
+        InputChunk chunk;
+        chunk.rateHz = rateHz;
+        for (int done = 0; done < frames; done += chunk.count) {
+            chunk.sessionNs = sessionNs + std::int64_t{1'000'000'000} * done / rateHz;
+            chunk.count = std::min(frames - done, static_cast<int>(chunk.samples.size()));
+            for (int i = 0; i < chunk.count; ++i)
+                chunk.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
+            chunks_.push(chunk);
         }
     }
 
     /// False if the queue is empty. The reader, wait-free.
-    bool next(HeardPiece& piece) noexcept { return pieces_.pop(piece); }
+    bool next(InputChunk& chunk) noexcept { return chunks_.pop(chunk); }
 
-    std::size_t piecesLost() const noexcept { return pieces_.overflows(); } ///< Any thread.
+    std::size_t chunksLost() const noexcept { return chunks_.overflows(); } ///< Any thread.
 
 private:
-    static float meanOf(const float* const* in, int inputs, int at) noexcept {
+    static float meanOf(const float* const* in, int inputs, int frame) noexcept {
         float sum = 0.0f;
-        for (int k = 0; k < inputs; ++k) sum += in[k] != nullptr ? in[k][at] : 0.0f;
+        for (int k = 0; k < inputs; ++k) sum += in[k] != nullptr ? in[k][frame] : 0.0f;
         return sum / static_cast<float>(inputs);
     }
 
-    EventQueue<HeardPiece, 512> pieces_;
+    EventQueue<InputChunk, 512> chunks_;
 };
 
 // Ring buffer that copies the output signals of a live session from R to meters, scopes and files.
@@ -145,56 +145,55 @@ public:
     SignalTap(int channels, int frames)
         : ring_(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(frames)))
         , frames_{static_cast<std::size_t>(frames)}
-        , heard_{channels} {}
+        , activeChannels_{channels} {}
 
     int channels() const noexcept { return static_cast<int>(ring_.size()); }
 
     /// Copies only the first `channels` from now on; the others keep their old samples. Any thread.
-    void hear(int channels) noexcept {
-        heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed);
+    void setActiveChannels(int channels) noexcept {
+        activeChannels_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed);
     }
 
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
-        take(block.channels, block.frames);
+    void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        push(block.channels, block.frames);
     }
 
     /// Frames that find the ring full are lost and counted. R, wait-free.
-    void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
-        const std::size_t written = written_.load(std::memory_order_relaxed),
-                          wanted = static_cast<std::size_t>(frames),
-                          room = frames_ - (written - read_.load(std::memory_order_acquire));
-        const Parts parts = partsOf(written, std::min(room, wanted));
-        const auto heard = static_cast<std::size_t>(heard_.load(std::memory_order_relaxed));
-        for (std::size_t j = 0; j < heard; ++j) {
+    void push(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
+        const std::size_t written = framesWritten_.load(std::memory_order_relaxed),
+                          requested = static_cast<std::size_t>(frames),
+                          freeFrames = frames_ - (written - framesRead_.load(std::memory_order_acquire));
+        const Parts parts = partsOf(written, std::min(freeFrames, requested));
+        const auto activeChannels = static_cast<std::size_t>(activeChannels_.load(std::memory_order_relaxed));
+        for (std::size_t j = 0; j < activeChannels; ++j) {
             std::copy_n(channels[j], parts.first, ring_[j].data() + parts.begin);
-            std::copy_n(channels[j] + parts.first, parts.rest, ring_[j].data());
+            std::copy_n(channels[j] + parts.first, parts.wrapped, ring_[j].data());
         }
-        written_.store(written + parts.first + parts.rest, std::memory_order_release);
-        const std::size_t missing = wanted - parts.first - parts.rest;
-        lost_.store(lost_.load(std::memory_order_relaxed) + missing, std::memory_order_relaxed);
+        framesWritten_.store(written + parts.first + parts.wrapped, std::memory_order_release);
+        const std::size_t missing = requested - parts.first - parts.wrapped;
+        framesLost_.store(framesLost_.load(std::memory_order_relaxed) + missing, std::memory_order_relaxed);
     }
 
-    /// Calls `use(const float* const* channels, int frames)` with all unread frames, in one or two parts. One
-    /// reader.
-    template <class Use>
-    void read(Use use) {
-        const std::size_t read = read_.load(std::memory_order_relaxed);
-        const Parts parts = partsOf(read, written_.load(std::memory_order_acquire) - read);
-        std::vector<const float*> at(ring_.size());
+    /// Calls `consume(channels, frames)` with all unread frames, in one or two parts. One reader.
+    template <class Consume>
+    void read(Consume consume) {
+        const std::size_t read = framesRead_.load(std::memory_order_relaxed);
+        const Parts parts = partsOf(read, framesWritten_.load(std::memory_order_acquire) - read);
+        std::vector<const float*> part(ring_.size());
         for (const auto& [start, size] :
-             {std::pair{parts.begin, parts.first}, {std::size_t{0}, parts.rest}}) {
+             {std::pair{parts.begin, parts.first}, {std::size_t{0}, parts.wrapped}}) {
             if (size == 0) continue;
-            for (std::size_t j = 0; j < ring_.size(); ++j) at[j] = ring_[j].data() + start;
-            use(at.data(), static_cast<int>(size));
+            for (std::size_t j = 0; j < ring_.size(); ++j) part[j] = ring_[j].data() + start;
+            consume(part.data(), static_cast<int>(size));
         }
-        read_.store(read + parts.first + parts.rest, std::memory_order_release);
+        framesRead_.store(read + parts.first + parts.wrapped, std::memory_order_release);
     }
 
-    std::uint64_t framesLost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+    std::uint64_t framesLost() const noexcept { return framesLost_.load(std::memory_order_relaxed); }
 
 private:
     struct Parts {
-        std::size_t begin, first, rest; // `first` frames from `begin` on, `rest` from the ring's start
+        std::size_t begin, first, wrapped; // `first` frames from `begin` on, `wrapped` from the ring's start
     };
     Parts partsOf(std::size_t from, std::size_t count) const noexcept {
         const std::size_t begin = from % frames_, first = std::min(count, frames_ - begin);
@@ -203,9 +202,9 @@ private:
 
     std::vector<std::vector<float>> ring_;
     const std::size_t frames_;
-    std::atomic<std::size_t> written_{0}, read_{0}; // frames so far
-    std::atomic<int> heard_;
-    std::atomic<std::uint64_t> lost_{0};
+    std::atomic<std::size_t> framesWritten_{0}, framesRead_{0}; // frames so far
+    std::atomic<int> activeChannels_;
+    std::atomic<std::uint64_t> framesLost_{0};
 };
 
 } // namespace physvib

@@ -7,7 +7,7 @@
 namespace physvib {
 
 struct DeviceSession::Opening {
-    DeviceRequest wish;
+    DeviceRequest request;
     AudioDrivers drivers;
     FoundDevice found{};
     std::string error{};
@@ -17,23 +17,23 @@ struct DeviceSession::Opening {
     std::string openFound();
 };
 
-std::string DeviceRequest::fault(AudioDevice& device) const {
-    const int offered = device.outputs();
-    if (highestHeard >= offered)
-        return name + ": has " + std::to_string(offered) +
+std::string DeviceRequest::errorFor(AudioDevice& device) const {
+    const int available = device.outputs();
+    if (highestListeningOutput >= available)
+        return name + ": has " + std::to_string(available) +
                " outputs; expected one of them to listen to or for marks, found output " +
-               std::to_string(highestHeard + 1);
+               std::to_string(highestListeningOutput + 1);
     if (inputs.empty()) return {};
-    const int wanted = *inputs.rbegin(), has = device.inputs();
-    return wanted < has ? ""
-                        : name + ": has " + std::to_string(has) +
-                              " inputs; expected one of them, found input " + std::to_string(wanted + 1);
+    const int highest = *inputs.rbegin(), count = device.inputs();
+    return highest < count ? ""
+                           : name + ": has " + std::to_string(count) +
+                                 " inputs; expected one of them, found input " + std::to_string(highest + 1);
 }
 
 void DeviceSession::Opening::open() {
-    found = findAudioDevice(drivers, wish.name, !wish.inputs.empty());
+    found = findAudioDevice(drivers, request.name, !request.inputs.empty());
     error = found.device ? openFound()
-                         : wish.name + ": no such device (see physvib devices); nothing else is played on";
+                         : request.name + ": no such device (see physvib devices); nothing else is played on";
     if (error.empty()) return;
     isMissing = isMissing || !found.device;
     found.device.reset(); // before its driver
@@ -42,53 +42,54 @@ void DeviceSession::Opening::open() {
 
 std::string DeviceSession::Opening::openFound() {
     auto& device = *found.device;
-    if (auto fault = wish.fault(device); !fault.empty()) return fault;
-    const int offered = device.outputs();
-    ChannelSet outputs = wish.outputs;
-    outputs.erase(outputs.lower_bound(offered), outputs.end());
-    for (int k = 0; wish.opensAll && k < offered; ++k) outputs.insert(k);
+    if (auto missing = request.errorFor(device); !missing.empty()) return missing;
+    const int available = device.outputs();
+    ChannelSet outputs = request.outputs;
+    outputs.erase(outputs.lower_bound(available), outputs.end());
+    for (int k = 0; request.opensAll && k < available; ++k) outputs.insert(k);
     isMissing = outputs.empty();
-    if (isMissing) return wish.name + ": has none of the outputs that are wanted";
-    const auto fault = device.open(wish.inputs, outputs, wish.sampleRateHz, wish.blockFrames);
-    return fault.empty() ? "" : wish.name + ": " + fault;
+    if (isMissing) return request.name + ": has none of the outputs that are wanted";
+    const auto openError = device.open(request.inputs, outputs, request.sampleRateHz, request.blockFrames);
+    return openError.empty() ? "" : request.name + ": " + openError;
 }
 
-DeviceSession::DeviceSession(AudioDrivers drivers, const std::atomic<bool>* hurry)
+DeviceSession::DeviceSession(AudioDrivers drivers, const std::atomic<bool>* cancel)
     : drivers_{std::move(drivers)}
-    , hurry_{hurry} {}
+    , cancel_{cancel} {}
 
 DeviceSession::~DeviceSession() {
     if (found_.device || opening_) close();
 }
 
-std::string DeviceSession::open(const DeviceRequest& wish, Limit limit) {
-    const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // after one time-out, later calls
-                                                                           // only check and do not wait
-    isLate_ = true;
+std::string DeviceSession::open(const DeviceRequest& request, Limit limit) {
+    const auto deadline = hasTimedOut_ ? Clock::time_point{} : Clock::now() + limit; // after a time-out,
+                                                                                     // later calls do not
+                                                                                     // wait
+    hasTimedOut_ = true;
     isMissing_ = false;
-    const std::string noAnswer = wish.name + ": its driver does not answer; nothing else is played on";
-    if (!isIdle(end, hurry_)) {
-        if (at_ == wish.name) return noAnswer;
-        thread_.leave(); // another device may have a driver that answers
+    const std::string noAnswer = request.name + ": its driver does not answer; nothing else is played on";
+    if (!awaitIdle(deadline, cancel_)) {
+        if (busyDevice_ == request.name) return noAnswer;
+        thread_.abandon(); // another device may have a driver that answers
         opening_.reset();
-        closed_.reset();
+        closingDevice_.reset();
     }
-    if (opening_ && opening_->wish != wish) drop(std::exchange(opening_, nullptr)->found);
-    if (!opening_ && isIdle(Clock::now() + limit, hurry_)) {
-        opening_ = std::make_shared<Opening>(Opening{wish, drivers_});
-        at_ = wish.name;
+    if (opening_ && opening_->request != request) closeOnThread(std::exchange(opening_, nullptr)->found);
+    if (!opening_ && awaitIdle(Clock::now() + limit, cancel_)) {
+        opening_ = std::make_shared<Opening>(Opening{request, drivers_});
+        busyDevice_ = request.name;
         thread_.begin([opening = opening_] { opening->open(); });
     }
-    if (!opening_ || !isIdle(Clock::now() + limit, hurry_)) return noAnswer;
-    isLate_ = false;
+    if (!opening_ || !awaitIdle(Clock::now() + limit, cancel_)) return noAnswer;
+    hasTimedOut_ = false;
     const auto opened = std::exchange(opening_, nullptr);
     found_ = std::move(opened->found);
     isMissing_ = opened->isMissing;
     return opened->error;
 }
 
-void DeviceSession::start(DeviceUser& owner) {
-    callback_ = std::make_shared<DeviceCallback>(owner);
+void DeviceSession::start(AudioDeviceCallback& owner) {
+    callback_ = std::make_shared<DetachableCallback>(owner);
     found_.device->start(*callback_);
 }
 
@@ -97,8 +98,8 @@ void DeviceSession::restart() {
     found_.device->start(*callback_);
 }
 
-void DeviceSession::letGo() noexcept {
-    if (callback_) callback_->letGo();
+void DeviceSession::detach() noexcept {
+    if (callback_) callback_->detach();
 }
 
 void DeviceSession::awaitBlock() const noexcept {
@@ -106,32 +107,32 @@ void DeviceSession::awaitBlock() const noexcept {
 }
 
 void DeviceSession::close(Limit limit) {
-    letGo();
-    if (opening_ && isIdle({}, nullptr))
+    detach();
+    if (opening_ && awaitIdle({}, nullptr))
         found_ = std::move(std::exchange(opening_, nullptr)->found); // opened after the time limit
-    drop(found_);
-    isIdle(Clock::now() + limit, nullptr);
+    closeOnThread(found_);
+    awaitIdle(Clock::now() + limit, nullptr);
 }
 
-void DeviceSession::drop(FoundDevice& found) {
+void DeviceSession::closeOnThread(FoundDevice& found) {
     if (!found.device) return;
-    at_ = found.fullName();
-    closed_ = std::make_shared<FoundDevice>(std::move(found));
-    thread_.begin([closed = closed_, callback = std::exchange(callback_, nullptr)] {
+    busyDevice_ = found.fullName();
+    closingDevice_ = std::make_shared<FoundDevice>(std::move(found));
+    thread_.begin([closed = closingDevice_, callback = std::exchange(callback_, nullptr)] {
         closed->device->stop();
         closed->device->close();
     });
 }
 
 // Devices are destroyed while M waits, because a driver may receive notifications on the message loop.
-bool DeviceSession::isIdle(Clock::time_point end, const std::atomic<bool>* hurry) {
-    if (!thread_.isOver(end, hurry)) return false;
-    if (!closed_) return true;
-    thread_.begin([closed = std::exchange(closed_, nullptr)] {
+bool DeviceSession::awaitIdle(Clock::time_point deadline, const std::atomic<bool>* cancel) {
+    if (!thread_.isOver(deadline, cancel)) return false;
+    if (!closingDevice_) return true;
+    thread_.begin([closed = std::exchange(closingDevice_, nullptr)] {
         closed->device.reset(); // before its driver
         closed->driver.reset();
     });
-    return thread_.isOver(end, hurry);
+    return thread_.isOver(deadline, cancel);
 }
 
 } // namespace physvib

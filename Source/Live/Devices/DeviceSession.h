@@ -15,79 +15,79 @@ namespace physvib {
 // driver that hangs still calls.
 
 /// Outputs silence once detached. It lives as long as the device, however late the driver releases it.
-class DeviceCallback final : public DeviceUser {
+class DetachableCallback final : public AudioDeviceCallback {
 public:
-    explicit DeviceCallback(DeviceUser& owner) noexcept
+    explicit DetachableCallback(AudioDeviceCallback& owner) noexcept
         : owner_{owner} {}
 
     /// Detaches the owner and returns when the render thread has left it. M, not from within a driver's call.
-    void letGo() noexcept { owner_.end(); }
-    /// See UserSlot.
+    void detach() noexcept { owner_.end(); }
+    /// See CallbackSlot.
     void awaitBlock() const noexcept { owner_.awaitBlock(); }
 
 private:
-    void block(const float* const* in, int inputs, float* const* out, int outputs,
-               int frames) noexcept override {
-        owner_.call([&](DeviceUser* owner) {
-            if (owner != nullptr) return owner->block(in, inputs, out, outputs, frames);
+    void processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                      int frames) noexcept override {
+        owner_.call([&](AudioDeviceCallback* owner) {
+            if (owner != nullptr) return owner->processBlock(in, inputs, out, outputs, frames);
             for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
         });
     }
     void aboutToStart(AudioDevice& device) override {
-        owner_.call([&](DeviceUser* owner) {
+        owner_.call([&](AudioDeviceCallback* owner) {
             if (owner != nullptr) owner->aboutToStart(device);
         });
     }
     void stopped() override {
-        owner_.call([](DeviceUser* owner) {
+        owner_.call([](AudioDeviceCallback* owner) {
             if (owner != nullptr) owner->stopped();
         });
     }
 
-    UserSlot owner_;
+    CallbackSlot owner_;
 };
 
-/// Which device to open, and how.
+/// The device to open, its channels and settings.
 struct DeviceRequest {
-    std::string name;           ///< name or driver:name
-    ChannelSet inputs, outputs; ///< outputs that the device lacks are left out, as long as one remains
-    int highestHeard = -1;      ///< index of an output that the device must have
+    std::string name;                ///< name or driver:name
+    ChannelSet inputs, outputs;      ///< outputs that the device lacks are left out, as long as one remains
+    int highestListeningOutput = -1; ///< index of an output that the device must have
     int sampleRateHz = 0, blockFrames = 0; ///< 0: device default
     bool opensAll = false;                 ///< opens all outputs
 
     bool operator==(const DeviceRequest&) const = default;
 
     /// Empty, or what the device lacks. M, or the thread that opens the device.
-    std::string fault(AudioDevice& device) const;
+    std::string errorFor(AudioDevice& device) const;
 };
 
-/// All methods: M.
+/// One device from search to close, over DeviceThread. All methods: M.
 class DeviceSession {
 public:
     using Limit = std::chrono::milliseconds;
 
-    /// `hurry` (may be null; outlives the keeper) ends every wait but that of close() when it becomes true.
-    DeviceSession(AudioDrivers drivers, const std::atomic<bool>* hurry);
+    /// `cancel` (may be null; outlives this object) ends every wait but that of close() when it becomes true.
+    DeviceSession(AudioDrivers drivers, const std::atomic<bool>* cancel);
     ~DeviceSession();
 
     /// Finds and opens a device; none may be open. Returns empty, or one line with the reason. If the driver
-    /// has not answered in time, a later call with the same wish gets the device.
-    std::string open(const DeviceRequest& wish, Limit limit);
+    /// has not answered in time, a later call with the same request gets the device.
+    std::string open(const DeviceRequest& request, Limit limit);
 
     /// Whether the last open() failed because the device is not there, or has no outputs.
     bool isMissing() const noexcept { return isMissing_; }
 
     /// From now on the device calls `owner`; its first call (about to start) comes before this returns.
-    void start(DeviceUser& owner);
+    void start(AudioDeviceCallback& owner);
     void restart(); ///< with the device's current settings
     /// Stops calling the owner and returns when the render thread has left it; the device then plays silence.
-    void letGo() noexcept;
+    void detach() noexcept;
     /// Returns when the render thread has left the block it was in.
     void awaitBlock() const noexcept;
 
     /// A device that is not closed within `limit` is abandoned to its thread.
-    void close(Limit limit = closing);
-    static constexpr Limit closing{250};
+    void close(Limit limit = closeLimit);
+    static constexpr Limit closeLimit{250};
 
     AudioDevice* device() const noexcept { return found_.device.get(); } ///< null: none is open
     std::string fullName() const { return found_.fullName(); }
@@ -95,18 +95,18 @@ public:
 private:
     struct Opening;
     using Clock = DeviceThread::Clock;
-    bool isIdle(Clock::time_point end, const std::atomic<bool>* hurry);
-    void drop(FoundDevice& found);
+    bool awaitIdle(Clock::time_point deadline, const std::atomic<bool>* cancel);
+    void closeOnThread(FoundDevice& found);
 
     AudioDrivers drivers_;
-    const std::atomic<bool>* const hurry_;
+    const std::atomic<bool>* const cancel_;
     FoundDevice found_;
-    std::shared_ptr<DeviceCallback> callback_;
-    std::shared_ptr<Opening> opening_;    // until its result is used
-    std::shared_ptr<FoundDevice> closed_; // until the device is destroyed
-    std::string at_;                      // device that the thread works on
+    std::shared_ptr<DetachableCallback> callback_;
+    std::shared_ptr<Opening> opening_;           // until its result is used
+    std::shared_ptr<FoundDevice> closingDevice_; // until the device is destroyed
+    std::string busyDevice_;                     // device that the thread works on
     bool isMissing_ = false;
-    bool isLate_ = false; // a call has exceeded its time limit
+    bool hasTimedOut_ = false; // a call has exceeded its time limit
     DeviceThread thread_;
 };
 

@@ -21,7 +21,7 @@ JackDevice::~JackDevice() {
 
 std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs, int, int) {
     close();
-    const auto held = stream_->client.hold();
+    const auto held = stream_->client.lock();
     if (!held) return "expected a running JACK server, found none";
     stream_->xruns = 0;
     if (jack_.activate(stream_->client.get()) != 0) return "the JACK server refuses to call this program";
@@ -34,10 +34,10 @@ std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs
 std::size_t JackDevice::connect(const Direction& direction, const ChannelSet& wanted, bool isOutput) {
     std::size_t connected = 0;
     for (const int k : wanted) {
-        const auto at = static_cast<std::size_t>(k);
-        if (at >= direction.ports.size()) continue;
-        const char *own = jack_.port_name(direction.ports[at]), *other = direction.remote[at].c_str();
-        if (jack_.connect(stream_->client.get(), isOutput ? own : other, isOutput ? other : own) == 0)
+        const auto index = static_cast<std::size_t>(k);
+        if (index >= direction.ports.size()) continue;
+        const char *ours = jack_.port_name(direction.ports[index]), *theirs = direction.remote[index].c_str();
+        if (jack_.connect(stream_->client.get(), isOutput ? ours : theirs, isOutput ? theirs : ours) == 0)
             ++connected;
     }
     return connected;
@@ -53,7 +53,7 @@ void JackDevice::awaitConnections(std::size_t inputs, std::size_t outputs) const
 
 void JackDevice::close() {
     stop();
-    if (const auto held = stream_->client.hold(); isOpen_ && held) jack_.deactivate(stream_->client.get());
+    if (const auto held = stream_->client.lock(); isOpen_ && held) jack_.deactivate(stream_->client.get());
     isOpen_ = false;
     stream_->in.active.clear();
     stream_->out.active.clear();
@@ -66,39 +66,39 @@ std::vector<jack_port_t*> JackDevice::connectedPorts(const Direction& direction)
     return ports;
 }
 
-bool JackDevice::hasOtherConnections() const {
-    const auto held = stream_->client.holdSoon();
+bool JackDevice::haveConnectionsChanged() const {
+    const auto held = stream_->client.lockBriefly();
     return held && (connectedPorts(stream_->in) != stream_->in.active ||
                     connectedPorts(stream_->out) != stream_->out.active);
 }
 
 bool JackDevice::isOpen() {
     if (!isOpen_ || !isAlive()) return false;
-    if (!hasOtherConnections()) return true;
-    if (DeviceUser* const user = stream_->slot.end()) {
-        user->stopped();
-        start(*user);
+    if (!haveConnectionsChanged()) return true;
+    if (AudioDeviceCallback* const callback = stream_->slot.end()) {
+        callback->stopped();
+        start(*callback);
     }
     return true;
 }
 
-void JackDevice::start(DeviceUser& user) {
+void JackDevice::start(AudioDeviceCallback& callback) {
     if (!isOpen_ || !isAlive()) return;
-    if (const auto held = stream_->client.holdSoon()) {
+    if (const auto held = stream_->client.lockBriefly()) {
         stream_->in.active = connectedPorts(stream_->in); // the render thread reads it once the user is there
         stream_->out.active = connectedPorts(stream_->out);
     }
-    stream_->slot.begin(*this, user);
+    stream_->slot.begin(*this, callback);
 }
 
 void JackDevice::stop() {
-    if (DeviceUser* const user = stream_->slot.end()) user->stopped();
+    if (AudioDeviceCallback* const callback = stream_->slot.end()) callback->stopped();
 }
 
 int JackDevice::sampleRateHz() { return isAlive() ? stream_->rateHz : 0; }
 
 int JackDevice::blockFrames() {
-    if (const auto held = stream_->client.holdSoon())
+    if (const auto held = stream_->client.lockBriefly())
         stream_->blockFrames = static_cast<int>(jack_.get_buffer_size(stream_->client.get()));
     return isAlive() ? stream_->blockFrames : 0;
 }
@@ -113,8 +113,8 @@ ChannelSet JackDevice::activeOutputs() const {
 
 // Reads the latency at the ports that ours are connected to: JACK updates ours only when its graph changes.
 int JackDevice::deviceLatencyFrames() {
-    jack_nframes_t longest = 0;
-    const auto held = stream_->client.holdSoon();
+    jack_nframes_t maxFrames = 0;
+    const auto held = stream_->client.lockBriefly();
     if (!held) return 0;
     for (auto* port : connectedPorts(stream_->out)) {
         const char** const others = jack_.port_get_connections(port);
@@ -122,11 +122,11 @@ int JackDevice::deviceLatencyFrames() {
             jack_latency_range_t range{};
             if (auto* other = jack_.port_by_name(stream_->client.get(), *name))
                 jack_.port_get_latency_range(other, JackPlaybackLatency, &range);
-            longest = std::max(longest, range.max);
+            maxFrames = std::max(maxFrames, range.max);
         }
         if (others != nullptr) jack_.free(static_cast<void*>(others));
     }
-    return static_cast<int>(longest);
+    return static_cast<int>(maxFrames);
 }
 
 // Loads all of JACK's functions, or none.
@@ -138,25 +138,25 @@ std::optional<JackLibrary> loadJack() {
     void* library = nullptr;
     for (const char* name : {"libjack.so.0", "libjack64.dll", "libjack.0.dylib"})
         if (library == nullptr) library = openLibrary(name);
-    bool isWhole = library != nullptr;
+    bool hasAll = library != nullptr;
 #define PHYSVIB_JACK_FIND(name)                                                                              \
-    if (isWhole) jack.name = reinterpret_cast<decltype(jack.name)>(functionIn(library, "jack_" #name));      \
-    isWhole = isWhole && jack.name != nullptr;
+    if (hasAll) jack.name = reinterpret_cast<decltype(jack.name)>(findFunction(library, "jack_" #name));     \
+    hasAll = hasAll && jack.name != nullptr;
     PHYSVIB_JACK_FUNCTIONS(PHYSVIB_JACK_FIND)
 #undef PHYSVIB_JACK_FIND
-    if (!isWhole) return {};
+    if (!hasAll) return {};
     // Without a server, JACK prints five lines to stderr for each query; the caller reports it in one.
     jack.set_error_function([](const char*) {});
     jack.set_info_function([](const char*) {});
     return jack;
 }
 
-std::shared_timed_mutex openingJack;
+std::shared_timed_mutex jackMutex;
 std::atomic<unsigned int> serversLost{0};
 
-std::vector<std::shared_ptr<void>>& keptForJack() {
-    static std::vector<std::shared_ptr<void>> kept;
-    return kept;
+std::vector<std::shared_ptr<void>>& callbacksToFree() {
+    static std::vector<std::shared_ptr<void>> callbacks;
+    return callbacks;
 }
 
 // The server's number comes by value, because the client's object may have gone. The first of its clients
@@ -167,18 +167,18 @@ void onJackShutdown(void* server) {
 }
 
 // "physvib", or "physvib-01" and so on: another device of this program, or another run of it.
-bool isOurs(const std::string& client) {
+bool isOwn(const std::string& client) {
     return client == "physvib" ||
            (client.starts_with("physvib-") && client.find_first_not_of("0123456789", 8) == std::string::npos);
 }
 
-std::vector<std::string> ownersOf(const std::vector<std::string>& ports) {
-    std::vector<std::string> owners;
+std::vector<std::string> clientsOf(const std::vector<std::string>& ports) {
+    std::vector<std::string> clients;
     for (const std::string& port : ports) {
-        const std::string owner = port.substr(0, port.find(':'));
-        if (!isOurs(owner) && std::ranges::find(owners, owner) == owners.end()) owners.push_back(owner);
+        const std::string client = port.substr(0, port.find(':'));
+        if (!isOwn(client) && std::ranges::find(clients, client) == clients.end()) clients.push_back(client);
     }
-    return owners;
+    return clients;
 }
 
 } // namespace
@@ -193,7 +193,7 @@ const JackLibrary* jackLibrary() {
 JackClient::JackClient(const JackLibrary& jack, const char* name)
     : jack_{jack} {
     std::vector<std::shared_ptr<void>> freed;
-    const std::unique_lock lock{openingJack, std::chrono::seconds{1}};
+    const std::unique_lock lock{jackMutex, std::chrono::seconds{1}};
     if (!lock) return;
     jack_status_t status{};
     client_ = jack_.client_open(name, JackNoStartServer, &status);
@@ -201,27 +201,27 @@ JackClient::JackClient(const JackLibrary& jack, const char* name)
     // time to report.
     if (client_ == nullptr && (status & JackServerFailed) != 0) ++serversLost;
     if (client_ == nullptr) return;
-    server_ = serversLost;
-    const std::uintptr_t number = server_;
-    jack_.on_shutdown(client_, onJackShutdown, reinterpret_cast<void*>(number));
-    freed.swap(keptForJack()); // opening freed their clients
+    serverNumber_ = serversLost;
+    const std::uintptr_t server = serverNumber_;
+    jack_.on_shutdown(client_, onJackShutdown, reinterpret_cast<void*>(server));
+    freed.swap(callbacksToFree()); // opening freed their clients
 }
 
 JackClient::~JackClient() {
-    if (const auto held = hold()) jack_.client_close(client_);
+    if (const auto held = lock()) jack_.client_close(client_);
 }
 
-bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == server_; }
+bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == serverNumber_; }
 
-JackClient::Held JackClient::hold(bool isSoon) const {
+JackClient::Lock JackClient::lock(bool isBrief) const {
     if (!isAlive()) return {};
-    Held held = isSoon ? Held{openingJack, std::chrono::milliseconds{50}} : Held{openingJack};
-    return held && isAlive() ? std::move(held) : Held{};
+    Lock held = isBrief ? Lock{jackMutex, std::chrono::milliseconds{50}} : Lock{jackMutex};
+    return held && isAlive() ? std::move(held) : Lock{};
 }
 
 void JackClient::keepUntilFreed(std::shared_ptr<void> callbacks) {
-    const std::lock_guard lock{openingJack};
-    keptForJack().push_back(std::move(callbacks));
+    const std::lock_guard lock{jackMutex};
+    callbacksToFree().push_back(std::move(callbacks));
 }
 
 std::vector<std::string> JackClient::ports(JackPortFlags direction) const {
@@ -244,10 +244,10 @@ void JackDriver::scan() {
     inputs_.clear();
     outputs_.clear();
     const JackClient client{jack_, "physvib-scan"};
-    const auto held = client.hold();
+    const auto held = client.lock();
     if (!held) return;
-    inputs_ = ownersOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
-    outputs_ = ownersOf(client.ports(JackPortIsInput));
+    inputs_ = clientsOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
+    outputs_ = clientsOf(client.ports(JackPortIsInput));
 }
 
 std::unique_ptr<AudioDevice> JackDriver::create(const std::string& name, bool withInputs) {

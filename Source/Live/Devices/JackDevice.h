@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each client of the JACK server, such as "system", as an audio device: our ports are connected to its ports.
+// Plays on clients of the JACK server, such as "system": JACK's library, a client, a device and its driver.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <algorithm>
@@ -33,12 +33,12 @@ const JackLibrary* jackLibrary();
 
 // A client of the JACK server that may go away, and the names of other clients' ports.
 
-/// M: opening and closing wait for the server, and hang as long as it does; another client that hangs in
-/// opening is waited for a second.
+/// For M, the message thread: opening and closing hang as long as the server does. Opening waits at most a
+/// second for another client that is being opened.
 ///
-/// When a server has gone, JACK's library frees all clients of the process as soon as any of them is opened
-/// anew. So nobody calls JACK while a client is being opened, and a client that has lost its server is
-/// neither closed nor used any more.
+/// After a server has gone, JACK's library frees all old clients of the process when the next one is opened.
+/// So JACK is not called while a client is being opened, and a client that has lost its server is neither
+/// used nor closed.
 class JackClient {
 public:
     /// Never starts a server. JACK appends a number to a name that another client has.
@@ -50,27 +50,27 @@ public:
     /// Whether it has a server. Any thread.
     bool isAlive() const noexcept;
 
-    /// JACK may be called for this client while the lock is held. Empty: it has lost its server, or, of
-    /// holdSoon(), another client has been in opening for 50 ms.
-    using Held = std::shared_lock<std::shared_timed_mutex>;
-    Held hold(bool isSoon = false) const;
-    Held holdSoon() const { return hold(true); }
+    /// Lock for calls of JACK with this client. Empty if the client has lost its server; lockBriefly() also
+    /// if another client is still being opened after 50 ms.
+    using Lock = std::shared_lock<std::shared_timed_mutex>;
+    Lock lock(bool isBrief = false) const;
+    Lock lockBriefly() const { return lock(true); }
     jack_client_t* get() const noexcept { return client_; }
 
     /// Full names ("system:playback_1") of the audio ports that take samples (JackPortIsInput) or give them
-    /// (JackPortIsOutput), in the server's order. Held only.
+    /// (JackPortIsOutput), in the server's order. Call it with the lock.
     std::vector<std::string> ports(JackPortFlags direction) const;
 
     /// The ports() of one client.
     std::vector<std::string> portsOf(const std::string& owner, JackPortFlags direction) const;
 
-    /// Keeps what JACK may still call for a client without its server, until JACK has freed it.
+    /// Keeps the object that JACK may still call for a client without a server, until JACK frees the client.
     static void keepUntilFreed(std::shared_ptr<void> callbacks);
 
 private:
     const JackLibrary& jack_;
     jack_client_t* client_ = nullptr;
-    unsigned int server_ = 0; // which of the servers that the process has seen, from 0
+    unsigned int serverNumber_ = 0; // number of servers that had been lost when it was opened
 };
 
 // The ports of a JACK device, and the blocks that JACK asks for.
@@ -80,15 +80,15 @@ class JackStream {
 public:
     struct Direction {
         std::vector<std::string> remote;  ///< ports of the device
-        std::vector<jack_port_t*> ports;  ///< ours, to be connected to these
-        std::vector<jack_port_t*> active; ///< of ours, those that are connected; changed while nobody plays
-        std::vector<float*> buffers;      ///< of these, for one block
+        std::vector<jack_port_t*> ports;  ///< own ports, to be connected to these
+        std::vector<jack_port_t*> active; ///< connected own ports; changed while nobody plays
+        std::vector<float*> buffers;      ///< of the active ports, for one block
     };
 
     JackStream(const JackLibrary& jack, const std::string& device, bool withInputs)
         : client{jack, "physvib"}
         , jack_{jack} {
-        const auto held = client.hold();
+        const auto held = client.lock();
         if (!held) return;
         rateHz = static_cast<int>(jack_.get_sample_rate(client.get()));
         blockFrames = static_cast<int>(jack_.get_buffer_size(client.get()));
@@ -101,11 +101,11 @@ public:
     }
 
     Direction in, out;
-    UserSlot slot;
+    CallbackSlot slot;
     std::atomic<int> xruns{0};
     int rateHz = 0;      ///< of the server, which keeps it
     int blockFrames = 0; ///< of the server, when it was last queried
-    JackClient client;   ///< closed first: until then JACK may call
+    JackClient client;   ///< last member, so closed first: until then JACK may call
 
 private:
     static int onBlock(jack_nframes_t frames, void* self) {
@@ -128,15 +128,16 @@ private:
 
     // R
     void process(jack_nframes_t frames) noexcept {
-        slot.call([&](DeviceUser* user) {
-            if (user == nullptr) return silence(frames);
-            const int inputs = locate(in, frames), outputs = locate(out, frames);
+        slot.call([&](AudioDeviceCallback* callback) {
+            if (callback == nullptr) return silence(frames);
+            const int inputs = fetchBuffers(in, frames), outputs = fetchBuffers(out, frames);
             if (inputs + outputs > 0)
-                user->block(in.buffers.data(), inputs, out.buffers.data(), outputs, static_cast<int>(frames));
+                callback->processBlock(in.buffers.data(), inputs, out.buffers.data(), outputs,
+                                       static_cast<int>(frames));
         });
     }
 
-    int locate(Direction& direction, jack_nframes_t frames) noexcept {
+    int fetchBuffers(Direction& direction, jack_nframes_t frames) noexcept {
         int used = 0;
         for (auto* port : direction.active)
             direction.buffers[static_cast<std::size_t>(used++)] =
@@ -172,7 +173,7 @@ public:
     /// where the user must not be called, so this is polled.
     bool isOpen() override;
 
-    void start(DeviceUser& user) override;
+    void start(AudioDeviceCallback& callback) override;
     void stop() override;
     int sampleRateHz() override;
     int blockFrames() override;
@@ -186,8 +187,8 @@ private:
     bool isAlive() const noexcept { return stream_->client.isAlive(); }
     std::size_t connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
     void awaitConnections(std::size_t inputs, std::size_t outputs) const;
-    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const; // held
-    bool hasOtherConnections() const;
+    std::vector<jack_port_t*> connectedPorts(const Direction& direction) const; // with the lock
+    bool haveConnectionsChanged() const;
 
     const JackLibrary& jack_;
     const std::string name_;

@@ -8,17 +8,17 @@ namespace physvib {
 
 namespace {
 
-constexpr int nowhere = -1, unsaid = -2;
+constexpr int noOutput = -1, unspecified = -2;
 
 // Noise in a motor would be felt; a motor's signal in headphones would be far too loud.
-std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
-    for (const Heard source : {Heard::noise, Heard::contacts}) {
-        const auto& outputs = heard[static_cast<std::size_t>(source)];
-        if (outputs.size() > OutputMap::mostHeard)
-            return "expected at most " + std::to_string(OutputMap::mostHeard) +
+std::string listeningOutputsError(const std::vector<int>& driven, const ListeningOutputs& listening) {
+    for (const ListeningSource source : {ListeningSource::noise, ListeningSource::contacts}) {
+        const auto& outputs = listening[static_cast<std::size_t>(source)];
+        if (outputs.size() > OutputMap::maxListeningOutputs)
+            return "expected at most " + std::to_string(OutputMap::maxListeningOutputs) +
                    " outputs to listen to, found " + std::to_string(outputs.size());
         for (const int output : outputs)
-            if (output >= 0 && std::ranges::find(felt, output) != felt.end())
+            if (output >= 0 && std::ranges::find(driven, output) != driven.end())
                 return "output " + std::to_string(output + 1) +
                        " is an actuator's; expected another one to listen to";
     }
@@ -26,30 +26,30 @@ std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) 
 }
 
 // Marks are pulses at full scale for a measuring device, so they may share no output.
-std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) {
-    const auto& marks = heard[static_cast<std::size_t>(Heard::marks)];
+std::string marksError(const std::vector<int>& driven, const ListeningOutputs& listening) {
+    const auto& marks = listening[static_cast<std::size_t>(ListeningSource::marks)];
     const auto has = [](const std::vector<int>& outputs, int output) {
         return std::ranges::find(outputs, output) != outputs.end();
     };
-    if (marks.size() > OutputMap::mostHeard)
-        return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs for marks, found " +
-               std::to_string(marks.size());
+    if (marks.size() > OutputMap::maxListeningOutputs)
+        return "expected at most " + std::to_string(OutputMap::maxListeningOutputs) +
+               " outputs for marks, found " + std::to_string(marks.size());
     for (const int output : marks) {
-        const bool isFelt = output >= 0 && has(felt, output),
-                   isHeard = has(heard[static_cast<std::size_t>(Heard::noise)], output) ||
-                             has(heard[static_cast<std::size_t>(Heard::contacts)], output);
-        if (isFelt || isHeard)
+        const bool isActuator = output >= 0 && has(driven, output),
+                   isListenedTo = has(listening[static_cast<std::size_t>(ListeningSource::noise)], output) ||
+                                  has(listening[static_cast<std::size_t>(ListeningSource::contacts)], output);
+        if (isActuator || isListenedTo)
             return "output " + std::to_string(output + 1) + " is " +
-                   (isFelt ? "an actuator's" : "listened to") + "; expected another one for marks";
+                   (isActuator ? "an actuator's" : "listened to") + "; expected another one for marks";
     }
     return {};
 }
 
 } // namespace
 
-std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt,
-                            const HeardOutputs& heard) {
-    std::vector<int> outputs(static_cast<std::size_t>(enchanters), unsaid);
+std::string OutputMap::request(int enchanters, const std::vector<int>& wanted, int drivenCount,
+                               const ListeningOutputs& listening) {
+    std::vector<int> outputs(static_cast<std::size_t>(enchanters), unspecified);
     if (wanted.empty())
         std::iota(outputs.begin(), outputs.end(), 0);
     else
@@ -57,68 +57,69 @@ std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int 
     for (const int output : outputs)
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
             return "output " + std::to_string(output + 1) + " is given to two actuators; expected one each";
-    if (auto fault = heardFault(outputs, heard); !fault.empty()) return fault;
-    if (auto fault = marksFault(outputs, heard); !fault.empty()) return fault;
-    wanted_ = std::move(outputs);
-    heard_ = heard;
-    felt_ = felt > 0 ? std::min(felt, enchanters) : enchanters;
+    if (auto error = listeningOutputsError(outputs, listening); !error.empty()) return error;
+    if (auto error = marksError(outputs, listening); !error.empty()) return error;
+    requestedOutputs_ = std::move(outputs);
+    listening_ = listening;
+    drivenCount_ = drivenCount > 0 ? std::min(drivenCount, enchanters) : enchanters;
     return {};
 }
 
-ChannelSet OutputMap::outputs(int offered) const {
+ChannelSet OutputMap::outputs(int deviceOutputs) const {
     ChannelSet set;
-    for (const int output : wanted_)
-        if (output >= 0 && output < offered) set.insert(output);
-    for (const auto& source : heard_)
+    for (const int output : requestedOutputs_)
+        if (output >= 0 && output < deviceOutputs) set.insert(output);
+    for (const auto& source : listening_)
         for (const int output : source)
-            if (output < offered) set.insert(output);
+            if (output < deviceOutputs) set.insert(output);
     return set;
 }
 
-int OutputMap::highestHeard() const noexcept {
+int OutputMap::highestListeningOutput() const noexcept {
     int highest = -1;
-    for (const auto& source : heard_)
+    for (const auto& source : listening_)
         for (const int output : source) highest = std::max(highest, output);
     return highest;
 }
 
 void OutputMap::place(const ChannelSet& active) {
-    const auto packed = [&](int output) {
-        const auto there = active.find(output);
-        return there == active.end() ? -1 : static_cast<int>(std::distance(active.begin(), there));
+    const auto callbackChannel = [&](int output) {
+        const auto position = active.find(output);
+        return position == active.end() ? -1 : static_cast<int>(std::distance(active.begin(), position));
     };
-    for (std::size_t j = 0; j < wanted_.size(); ++j)
-        at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
-    for (std::size_t s = 0; s < heard_.size(); ++s)
-        for (std::size_t i = 0; i < heardAt_[s].size(); ++i)
-            heardAt_[s][i].store(i < heard_[s].size() ? packed(heard_[s][i]) : -1, std::memory_order_relaxed);
+    for (std::size_t j = 0; j < requestedOutputs_.size(); ++j)
+        channels_[j].store(callbackChannel(requestedOutputs_[j]), std::memory_order_relaxed);
+    for (std::size_t s = 0; s < listening_.size(); ++s)
+        for (std::size_t i = 0; i < listeningChannels_[s].size(); ++i)
+            listeningChannels_[s][i].store(i < listening_[s].size() ? callbackChannel(listening_[s][i]) : -1,
+                                           std::memory_order_relaxed);
 }
 
 void OutputMap::settle(int sampleRateHz) noexcept {
-    for (std::size_t j = 0; j < playing_.size(); ++j) {
-        playing_[j] = at_[j];
-        ramps_[j].prepare(sampleRateHz, limits::channelRampSeconds, playing_[j] < 0 ? 0.0f : 1.0f);
+    for (std::size_t j = 0; j < playingChannels_.size(); ++j) {
+        playingChannels_[j] = channels_[j];
+        ramps_[j].prepare(sampleRateHz, limits::channelRampSeconds, playingChannels_[j] < 0 ? 0.0f : 1.0f);
     }
 }
 
 int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
     const auto j = static_cast<std::size_t>(enchanter);
-    const int wanted = at(enchanter);
-    if (playing_[j] < 0 && wanted >= 0 &&
-        std::find(playing_.begin(), playing_.end(), wanted) == playing_.end())
-        playing_[j] = wanted;
-    const int here = playing_[j];
-    if (here < 0) return -1;
-    ramps_[j].moveTo(here == wanted ? 1.0f : 0.0f);
+    const int target = channelOf(enchanter);
+    if (playingChannels_[j] < 0 && target >= 0 &&
+        std::find(playingChannels_.begin(), playingChannels_.end(), target) == playingChannels_.end())
+        playingChannels_[j] = target;
+    const int channel = playingChannels_[j];
+    if (channel < 0) return -1;
+    ramps_[j].moveTo(channel == target ? 1.0f : 0.0f);
     ramps_[j].apply(&samples, 1, frames);
-    if (here != wanted && ramps_[j].isResting()) playing_[j] = -1;
-    return here;
+    if (channel != target && ramps_[j].isResting()) playingChannels_[j] = -1;
+    return channel;
 }
 
-int OutputMap::unfelt() const noexcept {
+int OutputMap::unassignedActuators() const noexcept {
     int count = 0;
     for (int j = 0; j < enchanters(); ++j)
-        if (wanted_[static_cast<std::size_t>(j)] != nowhere && at(j) < 0) ++count;
+        if (requestedOutputs_[static_cast<std::size_t>(j)] != noOutput && channelOf(j) < 0) ++count;
     return count;
 }
 

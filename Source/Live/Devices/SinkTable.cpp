@@ -9,125 +9,127 @@
 namespace physvib {
 namespace {
 
-std::vector<SinkPlace> serialPorts() {
-    std::vector<SinkPlace> places;
+std::vector<SinkUnit> listBoardPorts() {
+    std::vector<SinkUnit> units;
     for (const SerialPortName& port : listSerialPorts())
-        places.push_back({port.path, port.description, port.isLikelyBoard});
-    return places;
+        units.push_back({port.path, port.description, port.isLikelyBoard});
+    return units;
 }
 
-std::vector<SinkPlace> gamePads() {
-    std::vector<SinkPlace> places;
+std::vector<SinkUnit> listGamePads() {
+    std::vector<SinkUnit> units;
     for (const GamePadInfo& pad : GamePads{}.list())
-        if (std::ranges::find(places, pad.name, &SinkPlace::where) == places.end())
-            places.push_back({pad.name, {}, pad.hasMotors});
-    return places;
+        if (std::ranges::find(units, pad.name, &SinkUnit::address) == units.end())
+            units.push_back({pad.name, {}, pad.hasMotors});
+    return units;
 }
 
-// Sony's DualSense and DualSense Edge; Valve's controller of 2026 by its cable.
-constexpr std::array dualSenses{HidModel{0x054C, 0x0CE6, PadBus::bluetooth},
-                                HidModel{0x054C, 0x0DF2, PadBus::bluetooth}};
-constexpr std::array steamControllers{HidModel{0x28DE, 0x1302, PadBus::usb}};
-// Nintendo's Joy-Cons, left and right, and Pro Controller, whichever way the kernel's driver has them.
-constexpr std::array switches{HidModel{0x057E, 0x2006, PadBus::other},
-                              HidModel{0x057E, 0x2007, PadBus::other},
-                              HidModel{0x057E, 0x2009, PadBus::other}};
-constexpr HidFeedKind dualSense{dualSenses, "DualSense by Bluetooth"},
-    steam{steamControllers, "Steam Controller (2026)"}, nintendo{switches, "Switch controller"};
+// USB vendor and product: Sony's DualSense and DualSense Edge; Valve's controller of 2026, by cable.
+constexpr std::array dualSenseModels{HidModel{0x054C, 0x0CE6, PadBus::bluetooth},
+                                     HidModel{0x054C, 0x0DF2, PadBus::bluetooth}};
+constexpr std::array steamModels{HidModel{0x28DE, 0x1302, PadBus::usb}};
+// Nintendo's left and right Joy-Con and Pro Controller, connected by cable or radio.
+constexpr std::array switchModels{HidModel{0x057E, 0x2006, PadBus::other},
+                                  HidModel{0x057E, 0x2007, PadBus::other},
+                                  HidModel{0x057E, 0x2009, PadBus::other}};
+constexpr HidFeedKind dualSense{dualSenseModels, "DualSense by Bluetooth"},
+    steam{steamModels, "Steam Controller (2026)"}, switchPad{switchModels, "Switch controller"};
 
 template <const HidFeedKind& kind>
-std::vector<SinkPlace> hidPads() {
-    std::vector<SinkPlace> places;
-    for (const HidPlace& pad : HidDevice::list(kind.models)) places.push_back({pad.node.string(), pad.name});
-    return places;
+std::vector<SinkUnit> listHidPads() {
+    std::vector<SinkUnit> units;
+    for (const HidNode& pad : HidDevice::list(kind.models)) units.push_back({pad.path.string(), pad.name});
+    return units;
 }
 
 template <const HidFeedKind& kind, const CoilFormat& (*format)()>
-std::unique_ptr<Sink> coils(const std::string& where, const PhantomPanner& panner) {
-    return std::make_unique<HidOutput>(where, std::make_unique<CoilFeed>(kind, format(), panner));
+std::unique_ptr<Sink> makeCoilOutput(const std::string& address, const PhantomPanner& panner) {
+    return std::make_unique<HidOutput>(address, std::make_unique<CoilFeed>(kind, format(), panner));
 }
 
-std::unique_ptr<Sink> tones(const std::string& where, const PhantomPanner& panner) {
-    return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
+std::unique_ptr<Sink> makeToneOutput(const std::string& address, const PhantomPanner& panner) {
+    return std::make_unique<HidOutput>(address, std::make_unique<ToneFeed>(switchPad, panner));
 }
 
 template <class Output>
-std::unique_ptr<Sink> plain(const std::string& where, const PhantomPanner& panner) {
-    return std::make_unique<Output>(where, panner);
+std::unique_ptr<Sink> makeOutput(const std::string& address, const PhantomPanner& panner) {
+    return std::make_unique<Output>(address, panner);
 }
 
 /// The entry of a controller with two motors or coils, which is found without a name.
-constexpr SinkKind pad(std::string_view name, std::string_view title, std::string_view about,
-                       std::string_view setting, decltype(SinkKind::places) places,
-                       decltype(SinkKind::make) make, bool takesReports = true) {
-    return {name, title, about, setting, anyPad, {}, 2, {}, false, places, make, takesReports};
+constexpr SinkKind padKind(std::string_view name, std::string_view title, std::string_view about,
+                           std::string_view settingKey, decltype(SinkKind::listUnits) listUnits,
+                           decltype(SinkKind::make) make, bool acceptsRawReports = true) {
+    return {name, title, about, settingKey, anyPad, {}, 2, {}, false, listUnits, make, acceptsRawReports};
 }
 
-constinit const std::array allKinds{
+constinit const std::array sinkTable{
     SinkKind{"BOARD", "Four-channel board", "It plays the first four actuators beside the device", "board",
              anyBoard, "Serial port", limits::board::channels, "board: expected at most four actuators", true,
-             serialPorts, plain<BoardOutput>},
-    pad("PAD", "Game controller", "Its two motors follow all hits, felt together with the device",
-        "controller", gamePads, plain<PadOutput>, false),
-    pad("DUALSENSE", "DualSense by Bluetooth",
-        "Its two coils play the session's samples, up to 18 ms after the device", "dualsense",
-        hidPads<dualSense>, coils<dualSense, dualSenseSamples>),
-    pad("STEAM", "Steam Controller (2026)",
-        "Its coils play the session's samples, up to 8 ms after the device", "steam", hidPads<steam>,
-        coils<steam, steamSamples>),
-    pad("SWITCH", "Switch controller",
-        "Two tones on either side follow all hits, felt together with the device", "switch",
-        hidPads<nintendo>, tones),
+             listBoardPorts, makeOutput<BoardOutput>},
+    padKind("PAD", "Game controller", "Its two motors follow all hits, felt together with the device",
+            "controller", listGamePads, makeOutput<PadOutput>, false),
+    padKind("DUALSENSE", "DualSense by Bluetooth",
+            "Its two coils play the session's samples, up to 18 ms after the device", "dualsense",
+            listHidPads<dualSense>, makeCoilOutput<dualSense, dualSenseSamples>),
+    padKind("STEAM", "Steam Controller (2026)",
+            "Its coils play the session's samples, up to 8 ms after the device", "steam", listHidPads<steam>,
+            makeCoilOutput<steam, steamSamples>),
+    padKind("SWITCH", "Switch controller",
+            "Two tones on either side follow all hits, felt together with the device", "switch",
+            listHidPads<switchPad>, makeToneOutput),
 };
 
-// Position where the last sink of `text` starts; npos: there is none.
-std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
+// Index at which the last sink of `text` starts, and its kind; npos: there is none.
+std::size_t sinkStart(std::string_view text, const SinkKind*& kind) {
     std::size_t last = text.npos;
-    for (const SinkKind& one : allKinds) {
-        const std::string mark = std::string(one.name) + ":";
-        const std::size_t behind = text.rfind("+" + mark),
-                          at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
-        if (at != text.npos && (last == text.npos || at >= last)) last = at, kind = &one;
+    for (const SinkKind& candidate : sinkTable) {
+        const std::string prefix = std::string(candidate.name) + ":";
+        const std::size_t plusAt = text.rfind("+" + prefix),
+                          start = plusAt == text.npos && text.starts_with(prefix) ? 0 : plusAt;
+        if (start != text.npos && (last == text.npos || start >= last)) last = start, kind = &candidate;
     }
     return last;
 }
 
 } // namespace
 
-std::span<const SinkKind> sinkKinds() noexcept { return allKinds; }
+std::span<const SinkKind> sinkKinds() noexcept { return sinkTable; }
 
 const SinkKind& kindOf(const SinkName& sink) noexcept {
-    return *std::ranges::find(allKinds, std::string_view{sink.kind}, &SinkKind::name);
+    return *std::ranges::find(sinkTable, std::string_view{sink.kind}, &SinkKind::name);
 }
 
 OutputNames::OutputNames(std::string_view text) {
     const SinkKind* kind = nullptr;
     bool hasSinks = false;
-    for (std::size_t at = lastSink(text, kind); at != text.npos; at = lastSink(text, kind)) {
-        const auto where = text.substr(text.find(':', at) + 1);
-        if (!where.empty()) sinks.insert(sinks.begin(), {std::string(kind->name), std::string(where)});
-        text = text.substr(0, at);
+    for (std::size_t start = sinkStart(text, kind); start != text.npos; start = sinkStart(text, kind)) {
+        const auto address = text.substr(text.find(':', start) + 1);
+        if (!address.empty()) sinks.insert(sinks.begin(), {std::string(kind->name), std::string(address)});
+        text = text.substr(0, start);
         hasSinks = true;
     }
-    device = hasSinks && text.empty() ? std::string(noDeviceType) + ":" + noDeviceName : std::string(text);
+    device =
+        hasSinks && text.empty() ? std::string(nullDeviceType) + ":" + nullDeviceName : std::string(text);
 }
 
-std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
+std::string channelCountError(const std::vector<SinkName>& sinks, int channels) {
     for (const SinkName& sink : sinks)
-        if (const SinkKind& kind = kindOf(sink); !kind.tooMany.empty() && channels > kind.actuators)
-            return std::string(kind.tooMany);
+        if (const SinkKind& kind = kindOf(sink);
+            !kind.tooManyActuatorsError.empty() && channels > kind.actuators)
+            return std::string(kind.tooManyActuatorsError);
     return {};
 }
 
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
                       const std::function<bool()>& keepGoing, Sinks& opened) {
-    if (wanted.size() > mostNamedSinks)
-        return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
+    if (wanted.size() > maxNamedSinks)
+        return "expected at most " + std::to_string(maxNamedSinks) + " outputs beside the device, found " +
                std::to_string(wanted.size());
     for (const SinkName& sink : wanted) {
-        opened.push_back(kindOf(sink).make(sink.where, panner));
+        opened.push_back(kindOf(sink).make(sink.address, panner));
         if (!keepGoing) continue;
-        if (auto fault = opened.back()->awaitReady(keepGoing); !fault.empty()) return fault;
+        if (auto error = opened.back()->awaitReady(keepGoing); !error.empty()) return error;
     }
     return {};
 }

@@ -14,40 +14,41 @@
 namespace physvib {
 
 /// A connected unit that a sink can play on.
-struct SinkPlace {
-    std::string where{}, about{}; ///< as in an output name; description for users
-    bool isLikely = true;         ///< known to be a unit of this kind, so the first-start dialog offers it
+struct SinkUnit {
+    std::string address{}, about{}; ///< its address in an output name; a description for users
+    bool isLikely = true;           ///< known to be a unit of this kind, so the first-start dialog offers it
 };
 
+/// An entry of the table.
 struct SinkKind {
-    std::string_view name;    ///< as in output names: "BOARD"
-    std::string_view title;   ///< for users: "Four-channel board"
-    std::string_view about;   ///< tooltip
-    std::string_view setting; ///< key under which a program saves the choice
-    std::string_view any;     ///< `where` that means the first unit found
-    std::string_view other;   ///< what may be typed beside the listed units: "Serial port"; empty: nothing
-    int actuators;            ///< number that a unit has
-    std::string_view tooMany; ///< why more actuators are not supported; empty: any number is panned onto
-                              ///< those of the unit
-    bool isMeant; ///< connected units are made for vibration, so the first-start dialog offers them first
-    std::vector<SinkPlace> (*places)(); ///< M; queries the system, which takes a while
-    std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner);
-    bool takesReports = false; ///< a controller that is sent raw reports, beside its ordinary motors
+    std::string_view name;       ///< as in output names: "BOARD"
+    std::string_view title;      ///< for users: "Four-channel board"
+    std::string_view about;      ///< tooltip
+    std::string_view settingKey; ///< key under which a program saves the choice
+    std::string_view anyAddress; ///< `address` that means the first unit found
+    std::string_view otherTitle; ///< what may be typed beside the listed units: "Serial port"; empty: nothing
+    int actuators;               ///< number of actuators that a unit has
+    std::string_view tooManyActuatorsError; ///< why more actuators are not supported; empty: any number is
+                                            ///< panned onto those of the unit
+    bool isPreferred; ///< connected units are made for vibration, so the first-start dialog offers them first
+    std::vector<SinkUnit> (*listUnits)(); ///< message thread (M); queries the system for a while
+    std::unique_ptr<Sink> (*make)(const std::string& address, const PhantomPanner& panner);
+    bool acceptsRawReports = false; ///< a controller that gets raw HID reports, not motor commands
 };
 
-/// All entries. Any thread.
+/// All entries, in the order of lists for users. Any thread.
 std::span<const SinkKind> sinkKinds() noexcept;
 
 /// A requested sink: BOARD:auto.
 struct SinkName {
-    std::string kind, where;
+    std::string kind, address;
     bool operator==(const SinkName&) const = default;
 };
 
-/// The entry of a name that OutputNames read or that was made from an entry. Any thread.
+/// The entry of that kind, which must exist: OutputNames makes only such names. Any thread.
 const SinkKind& kindOf(const SinkName& sink) noexcept;
 
-/// Parses "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", with up to mostNamedSinks sinks. Without a device,
+/// Parses "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", with up to maxNamedSinks sinks. Without a device,
 /// the sinks follow the clock of the null device None.
 struct OutputNames {
     std::string device;
@@ -57,12 +58,12 @@ struct OutputNames {
 };
 
 /// Empty, or one line if a requested sink has fewer channels than there are actuators.
-std::string channelFault(const std::vector<SinkName>& sinks, int channels);
+std::string channelCountError(const std::vector<SinkName>& sinks, int channels);
 
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
-/// Named sinks at a time. A SinkSet has as many places again for recorder, meters and OSC.
-constexpr std::size_t mostNamedSinks = SinkSet::maxSinks / 2;
+/// Named sinks at a time. A SinkSet has as many more places, for recorder, meters and OSC.
+constexpr std::size_t maxNamedSinks = SinkSet::maxSinks / 2;
 
 /// Opens all requested sinks for a session with that panner. Returns the first error. Waits for each as long
 /// as `keepGoing` returns true; without `keepGoing` it does not wait. M.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Audio callback that plays and records a sweep, and a message thread that waits for its end.
+// An audio callback plays and records a sweep while the message thread waits for its end.
 #include "Live/Devices/SweepRecorder.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/Nonblocking.h"
@@ -8,48 +8,48 @@
 namespace physvib {
 namespace {
 
-class Callback final : public DeviceUser {
+class SweepCallback final : public AudioDeviceCallback {
 public:
-    explicit Callback(RecordedSweep& sweep)
+    explicit SweepCallback(RecordedSweep& sweep)
         : sweep_{sweep} {}
-    std::size_t done() const noexcept { return done_.load(std::memory_order_acquire); }
+    std::size_t framesDone() const noexcept { return framesDone_.load(std::memory_order_acquire); }
 
 private:
-    void block(const float* const* in, int inputs, float* const* out, int outputs,
-               int frames) noexcept PHYSVIB_NONBLOCKING override {
+    void processBlock(const float* const* in, int inputs, float* const* out, int outputs,
+                      int frames) noexcept PHYSVIB_NONBLOCKING override {
         for (int j = 0; j < outputs; ++j)
             if (out[j] != nullptr) std::fill_n(out[j], frames, 0.0f);
-        const std::size_t at = done_.load(std::memory_order_relaxed),
-                          count = std::min(static_cast<std::size_t>(frames), sweep_.played.size() - at);
+        const std::size_t start = framesDone_.load(std::memory_order_relaxed),
+                          count = std::min(static_cast<std::size_t>(frames), sweep_.played.size() - start);
         if (outputs < 1 || inputs < 1 || out[0] == nullptr || in[0] == nullptr) return;
-        std::copy_n(sweep_.played.begin() + static_cast<std::ptrdiff_t>(at), count, out[0]);
-        std::copy_n(in[0], count, sweep_.recorded.begin() + static_cast<std::ptrdiff_t>(at));
-        done_.store(at + count, std::memory_order_release);
+        std::copy_n(sweep_.played.begin() + static_cast<std::ptrdiff_t>(start), count, out[0]);
+        std::copy_n(in[0], count, sweep_.recorded.begin() + static_cast<std::ptrdiff_t>(start));
+        framesDone_.store(start + count, std::memory_order_release);
     }
     void aboutToStart(AudioDevice&) override {}
     void stopped() override {}
 
     RecordedSweep& sweep_;
-    std::atomic<std::size_t> done_{0};
+    std::atomic<std::size_t> framesDone_{0};
 };
 
 /// Applies OutputGuard in advance, so that the measurement uses the samples that leave the device.
-void guard(std::vector<float>& samples, int rateHz) {
+void applyGuard(std::vector<float>& samples, int rateHz) {
     const auto guard = std::make_unique<OutputGuard>();
     guard->prepare(rateHz, 1, GuardPlace::last);
-    float* const at = samples.data();
-    guard->process(&at, static_cast<int>(samples.size()));
+    float* const channel = samples.data();
+    guard->process(&channel, static_cast<int>(samples.size()));
 }
 
 /// Waits until all is played; false if there is no progress for too long.
-bool wait(const Callback& callback, std::size_t frames) {
+bool awaitEnd(const SweepCallback& callback, std::size_t frames) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::seconds patience{3};
-    auto movedAt = Clock::now();
-    for (std::size_t seen = 0; callback.done() < frames;) {
+    constexpr std::chrono::seconds timeOut{3};
+    auto progressAt = Clock::now();
+    for (std::size_t lastDone = 0; callback.framesDone() < frames;) {
         std::this_thread::sleep_for(std::chrono::milliseconds{20});
-        if (callback.done() != seen) seen = callback.done(), movedAt = Clock::now();
-        if (Clock::now() - movedAt > patience) return false;
+        if (callback.framesDone() != lastDone) lastDone = callback.framesDone(), progressAt = Clock::now();
+        if (Clock::now() - progressAt > timeOut) return false;
     }
     return true;
 }
@@ -72,11 +72,11 @@ Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& so
     RecordedSweep sweep;
     sweep.rateHz = device.sampleRateHz();
     sweep.played = source(sweep.rateHz);
-    guard(sweep.played, device.sampleRateHz());
+    applyGuard(sweep.played, device.sampleRateHz());
     sweep.recorded.resize(sweep.played.size());
-    Callback callback{sweep};
+    SweepCallback callback{sweep};
     device.start(callback);
-    const bool isWhole = wait(callback, sweep.played.size());
+    const bool isWhole = awaitEnd(callback, sweep.played.size());
     sweep.xruns = device.xruns();
     device.stop();
     device.close();

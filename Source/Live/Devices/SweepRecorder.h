@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// Outputs and inputs count from 0.
+/// The device, and its output and input, from 0.
 struct SweepPorts {
     std::string device; ///< name, or driver:name
     int output = 0;
@@ -26,8 +26,8 @@ struct RecordedSweep {
 /// Makes the samples to play, at a rate known only once the device is open.
 using SweepSource = std::function<std::vector<float>(double rateHz)>;
 
-/// Opens that device and no other, plays once and closes it; all other outputs stay silent. One line if
-/// something is missing or the device stops. M only; blocks for the duration of the sweep.
+/// Opens that device and no other, plays once and closes it; all other outputs stay silent. An error if
+/// something is missing or the device stops. Message thread; blocks for the duration of the sweep.
 Result<RecordedSweep> recordSweep(const SweepPorts& ports, const SweepSource& source,
                                   const AudioDrivers& drivers);
 

@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-[[maybe_unused]] bool isJackThere() {
+[[maybe_unused]] bool isJackRunning() {
 #if defined(PHYSVIB_HAS_JACK)
     const JackLibrary* const jack = jackLibrary();
     return jack != nullptr && JackClient{*jack, "physvib-scan"}.isAlive();
@@ -29,7 +29,7 @@ std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers() {
 #endif
 #if defined(PHYSVIB_HAS_ALSA)
     if (const AlsaLibrary* alsa = alsaLibrary())
-        drivers.push_back(std::make_unique<AlsaDriver>(*alsa, isJackThere));
+        drivers.push_back(std::make_unique<AlsaDriver>(*alsa, isJackRunning));
 #endif
     return drivers;
 }

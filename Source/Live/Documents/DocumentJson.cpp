@@ -7,26 +7,26 @@ namespace physvib {
 void visitFields(auto& v, FieldsOf<EqualisedActuator>) {
     constexpr auto resonator = &EqualisedActuator::resonator;
     v.field("resonance_hz", in(resonator, &Resonator::resonanceHz),
-            kinds::within(limits::leastMeasuredHz, limits::maxFrequencyHz));
-    v.field("q", in(resonator, &Resonator::q), kinds::within(limits::leastQ, limits::mostQ));
-    v.field("band_hz", &EqualisedActuator::band, Own<FrequencyBand>{});
+            kinds::within(limits::minMeasuredHz, limits::maxFrequencyHz));
+    v.field("q", in(resonator, &Resonator::q), kinds::within(limits::minQ, limits::maxQ));
+    v.field("band_hz", &EqualisedActuator::band, Custom<FrequencyBand>{});
 }
 
-GainLane readKind(const JsonField& list, const Own<GainLane>&) {
-    constexpr double mostSeconds = static_cast<double>(limits::maxSessionNs) / 1e9;
-    if (list.arraySize() > mostGainPoints)
-        list.fail("expected at most " + std::to_string(mostGainPoints) + " points");
+GainLane readCustom(const JsonField& list, const Custom<GainLane>&) {
+    constexpr double maxSeconds = static_cast<double>(limits::maxSessionNs) / 1e9;
+    if (list.arraySize() > maxGainPoints)
+        list.fail("expected at most " + std::to_string(maxGainPoints) + " points");
     GainLane lane;
     for (std::size_t i = 0; i < list.arraySize(); ++i) {
         const JsonField point = list.item(i);
         if (point.arraySize() != 2) point.fail("expected [seconds, dB]");
-        const double least = lane.empty() ? 0.0 : lane.back().seconds;
-        lane.push_back({point.item(0).numberWithin(least, mostSeconds), stripRangeDb(point.item(1))});
+        const double minSeconds = lane.empty() ? 0.0 : lane.back().seconds;
+        lane.push_back({point.item(0).numberWithin(minSeconds, maxSeconds), stripRangeDb(point.item(1))});
     }
     return lane;
 }
 
-OrderedJson writeKind(const Own<GainLane>&, const GainLane& lane) {
+OrderedJson writeCustom(const Custom<GainLane>&, const GainLane& lane) {
     OrderedJson list = OrderedJson::array();
     for (const GainPoint& point : lane) list.push_back({point.seconds, point.db});
     return list;
@@ -34,7 +34,7 @@ OrderedJson writeKind(const Own<GainLane>&, const GainLane& lane) {
 
 namespace {
 
-void expectStrips(const JsonField& list, int count) {
+void expectStripCount(const JsonField& list, int count) {
     if (list.arraySize() != static_cast<std::size_t>(count))
         list.fail("expected one strip per actuator, " + std::to_string(count));
 }
@@ -57,17 +57,17 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
 
 } // namespace
 
-std::vector<Strip> readKind(const JsonField& list, const PerChannel<std::vector<Strip>>& kind) {
-    expectStrips(list, kind.channels);
+std::vector<Strip> readCustom(const JsonField& list, const PerChannel<std::vector<Strip>>& kind) {
+    expectStripCount(list, kind.channels);
     return kinds::Objects<Strip>{}(list);
 }
 
-OrderedJson writeKind(const PerChannel<std::vector<Strip>>&, const std::vector<Strip>& strips) {
+OrderedJson writeCustom(const PerChannel<std::vector<Strip>>&, const std::vector<Strip>& strips) {
     return kinds::Objects<Strip>{}.write(strips);
 }
 
-std::vector<Strip> readKind(const JsonField& list, const kinds::PluginStrips& kind) {
-    expectStrips(list, kind.count);
+std::vector<Strip> readCustom(const JsonField& list, const kinds::PluginStrips& kind) {
+    expectStripCount(list, kind.count);
     std::vector<Strip> strips(list.arraySize());
     for (std::size_t j = 0; j < strips.size(); ++j) {
         readTable<Strip, PluginStrip>(list.item(j), strips[j]);
@@ -76,7 +76,7 @@ std::vector<Strip> readKind(const JsonField& list, const kinds::PluginStrips& ki
     return strips;
 }
 
-OrderedJson writeKind(const kinds::PluginStrips& kind, const std::vector<Strip>& strips) {
+OrderedJson writeCustom(const kinds::PluginStrips& kind, const std::vector<Strip>& strips) {
     std::vector<Strip> whole = strips;
     resizeStrips(whole, kind.count);
     OrderedJson list = OrderedJson::array();
@@ -84,21 +84,21 @@ OrderedJson writeKind(const kinds::PluginStrips& kind, const std::vector<Strip>&
     return list;
 }
 
-FrequencyBand readKind(const JsonField& json, const Own<FrequencyBand>&) {
+FrequencyBand readCustom(const JsonField& json, const Custom<FrequencyBand>&) {
     if (json.arraySize() != 2) json.fail("expected [lowest, highest]");
     const auto hz = [&](std::size_t i) {
-        return json.item(i).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
+        return json.item(i).numberWithin(limits::minMeasuredHz, limits::maxFrequencyHz);
     };
     const FrequencyBand band{hz(0), hz(1)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
 }
 
-OrderedJson writeKind(const Own<FrequencyBand>&, const FrequencyBand& band) {
+OrderedJson writeCustom(const Custom<FrequencyBand>&, const FrequencyBand& band) {
     return {band.lowHz, band.highHz};
 }
 
-EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedActuators>& kind) {
+EqualisedActuators readCustom(const JsonField& list, const PerChannel<EqualisedActuators>& kind) {
     if (list.arraySize() != static_cast<std::size_t>(kind.channels))
         list.fail("expected " + std::to_string(kind.channels) + " items, one per channel");
     EqualisedActuators equalised{};
@@ -107,7 +107,7 @@ EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedAct
     return equalised;
 }
 
-OrderedJson writeKind(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised) {
+OrderedJson writeCustom(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised) {
     OrderedJson list = OrderedJson::array();
     for (std::size_t j = 0; j < static_cast<std::size_t>(kind.channels); ++j)
         list.push_back(equalised[j].isKnown() ? writeTable(equalised[j]) : OrderedJson());
@@ -127,11 +127,11 @@ Mix readMix(const JsonField& json) {
 
 // Reads and writes render controls and panners as JSON, with their value ranges.
 
-PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
+PhantomPanner readCustom(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law", "part_law"});
     const JsonField described = json["layout"]; // whole, or a preset by its name
     kind.described = described.isText() ? presetLayout(layoutPresetNames[described.oneOf(layoutPresetNames)])
-                                        : readKind(described, Own<LayoutDescription>{});
+                                        : readCustom(described, Custom<LayoutDescription>{});
     const auto& layout = kind.described.geometry;
     if (layout.count > kind.channels)
         json["layout"].fail("expected at most " + std::to_string(kind.channels) +
@@ -140,8 +140,8 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
     if (field.arraySize() != 2) field.fail("expected [width, height]");
     PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law,
                          exponentRange(json["exponent"]),
-                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
-                         field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+                         field.item(0).numberWithin(limits::minExtentMetres, limits::maxExtentMetres),
+                         field.item(1).numberWithin(limits::minExtentMetres, limits::maxExtentMetres)};
     // without this field, grains are panned like impacts
     if (json.has("grain_law"))
         panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
@@ -152,34 +152,34 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
 }
 
 OwnedControl readControl(const JsonField& json, int channels, std::string_view otherField) {
-    using Holds = ControlDescription::Holds;
+    using ValueType = ControlDescription::ValueType;
     json.expectObject();
-    const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
+    const ControlDescription& entry = controlTable[json["control"].oneOf(controlNames)];
     OwnedControl control;
-    control.kind = one.kind;
-    if (one.holds == Holds::nothing)
+    control.kind = entry.kind;
+    if (entry.type == ValueType::nothing)
         expectFields(json, {}, otherField);
-    else if (one.holds == Holds::panner) {
-        expectFields(json, {one.field}, otherField);
+    else if (entry.type == ValueType::panner) {
+        expectFields(json, {entry.field}, otherField);
         LayoutDescription unused;
-        control.kept = std::make_shared<const PhantomPanner>(
-            readKind(json[one.field], DescribedPanner{channels, unused}));
-        control.panner = control.kept.get();
+        control.ownedPanner = std::make_shared<const PhantomPanner>(
+            readCustom(json[entry.field], DescribedPanner{channels, unused}));
+        control.panner = control.ownedPanner.get();
     } else {
-        expectFields(json, {"channel", one.field}, otherField);
+        expectFields(json, {"channel", entry.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        if (one.holds == Holds::truth)
-            control.value = json[one.field].truth() ? 1.0f : 0.0f;
+        if (entry.type == ValueType::boolean)
+            control.value = json[entry.field].boolean() ? 1.0f : 0.0f;
         else
-            control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
+            control.value = static_cast<float>(json[entry.field].numberWithin(entry.minimum, entry.maximum));
     }
     return control;
 }
 
-OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner) {
-    const bool isKnown = !kind.described.enchanters.empty();
-    OrderedJson json{{"layout", writeKind(Own<LayoutDescription>{},
-                                          isKnown ? kind.described : describeLayout("", panner.layout()))},
+OrderedJson writeCustom(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner) {
+    const bool isKnown = !kind.described.actuators.empty();
+    OrderedJson json{{"layout", writeCustom(Custom<LayoutDescription>{},
+                                            isKnown ? kind.described : describeLayout("", panner.layout()))},
                      {"law", nameOf(panner.law())},
                      {"exponent", panner.exponent()},
                      {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
@@ -190,16 +190,17 @@ OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, cons
 }
 
 OrderedJson controlJson(const RenderControl& control) {
-    using Holds = ControlDescription::Holds;
+    using ValueType = ControlDescription::ValueType;
     // every control that is written is in the table
-    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
-    OrderedJson json{{"control", one->name}};
-    if (one->holds == Holds::panner)
-        json[one->field] =
-            writeKind(DescribedPanner<const LayoutDescription>{control.channel, {}}, *control.panner);
-    if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
-    if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
-    if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;
+    const auto entry = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
+    OrderedJson json{{"control", entry->name}};
+    if (entry->type == ValueType::panner)
+        json[entry->field] =
+            writeCustom(DescribedPanner<const LayoutDescription>{control.channel, {}}, *control.panner);
+    if (entry->type == ValueType::number || entry->type == ValueType::boolean)
+        json["channel"] = control.channel + 1;
+    if (entry->type == ValueType::number) json[entry->field] = static_cast<double>(control.value);
+    if (entry->type == ValueType::boolean) json[entry->field] = control.value != 0.0f;
     return json;
 }
 

@@ -18,43 +18,43 @@ namespace physvib {
 /// All fields except scene and seed. Throws JsonError, as do all readers here.
 Mix readMix(const JsonField& json);
 
-std::vector<Strip> readKind(const JsonField& list, const PerChannel<std::vector<Strip>>& kind);
-OrderedJson writeKind(const PerChannel<std::vector<Strip>>& kind, const std::vector<Strip>& strips);
-std::vector<Strip> readKind(const JsonField& list, const kinds::PluginStrips& kind);
-OrderedJson writeKind(const kinds::PluginStrips& kind, const std::vector<Strip>& strips);
-GainLane readKind(const JsonField& list, const Own<GainLane>& kind);
-OrderedJson writeKind(const Own<GainLane>& kind, const GainLane& lane);
-FrequencyBand readKind(const JsonField& json, const Own<FrequencyBand>& kind);
-OrderedJson writeKind(const Own<FrequencyBand>& kind, const FrequencyBand& band);
-EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedActuators>& kind);
-OrderedJson writeKind(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised);
+std::vector<Strip> readCustom(const JsonField& list, const PerChannel<std::vector<Strip>>& kind);
+OrderedJson writeCustom(const PerChannel<std::vector<Strip>>& kind, const std::vector<Strip>& strips);
+std::vector<Strip> readCustom(const JsonField& list, const kinds::PluginStrips& kind);
+OrderedJson writeCustom(const kinds::PluginStrips& kind, const std::vector<Strip>& strips);
+GainLane readCustom(const JsonField& list, const Custom<GainLane>& kind);
+OrderedJson writeCustom(const Custom<GainLane>& kind, const GainLane& lane);
+FrequencyBand readCustom(const JsonField& json, const Custom<FrequencyBand>& kind);
+OrderedJson writeCustom(const Custom<FrequencyBand>& kind, const FrequencyBand& band);
+EqualisedActuators readCustom(const JsonField& list, const PerChannel<EqualisedActuators>& kind);
+OrderedJson writeCustom(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised);
 
 // JSON form of render controls and panners, for session files and input lines. For .cpp files of documents.
 
-/// A control as files and lines have it: its name, and the field and range of its value.
+/// How files and lines name a control, and the field and range of its value.
 struct ControlDescription {
-    enum class Holds { panner, number, truth, nothing }; ///< number and truth belong to a channel
+    enum class ValueType { panner, number, boolean, nothing }; ///< number and boolean belong to a channel
     std::string_view name;
     RenderControl::Kind kind;
-    Holds holds;
+    ValueType type;
     std::string_view field{};
-    double least = 0.0, most = 0.0;
+    double minimum = 0.0, maximum = 0.0;
 };
 
 inline constexpr auto controlTable = std::to_array<ControlDescription>({
-    {"layout", RenderControl::Kind::panner, ControlDescription::Holds::panner, "panning"},
-    {"gain", RenderControl::Kind::gain, ControlDescription::Holds::number, "value", -1000.0, 1000.0},
-    {"mute", RenderControl::Kind::mute, ControlDescription::Holds::truth, "on"},
-    {"stop", RenderControl::Kind::stopAll, ControlDescription::Holds::nothing},
-    {"delay", RenderControl::Kind::delay, ControlDescription::Holds::number, "seconds", 0.0,
+    {"layout", RenderControl::Kind::panner, ControlDescription::ValueType::panner, "panning"},
+    {"gain", RenderControl::Kind::gain, ControlDescription::ValueType::number, "value", -1000.0, 1000.0},
+    {"mute", RenderControl::Kind::mute, ControlDescription::ValueType::boolean, "on"},
+    {"stop", RenderControl::Kind::stopAll, ControlDescription::ValueType::nothing},
+    {"delay", RenderControl::Kind::delay, ControlDescription::ValueType::number, "seconds", 0.0,
      limits::maxChannelDelaySeconds},
-    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::Holds::number, "value", 1e-6, 1.0},
+    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::ValueType::number, "value", 1e-6, 1.0},
 });
 inline constexpr auto controlNames = namesOf(controlTable);
 
 /// Throws JsonError.
-PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind);
-OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner);
+PhantomPanner readCustom(const JsonField& json, const DescribedPanner<LayoutDescription>& kind);
+OrderedJson writeCustom(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner);
 
 /// Reads a control without its time; `otherField` may be present too. Throws JsonError.
 OwnedControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
@@ -66,31 +66,31 @@ OrderedJson controlJson(const RenderControl& control); ///< without its time
 void visitFields(auto& v, FieldsOf<WorldStall>) {
     v.field("time_s", &WorldStall::worldNs, kinds::Time{});
     v.field("seconds", &WorldStall::lengthNs, kinds::Time{});
-    v.field("steps", &WorldStall::steps, kinds::whole(1, 1'000'000'000), Need::optional.from(2));
+    v.field("steps", &WorldStall::steps, kinds::wholeNumber(1, 1'000'000'000), Need::optional.from(2));
 }
 
-/// The scene is left out if it is that of the scene run before. In a journal, end, inputs and stalls follow
-/// as lines of their own.
-void visitTake(auto& v, bool isJournal) {
+/// A run with the scene of the run before does not repeat it. In a journal, end, inputs and stalls are later
+/// lines of their own.
+void visitRun(auto& v, bool isJournal) {
     v.field("start_s", &SceneRun::startNs, kinds::Time{});
     if (!isJournal) v.field("world_end_s", &SceneRun::worldEndNs, kinds::Time{});
     v.field("seed", &SceneRun::seed, kinds::upTo(4294967295.0));
     v.part("scene", Need::optional);
     if (!isJournal) v.part("inputs", Need::optional), v.part("stalls", Need::optional);
 }
-struct JournalTake;
-void visitFields(auto& v, FieldsOf<SceneRun>) { visitTake(v, false); }
-void visitFields(auto& v, FieldsOf<JournalTake>) { visitTake(v, true); }
+struct JournalRun;
+void visitFields(auto& v, FieldsOf<SceneRun>) { visitRun(v, false); }
+void visitFields(auto& v, FieldsOf<JournalRun>) { visitRun(v, true); }
 
 /// An event that was played without a collision in the world.
 void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     using E = CollisionEvent;
-    using C = StrikeCourse;
+    using C = ToneCourse;
     constexpr auto course = &E::course;
     constexpr auto travel = in(course, &C::travelNs);
     v.field("time_s", &E::timeNs, kinds::Time{});
     v.field("frequency_hz", &E::frequencyHz, kinds::positive);
-    v.field("sound", &E::sound, kinds::whole(0, std::numeric_limits<SoundNumber>::max()),
+    v.field("sound", &E::sound, kinds::wholeNumber(0, std::numeric_limits<SoundNumber>::max()),
             Need::filled.from(9));
     v.field("decay_per_s", &E::decayPerSecond, kinds::number);
     v.field("amplitude", &E::amplitude, kinds::number);
@@ -98,7 +98,7 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     v.field("y_m", &E::y, kinds::number);
     v.field("z_m", &E::z, kinds::number, Need::optional);
     v.field("part", in(&E::source, &CollisionSource::part),
-            kinds::whole(0, std::numeric_limits<PartNumber>::max()), Need::optional);
+            kinds::wholeNumber(0, std::numeric_limits<PartNumber>::max()), Need::optional);
     v.field("duration_s", &E::durationNs, kinds::Time{}, Need::optional);
     if (v.has("travel_s", travel)) {
         v.field("to_x_m", in(course, &C::toX), kinds::number);
@@ -106,27 +106,27 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
         v.field("to_z_m", in(course, &C::toZ), kinds::number, Need::optional);
         v.field("travel_s", travel, kinds::Time{});
     }
-    v.field("since_s", in(course, &C::sinceNs), kinds::Time{}, Need::optional.from(5));
+    v.field("since_s", in(course, &C::toneAgeNs), kinds::Time{}, Need::optional.from(5));
     v.field("spread", &E::spread, kinds::OneOf{spreadNames}, Need::optional.from(5));
 }
 
-Ceilings readKind(const JsonField& list, const PerChannel<Ceilings>& kind);
-OrderedJson writeKind(const PerChannel<Ceilings>& kind, const Ceilings& ceilings);
-RenderingMethod readKind(const JsonField& json, const Own<RenderingMethod>& kind);
-OrderedJson writeKind(const Own<RenderingMethod>& kind, const RenderingMethod& method);
+Ceilings readCustom(const JsonField& list, const PerChannel<Ceilings>& kind);
+OrderedJson writeCustom(const PerChannel<Ceilings>& kind, const Ceilings& ceilings);
+RenderingMethod readCustom(const JsonField& json, const Custom<RenderingMethod>& kind);
+OrderedJson writeCustom(const Custom<RenderingMethod>& kind, const RenderingMethod& method);
 
 namespace detail {
 
 // Readers; all throw JsonError.
-SceneRun readTakeStart(const JsonField& json, const SceneRun* before, bool isJournal);
-WorldStall readStall(const JsonField& json, const SceneRun& take); ///< not before the run's last
+SceneRun readRunStart(const JsonField& json, const SceneRun* before, bool isJournal);
+WorldStall readStall(const JsonField& json, const SceneRun& run); ///< an error if before the run's last
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
 CollisionEvent readStrike(const JsonField& json);
 void readClipFile(const JsonField& json, SessionLog& log);
 
 // Writers.
-OrderedJson takeStartJson(const SceneRun& take, const SceneRun* before, bool isJournal);
+OrderedJson runStartJson(const SceneRun& run, const SceneRun* before, bool isJournal);
 OrderedJson inputJson(const LiveInput& input, const Scene& scene);
 OrderedJson timedControlJson(const RenderControl& control);
 OrderedJson recordingsJson(RecordingsChange change, const std::filesystem::path& folder);

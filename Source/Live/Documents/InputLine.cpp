@@ -13,13 +13,13 @@ struct ActionLine {
 };
 void visitFields(auto& v, FieldsOf<ActionLine>) { v.variant("input", &ActionLine::action, actionNames); }
 
-constexpr std::size_t mostNumbers = 1024; // in a list
-constexpr std::string_view silenceName = "silence", truthName = "on";
+constexpr std::size_t maxNumbers = 1024; // in a list
+constexpr std::string_view silenceName = "silence", onName = "on";
 
 void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair) {
     const std::size_t count = list.arraySize();
     if (isPair && count != 2) list.fail("expected a pair of numbers");
-    if (count > mostNumbers) list.fail("expected at most " + std::to_string(mostNumbers) + " numbers");
+    if (count > maxNumbers) list.fail("expected at most " + std::to_string(maxNumbers) + " numbers");
     for (std::size_t i = 0; i < count; ++i) {
         if (!isPair && list.item(i).isArray())
             addNumbers(list.item(i), numbers, true);
@@ -44,35 +44,35 @@ PlainMessage readMessage(const JsonField& json) {
 }
 
 /// An input or a control, whatever other kinds its fields name.
-LineInput readAct(const JsonField& json, const std::vector<Material>& materials, int channels) {
+LineInput readAction(const JsonField& json, const std::vector<Material>& materials, int channels) {
     if (!json.has("control")) {
         ActionLine line;
         detail::readValue(json, line, {}, materials);
         return std::move(line.action);
     }
-    if (!json["control"].is(silenceName)) return readControl(json, channels);
+    if (!json["control"].isString(silenceName)) return readControl(json, channels);
     json.expectObject({"control", "on"});
-    return SilenceControl{json["on"].truth()};
+    return SilenceControl{json["on"].boolean()};
 }
 
 constexpr std::string_view idName = "id";
-constexpr double mostId = 9'007'199'254'740'991; // larger integers are not exact in JSON
+constexpr double maxId = 9'007'199'254'740'991; // larger integers are not exact in JSON
 
-bool isId(double number) { return std::abs(number) <= mostId && number == std::floor(number); }
+bool isId(double number) { return std::abs(number) <= maxId && number == std::floor(number); }
 
 /// Removes the number from `root`, so that the other readers do not see it.
-std::optional<double> takeId(Json& root) {
+std::optional<double> extractId(Json& root) {
     if (!root.is_object() || !root.contains(idName)) return std::nullopt;
     const JsonField field = JsonField(root, {})[idName];
     const double id = field.number();
     if (!isId(id))
-        field.fail("expected a whole number from -" + plainNumber(mostId) + " to " + plainNumber(mostId));
+        field.fail("expected a whole number from -" + plainNumber(maxId) + " to " + plainNumber(maxId));
     root.erase(std::string(idName));
     return id;
 }
 
 /// The number after the first "id" of a line that may be malformed.
-std::optional<double> idIn(std::string_view line) {
+std::optional<double> findId(std::string_view line) {
     constexpr std::string_view key = "\"id\"", blank = " \t";
     const auto at = line.find(key);
     const auto colon = at == line.npos ? at : line.find_first_not_of(blank, at + key.size());
@@ -97,14 +97,14 @@ std::string answerLine(const PlainMessage& answer) {
 }
 
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels) {
-    std::optional<double> id = idIn(line);
+    std::optional<double> id = findId(line);
     InputLine read = [&]() -> InputLine {
         try {
             Json root = parseStrictly(line);
-            id = takeId(root);
+            id = extractId(root);
             const JsonField json(root, {});
             json.expectObject();
-            return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
+            return json.has("message") ? LineInput{readMessage(json)} : readAction(json, materials, channels);
         } catch (const JsonError& error) {
             return Failure{error.what()};
         }
@@ -113,7 +113,7 @@ InputLine readInputLine(std::string_view line, const std::vector<Material>& mate
     return read;
 }
 
-bool namesSilence(std::string_view text) noexcept {
+bool containsSilenceWord(std::string_view text) noexcept {
     constexpr char toLower = 'a' - 'A';
     const auto isSame = [](char found, char wanted) { return (found | toLower) == wanted; };
     const auto end = text.end();
@@ -122,8 +122,8 @@ bool namesSilence(std::string_view text) noexcept {
 
 // Names may be written with JSON escapes. The control needs no scene; whether an input fits the scene is
 // checked when it is executed.
-bool asksForSilence(std::string_view line) {
-    if (!namesSilence(line) && line.find('\\') == line.npos) return false;
+bool requestsSilence(std::string_view line) {
+    if (!containsSilenceWord(line) && line.find('\\') == line.npos) return false;
     const auto read = readInputLine(line, {}, 1);
     if (const auto* silence = std::get_if<SilenceControl>(&read.value)) return silence->isOn;
     std::string kinds;
@@ -134,7 +134,7 @@ bool asksForSilence(std::string_view line) {
                 kinds += root[kind].get_ref<const std::string&>() + '\n';
     } catch (const JsonError&) {
     }
-    return namesSilence(kinds.empty() ? line : kinds);
+    return containsSilenceWord(kinds.empty() ? line : kinds);
 }
 
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
@@ -146,13 +146,13 @@ Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Ma
         if (json.contains(value.name))
             return Failure{plain.name + ": " + printable(value.name) + ": expected once"};
         const auto* number = std::get_if<double>(&value.value);
-        if (number != nullptr && value.name == truthName)
+        if (number != nullptr && value.name == onName)
             json[value.name] = *number != 0.0;
         else
             json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
     }
     try {
-        return readAct(JsonField(json, {}), materials, channels);
+        return readAction(JsonField(json, {}), materials, channels);
     } catch (const JsonError& error) {
         return Failure{plain.name + ": " + error.what()};
     }
@@ -160,7 +160,7 @@ Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Ma
 
 Result<SilenceControl> readPlainSilence(const std::vector<NamedValue>& values) {
     const auto* on = values.size() == 1 ? std::get_if<double>(&values.front().value) : nullptr;
-    if (on == nullptr || values.front().name != truthName) return Failure{"silence: expected on, and 1 or 0"};
+    if (on == nullptr || values.front().name != onName) return Failure{"silence: expected on, and 1 or 0"};
     return SilenceControl{*on != 0.0};
 }
 

@@ -44,12 +44,12 @@ struct SilenceControl {
 
 /// A control with the panner that it sets, if it sets one.
 struct OwnedControl : RenderControl {
-    std::shared_ptr<const PhantomPanner> kept{};
+    std::shared_ptr<const PhantomPanner> ownedPanner{};
 };
 
 using LineInput = std::variant<Action, OwnedControl, SilenceControl, PlainMessage>;
 
-/// A line, and its number "id" if it has one, which the answer repeats.
+/// The input or the error of a line, and its number "id", which the answer repeats.
 struct InputLine : Result<LineInput> {
     using Result<LineInput>::Result;
     std::optional<double> id{}; ///< a whole number; also of an unreadable line, if it contains one
@@ -65,14 +65,14 @@ struct InputLine : Result<LineInput> {
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels);
 
 /// Whether the text contains the word "silence", in upper or lower case. Any thread.
-bool namesSilence(std::string_view text) noexcept;
+bool containsSilenceWord(std::string_view text) noexcept;
 
 /// Whether a line requests silence: its control, input or message is silence, unless it is a well-formed
 /// `off`. An unreadable line requests silence if it contains the word. Any thread.
-bool asksForSilence(std::string_view line);
+bool requestsSilence(std::string_view line);
 
-/// Appended to the error of a line that silenced nevertheless.
-inline constexpr std::string_view silencedAllTheSame = "; silenced all the same";
+/// Appended to the error of an unreadable line that silenced the output.
+inline constexpr std::string_view silencedAnyway = "; silenced all the same";
 
 /// Reads an input or a control given as a name and named values (`gain` with `channel` and `value`). Only
 /// those without nested fields; a number other than 0 is true. Any thread.

@@ -7,19 +7,19 @@
 namespace physvib {
 namespace {
 
-double onFaderStep(double db) noexcept { return std::round(10.0 * db) / 10.0; }
+double roundedToFaderStep(double db) noexcept { return std::round(10.0 * db) / 10.0; }
 
-double lineAt(const GainPoint& from, const GainPoint& to, double seconds) noexcept {
+double lineDb(const GainPoint& from, const GainPoint& to, double seconds) noexcept {
     const double length = to.seconds - from.seconds;
     return length > 0.0 ? from.db + (to.db - from.db) * (seconds - from.seconds) / length : to.db;
 }
 
-/// The point farthest from the line between the ends of lane[from..to]; `from` if none exceeds it.
-std::size_t farthest(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
+/// Index in from..to of the largest deviation from a straight line; `from` if none exceeds the tolerance.
+std::size_t farthestPoint(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
     std::size_t found = from;
     for (std::size_t i = from + 1; i < to; ++i) {
-        const double off = std::abs(lane[i].db - lineAt(lane[from], lane[to], lane[i].seconds));
-        if (off > toleranceDb) toleranceDb = off, found = i;
+        const double deviationDb = std::abs(lane[i].db - lineDb(lane[from], lane[to], lane[i].seconds));
+        if (deviationDb > toleranceDb) toleranceDb = deviationDb, found = i;
     }
     return found;
 }
@@ -27,22 +27,22 @@ std::size_t farthest(const GainLane& lane, std::size_t from, std::size_t to, dou
 /// Ramer 1972, Douglas and Peucker 1973: keeps the ends, and points too far from the line between them.
 GainLane withinTolerance(const GainLane& lane, double toleranceDb) {
     if (lane.size() < 3) return lane;
-    GainLane kept{lane.front()};
+    GainLane result{lane.front()};
     std::vector<std::size_t> ends{lane.size() - 1}; // ends of the segments still to check, the next one last
     for (std::size_t from = 0; !ends.empty();) {
-        const std::size_t middle = farthest(lane, from, ends.back(), toleranceDb);
+        const std::size_t middle = farthestPoint(lane, from, ends.back(), toleranceDb);
         if (middle != from) {
             ends.push_back(middle);
             continue;
         }
         from = ends.back();
         ends.pop_back();
-        kept.push_back(lane[from]);
+        result.push_back(lane[from]);
     }
-    return kept;
+    return result;
 }
 
-/// The strip's group, or one without effect.
+/// The strip's group; for a strip without one, a group that changes nothing.
 const StripGroup& groupOf(const Mix& mix, const Strip& strip) {
     static const StripGroup none{};
     return strip.group < 0 ? none : mix.groups[static_cast<std::size_t>(strip.group)];
@@ -50,51 +50,51 @@ const StripGroup& groupOf(const Mix& mix, const Strip& strip) {
 
 /// The strip with its group's fader, mute and lane applied, in no group.
 Strip ungrouped(const Strip& strip, const StripGroup& group) {
-    Strip alone = strip;
-    alone.gainDb = sumDb({strip.gainDb, group.gainDb});
-    alone.isMuted |= group.isMuted;
-    alone.lane = thinned(sumOf(strip.lane, group.lane));
-    alone.group = -1;
-    return alone;
+    Strip single = strip;
+    single.gainDb = sumDb({strip.gainDb, group.gainDb});
+    single.isMuted |= group.isMuted;
+    single.lane = simplified(sumOf(strip.lane, group.lane));
+    single.group = -1;
+    return single;
 }
 
-constexpr std::size_t mostTextBytes = 100'000; // 64 strips need 8 kB
+constexpr std::size_t maxTextBytes = 100'000; // 64 strips need 8 kB
 
-class Notes {
+class ChangeNotes {
 public:
-    void lower(double& value, double most, const std::string& what) {
-        if (value <= most) return;
-        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(most, 1) + " dB");
-        value = most;
+    void lower(double& value, double maxDb, const std::string& what) {
+        if (value <= maxDb) return;
+        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(maxDb, 1) + " dB");
+        value = maxDb;
     }
     void add(const std::string& note) {
-        constexpr int mostNotes = 8; // users do not read more
-        if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
+        constexpr int maxNotes = 8; // users do not read more
+        if (++count_ <= maxNotes) text_ += (text_.empty() ? "" : "; ") + note;
     }
-    std::string words() const { return words_; }
+    std::string text() const { return text_; }
 
 private:
-    std::string words_;
+    std::string text_;
     int count_ = 0;
 };
 
-/// The highest fader position at which the strip's loudest gain, with group and lanes, is `mostDb`.
-double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
-    if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
-    return mostDb <= leastStripDb ? leastStripDb
-                                  : std::clamp(mostDb - mostAddedDb(mix, strip), leastStripDb, mostStripDb);
+/// The highest fader position at which the strip's loudest gain, with group and lanes, is `maxDb`.
+double maxFaderDb(const Mix& mix, std::size_t strip, double maxDb) {
+    if (maxGainDb(mix, strip) <= maxDb) return maxStripDb;
+    return maxDb <= minStripDb ? minStripDb
+                               : std::clamp(maxDb - maxAddedDb(mix, strip), minStripDb, maxStripDb);
 }
 
-void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& strip, const std::string& label,
-                Notes& notes) {
-    if (most == nullptr) {
+void lowerStrip(const Strip* cap, bool isLimitMuted, double maxDb, Strip& strip, const std::string& label,
+                ChangeNotes& notes) {
+    if (cap == nullptr) {
         notes.add(label + " without output " + std::to_string(strip.output + 1));
         strip.output = -1;
         return;
     }
-    notes.lower(strip.gainDb, mostDb, label + " gain");
-    notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
-    if (!isSilentThere || strip.isMuted) return;
+    notes.lower(strip.gainDb, maxDb, label + " gain");
+    notes.lower(strip.ceilingDb, cap->ceilingDb, label + " ceiling");
+    if (!isLimitMuted || strip.isMuted) return;
     notes.add(label + " muted");
     strip.isMuted = true;
 }
@@ -104,22 +104,22 @@ void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& str
 double laneDbAt(const GainLane& lane, double seconds) noexcept {
     if (lane.empty()) return 0.0;
     const auto next = std::ranges::upper_bound(lane, seconds, {}, &GainPoint::seconds);
-    if (next == lane.begin()) return onFaderStep(lane.front().db);
-    if (next == lane.end()) return onFaderStep(lane.back().db);
-    return onFaderStep(lineAt(*std::prev(next), *next, seconds));
+    if (next == lane.begin()) return roundedToFaderStep(lane.front().db);
+    if (next == lane.end()) return roundedToFaderStep(lane.back().db);
+    return roundedToFaderStep(lineDb(*std::prev(next), *next, seconds));
 }
 
-double loudestDb(const GainLane& lane) noexcept {
+double maxGainDb(const GainLane& lane) noexcept {
     return lane.empty() ? 0.0 : std::ranges::max(lane, {}, &GainPoint::db).db;
 }
 
 double sumDb(std::initializer_list<double> gainsDb) noexcept {
     double sum = 0.0;
     for (const double db : gainsDb) {
-        if (db <= leastStripDb) return leastStripDb;
+        if (db <= minStripDb) return minStripDb;
         sum += db;
     }
-    return std::clamp(sum, leastStripDb, mostStripDb);
+    return std::clamp(sum, minStripDb, maxStripDb);
 }
 
 GainLane sumOf(const GainLane& a, const GainLane& b) {
@@ -134,24 +134,24 @@ GainLane sumOf(const GainLane& a, const GainLane& b) {
     return sum;
 }
 
-GainLane thinned(const GainLane& lane, std::size_t mostPoints) {
-    constexpr double hardlyFeltDb = 0.25; // a quarter of the just noticeable difference
-    GainLane kept = withinTolerance(lane, hardlyFeltDb);
-    for (double toleranceDb = hardlyFeltDb; kept.size() > mostPoints; toleranceDb *= 2.0)
-        kept = withinTolerance(lane, toleranceDb);
-    if (kept.size() == 2 && kept[0].db == kept[1].db) kept.pop_back(); // the gain is constant
-    return kept;
+GainLane simplified(const GainLane& lane, std::size_t maxPoints) {
+    constexpr double minToleranceDb = 0.25; // a quarter of the just noticeable difference
+    GainLane result = withinTolerance(lane, minToleranceDb);
+    for (double toleranceDb = minToleranceDb; result.size() > maxPoints; toleranceDb *= 2.0)
+        result = withinTolerance(lane, toleranceDb);
+    if (result.size() == 2 && result[0].db == result[1].db) result.pop_back(); // the gain is constant
+    return result;
 }
 
-std::vector<Strip> feltStrips(const Mix& mix) {
-    std::vector<Strip> felt = mix.strips;
-    for (Strip& strip : felt) {
+std::vector<Strip> effectiveStrips(const Mix& mix) {
+    std::vector<Strip> effective = mix.strips;
+    for (Strip& strip : effective) {
         if (strip.group >= 0) strip.gainDb = sumDb({strip.gainDb, groupOf(mix, strip).gainDb});
         strip.isMuted |= groupOf(mix, strip).isMuted;
         strip.group = -1;
         strip.lane.clear();
     }
-    return felt;
+    return effective;
 }
 
 bool hasLane(const Mix& mix, std::size_t strip) {
@@ -159,20 +159,20 @@ bool hasLane(const Mix& mix, std::size_t strip) {
 }
 
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds) {
-    const Strip& own = mix.strips[strip];
-    const StripGroup& group = groupOf(mix, own);
-    return sumDb({own.gainDb, group.gainDb, laneDbAt(own.lane, seconds), laneDbAt(group.lane, seconds)});
+    const Strip& self = mix.strips[strip];
+    const StripGroup& group = groupOf(mix, self);
+    return sumDb({self.gainDb, group.gainDb, laneDbAt(self.lane, seconds), laneDbAt(group.lane, seconds)});
 }
 
-double loudestDb(const Mix& mix, std::size_t strip) {
-    const Strip& own = mix.strips[strip];
-    const StripGroup& group = groupOf(mix, own);
-    return sumDb({own.gainDb, group.gainDb, loudestDb(own.lane), loudestDb(group.lane)});
+double maxGainDb(const Mix& mix, std::size_t strip) {
+    const Strip& self = mix.strips[strip];
+    const StripGroup& group = groupOf(mix, self);
+    return sumDb({self.gainDb, group.gainDb, maxGainDb(self.lane), maxGainDb(group.lane)});
 }
 
-double mostAddedDb(const Mix& mix, std::size_t strip) {
+double maxAddedDb(const Mix& mix, std::size_t strip) {
     const StripGroup& group = groupOf(mix, mix.strips[strip]);
-    return loudestDb(mix.strips[strip].lane) + (group.gainDb + loudestDb(group.lane));
+    return maxGainDb(mix.strips[strip].lane) + (group.gainDb + maxGainDb(group.lane));
 }
 
 int addGroup(Mix& mix, std::string name) {
@@ -181,13 +181,13 @@ int addGroup(Mix& mix, std::string name) {
 }
 
 std::string freeGroupName(const Mix& mix) {
-    static constexpr std::array<const char*, 3> usual{"Left hand", "Right hand", "Back"};
+    static constexpr std::array<const char*, 3> defaultNames{"Left hand", "Right hand", "Back"};
     const auto isFree = [&](const std::string& name) {
         return std::ranges::find(mix.groups, name, &StripGroup::name) == mix.groups.end();
     };
-    for (const char* const name : usual)
+    for (const char* const name : defaultNames)
         if (isFree(name)) return name;
-    for (int n = static_cast<int>(usual.size()) + 1;; ++n)
+    for (int n = static_cast<int>(defaultNames.size()) + 1;; ++n)
         if (std::string name = "Group " + std::to_string(n); isFree(name)) return name;
 }
 
@@ -201,40 +201,40 @@ void removeGroup(Mix& mix, int group) {
     mix.groups.erase(mix.groups.begin() + group);
 }
 
-DeskLimits DeskLimits::of(const Mix& mix) {
-    std::vector<Strip> strips = feltStrips(mix);
-    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].gainDb = loudestDb(mix, j);
+MixerLimits MixerLimits::of(const Mix& mix) {
+    std::vector<Strip> strips = effectiveStrips(mix);
+    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].gainDb = maxGainDb(mix, j);
     return {mix.levelDb, strips};
 }
 
-double DeskLimits::loudestOutputDb() const {
+double MixerLimits::loudestOutputDb() const {
     std::vector<double> gains;
     for (const Strip& strip : strips)
         if (strip.output >= 0) gains.push_back(std::min(strip.gainDb, strip.ceilingDb));
-    return gains.empty() ? levelDb : std::max(leastStripDb, levelDb + std::ranges::max(gains));
+    return gains.empty() ? levelDb : std::max(minStripDb, levelDb + std::ranges::max(gains));
 }
 
-std::string lowerTo(const DeskLimits& most, Mix& mix) {
-    Notes notes;
-    notes.lower(mix.levelDb, most.levelDb, "master");
+std::string lowerToLimits(const MixerLimits& limits, Mix& mix) {
+    ChangeNotes notes;
+    notes.lower(mix.levelDb, limits.levelDb, "master");
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
         Strip& strip = mix.strips[j];
         if (strip.output < 0) continue;
-        const auto own = std::ranges::find(most.strips, strip.output, &Strip::output);
-        const bool isThere = own != most.strips.end();
-        lowerStrip(isThere ? &*own : nullptr,
-                   isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())),
-                   isThere ? mostFaderDb(mix, j, own->gainDb) : leastStripDb, strip,
-                   mix.layout.enchanters[j].label, notes);
+        const auto cap = std::ranges::find(limits.strips, strip.output, &Strip::output);
+        const bool hasLimit = cap != limits.strips.end();
+        lowerStrip(hasLimit ? &*cap : nullptr,
+                   hasLimit && isSilent(limits.strips, static_cast<std::size_t>(cap - limits.strips.begin())),
+                   hasLimit ? maxFaderDb(mix, j, cap->gainDb) : minStripDb, strip,
+                   mix.layout.actuators[j].label, notes);
     }
-    return notes.words();
+    return notes.text();
 }
 
-std::string deskLimitsText(const DeskLimits& limits) { return writeTable(limits).dump(); }
+std::string mixerLimitsText(const MixerLimits& limits) { return writeTable(limits).dump(); }
 
-std::optional<DeskLimits> readDeskLimits(std::string_view text) {
-    auto read = readJson(text, "settings", mostTextBytes, [](const Json& root) {
-        return kinds::Object<DeskLimits>{}(JsonField{root, {}});
+std::optional<MixerLimits> readMixerLimits(std::string_view text) {
+    auto read = readJson(text, "settings", maxTextBytes, [](const Json& root) {
+        return kinds::Object<MixerLimits>{}(JsonField{root, {}});
     });
     return read ? std::optional{std::move(read.value)} : std::nullopt;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mixer state: scene, layout, channel strips with groups and gain lanes; effective gains; user's limits.
+// The mixer state: scene, layout, channel strips, groups, gain lanes; its effective gains; the user's limits.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/RenderControl.h"
@@ -25,21 +25,21 @@ namespace physvib {
 
 // Gain automation over the time of a scene run: points joined by straight lines in dB.
 
-constexpr double leastStripDb = -60.0, mostStripDb = 6.0; ///< faders and lanes; least is silence
+constexpr double minStripDb = -60.0, maxStripDb = 6.0; ///< faders and lanes; minStripDb is silence
 
 struct GainPoint {
     double seconds = 0.0; ///< of the world, from the start of the scene run
-    double db = 0.0;      ///< added to the fader, leastStripDb (silence) to mostStripDb
+    double db = 0.0;      ///< added to the fader, minStripDb (silence) to maxStripDb
     bool operator==(const GainPoint&) const = default;
 };
 
-/// Points in time order; none: 0 dB.
+/// Points in time order; without points the lane adds 0 dB.
 using GainLane = std::vector<GainPoint>;
-constexpr std::size_t mostGainPoints = 2'000;
+constexpr std::size_t maxGainPoints = 2'000;
 
-/// Rounded to steps of 0.1 dB, as faders have. Any thread, as all functions here.
+/// The lane's gain at that time, in steps of 0.1 dB, as faders have. Any thread, as all functions here.
 double laneDbAt(const GainLane& lane, double seconds) noexcept;
-double loudestDb(const GainLane& lane) noexcept; ///< largest value of its points
+double maxGainDb(const GainLane& lane) noexcept; ///< largest value of its points
 
 /// Total of gains in series: silence if one of them is, and limited to the range of a fader.
 double sumDb(std::initializer_list<double> gainsDb) noexcept;
@@ -47,9 +47,9 @@ double sumDb(std::initializer_list<double> gainsDb) noexcept;
 /// The sum of both lanes, with the points of both (allocates).
 GainLane sumOf(const GainLane& a, const GainLane& b);
 
-/// Removes points within 0.25 dB of the line between their neighbours, and more until at most `mostPoints`
+/// Removes points within 0.25 dB of the line between their neighbours, and more until at most `maxPoints`
 /// remain (allocates).
-GainLane thinned(const GainLane& lane, std::size_t mostPoints = mostGainPoints);
+GainLane simplified(const GainLane& lane, std::size_t maxPoints = maxGainPoints);
 
 /// The session format version that introduced the newest field of a strip or group.
 constexpr int stripsVersion = 8;
@@ -74,28 +74,28 @@ struct Strip {
     bool operator==(const Strip&) const = default;
 };
 
-constexpr double leastCeilingDb = -60.0; // lower values would amount to a mute
-constexpr int mostStripOutputs = 1024;
-constexpr std::size_t mostGroups = 16;
-inline constexpr auto stripRangeDb = kinds::within(leastStripDb, mostStripDb); // leastStripDb is silence
+constexpr double minCeilingDb = -60.0; // lower values would amount to a mute
+constexpr int maxStripOutputs = 1024;
+constexpr std::size_t maxGroups = 16;
+inline constexpr auto stripRangeDb = kinds::within(minStripDb, maxStripDb); // minStripDb is silence
 
 /// The fields that the plug-in's strips, which have no groups and lanes, have too.
 void visitStrip(auto& v) {
     v.field("gain_db", &Strip::gainDb, stripRangeDb);
-    v.field("mute", &Strip::isMuted, kinds::truth);
-    v.field("solo", &Strip::isSolo, kinds::truth);
-    v.field("invert", &Strip::isInverted, kinds::truth);
+    v.field("mute", &Strip::isMuted, kinds::boolean);
+    v.field("solo", &Strip::isSolo, kinds::boolean);
+    v.field("invert", &Strip::isInverted, kinds::boolean);
     v.field("delay_ms", &Strip::delayMs, kinds::within(0.0, 1e3 * limits::maxChannelDelaySeconds));
-    v.field("ceiling_db", &Strip::ceilingDb, kinds::within(leastCeilingDb, 0.0));
+    v.field("ceiling_db", &Strip::ceilingDb, kinds::within(minCeilingDb, 0.0));
 }
 
 struct PluginStrip; // the plug-in's strip in files
 void visitFields(auto& v, FieldsOf<PluginStrip>) { visitStrip(v); }
 void visitFields(auto& v, FieldsOf<Strip>) {
     visitStrip(v);
-    v.field("output", &Strip::output, kinds::FromOne{0, mostStripOutputs}); // 0: none
-    v.field("group", &Strip::group, kinds::FromOne{1, static_cast<int>(mostGroups)}, Need::optional.from(8));
-    v.field("lane", &Strip::lane, Own<GainLane>{}, Need::optional.from(8));
+    v.field("output", &Strip::output, kinds::OneBased{0, maxStripOutputs}); // 0: none
+    v.field("group", &Strip::group, kinds::OneBased{1, static_cast<int>(maxGroups)}, Need::optional.from(8));
+    v.field("lane", &Strip::lane, Custom<GainLane>{}, Need::optional.from(8));
 }
 
 /// Strips with a common fader and mute, such as those of a hand or the back.
@@ -110,13 +110,13 @@ struct StripGroup {
 void visitFields(auto& v, FieldsOf<StripGroup>) {
     v.field("name", &StripGroup::name, kinds::text);
     v.field("gain_db", &StripGroup::gainDb, stripRangeDb);
-    v.field("mute", &StripGroup::isMuted, kinds::truth);
-    v.field("lane", &StripGroup::lane, Own<GainLane>{}, Need::optional);
+    v.field("mute", &StripGroup::isMuted, kinds::boolean);
+    v.field("lane", &StripGroup::lane, Custom<GainLane>{}, Need::optional);
 }
 
 /// The lowest of `outputs` outputs that no strip uses and that is not in use otherwise; -1: none. Any thread.
 inline int freeOutput(std::span<const Strip> strips, std::span<const int> inUse = {},
-                      int outputs = mostStripOutputs) noexcept {
+                      int outputs = maxStripOutputs) noexcept {
     for (int k = 0; k < outputs; ++k)
         if (std::ranges::find(strips, k, &Strip::output) == strips.end() &&
             std::ranges::find(inUse, k) == inUse.end())
@@ -124,28 +124,28 @@ inline int freeOutput(std::span<const Strip> strips, std::span<const int> inUse 
     return -1;
 }
 
-/// Gives a strip an output; -1: none. A strip that has this output gets the other's former one. Any thread.
-inline void giveOutput(std::span<Strip> strips, std::size_t strip, int output) noexcept {
-    const auto had = output < 0 ? strips.end() : std::ranges::find(strips, output, &Strip::output);
-    if (had != strips.end()) had->output = strips[strip].output;
+/// Gives a strip an output; -1: none. The strip that had it gets this one's former output. Any thread.
+inline void assignOutput(std::span<Strip> strips, std::size_t strip, int output) noexcept {
+    const auto owner = output < 0 ? strips.end() : std::ranges::find(strips, output, &Strip::output);
+    if (owner != strips.end()) owner->output = strips[strip].output;
     strips[strip].output = output;
 }
 
 /// Removes the output of each strip that shares it with an earlier strip. Returns their indices. Any thread.
-inline std::vector<std::size_t> settleOutputs(std::span<Strip> strips) {
-    std::vector<std::size_t> without;
+inline std::vector<std::size_t> removeSharedOutputs(std::span<Strip> strips) {
+    std::vector<std::size_t> changed;
     for (std::size_t j = 1; j < strips.size(); ++j) {
         if (strips[j].output < 0) continue;
         const auto earlier = strips.first(j);
         if (std::ranges::find(earlier, strips[j].output, &Strip::output) == earlier.end()) continue;
         strips[j].output = -1;
-        without.push_back(j);
+        changed.push_back(j);
     }
-    return without;
+    return changed;
 }
 
 /// A strip for one more actuator: on the lowest free output, with the others' lowest ceiling. Any thread.
-inline Strip nextStrip(std::span<const Strip> strips) noexcept {
+inline Strip makeNextStrip(std::span<const Strip> strips) noexcept {
     Strip next;
     next.output = freeOutput(strips);
     for (const Strip& s : strips) next.ceilingDb = std::min(next.ceilingDb, s.ceilingDb);
@@ -154,9 +154,9 @@ inline Strip nextStrip(std::span<const Strip> strips) noexcept {
 
 /// Resizes to one strip per actuator. Any thread.
 inline void resizeStrips(std::vector<Strip>& strips, int enchanters) {
-    const auto wanted = static_cast<std::size_t>(enchanters);
-    while (strips.size() < wanted) strips.push_back(nextStrip(strips));
-    strips.resize(wanted);
+    const auto count = static_cast<std::size_t>(enchanters);
+    while (strips.size() < count) strips.push_back(makeNextStrip(strips));
+    strips.resize(count);
 }
 
 /// Whether the strip is silent: muted, or another strip is solo and this one is not. Any thread.
@@ -166,7 +166,7 @@ inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept 
 
 /// Gain of the channel: level and polarity. Any thread.
 inline float channelGain(const Strip& strip) noexcept {
-    const double gain = strip.gainDb <= leastStripDb ? 0.0 : fromDecibels(strip.gainDb);
+    const double gain = strip.gainDb <= minStripDb ? 0.0 : fromDecibels(strip.gainDb);
     return static_cast<float>(strip.isInverted ? -gain : gain);
 }
 
@@ -188,10 +188,10 @@ bool sendStrips(std::span<SentStrip> sent, std::span<const Strip> strips, Send s
     using Kind = RenderControl::Kind;
     bool isSent = true;
     for (std::size_t j = 0; j < strips.size(); ++j) {
-        const auto change = [&](Kind kind, float value, float& known) {
-            if (value == known) return;
+        const auto change = [&](Kind kind, float value, float& sentValue) {
+            if (value == sentValue) return;
             if (send(RenderControl{0, kind, static_cast<int>(j), value, {}}))
-                known = value;
+                sentValue = value;
             else
                 isSent = false;
         };
@@ -204,7 +204,7 @@ bool sendStrips(std::span<SentStrip> sent, std::span<const Strip> strips, Send s
 }
 
 // N s per metre of the screen (thesis 5.3.1)
-constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
+constexpr double thesisDrag = 32'000.0, minDrag = 1'000.0, maxDrag = 100'000.0;
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
@@ -214,13 +214,13 @@ struct Mix {
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per actuator
     std::vector<StripGroup> groups{};
-    double levelDb = -12.0;                              ///< master level; leastStripDb is silence
+    double levelDb = -12.0;                              ///< master level; minStripDb is silence
     double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< impulse of a drag in the world
 
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
         PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
-        // files of before the law `auto` named the default so: grains keep it
+        // older files, without the law `auto`, call the default linear; grains keep it
         if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread);
         return made;
     }
@@ -234,10 +234,10 @@ struct Mix {
 };
 
 inline constexpr auto exponentRange = kinds::within(1e-3, 100.0);
-inline constexpr auto masterRangeDb = kinds::within(leastStripDb, 0.0);
+inline constexpr auto masterRangeDb = kinds::within(minStripDb, 0.0);
 
-/// A kind: layout, law, exponent and field of a panner, for at most `channels` actuators. `described` has
-/// what the panner does not keep of its layout: name, labels, full scales; without actuators: not known.
+/// A JSON kind: layout, law, exponent and field of a panner, for at most `channels` actuators. `described`
+/// has the parts of the layout that a panner does not store: name, labels, full scales; empty: not known.
 template <class Layout>
 struct DescribedPanner {
     int channels;
@@ -248,21 +248,21 @@ DescribedPanner(int, Layout&) -> DescribedPanner<Layout>; // Clang 14 wants it
 
 /// Scene and seed come from the session's last scene run.
 void visitFields(auto& v, FieldsOf<Mix>) {
-    constexpr auto dragRange = kinds::within(leastDrag, mostDrag);
-    v.field("layout", &Mix::layout, Own<LayoutDescription>{});
+    constexpr auto dragRange = kinds::within(minDrag, maxDrag);
+    v.field("layout", &Mix::layout, Custom<LayoutDescription>{});
     v.field("law", &Mix::law, kinds::OneOf{panningLawNames});
     v.field("exponent", &Mix::exponent, exponentRange);
     v.field("level_db", &Mix::levelDb, masterRangeDb);
     // Older files: per metre of the field. Drags already recorded in the inputs keep their values.
-    v.formerly("drag_ns_per_m", &Mix::dragNewtonSecondsPerScreenMetre, dragRange);
+    v.legacyField("drag_ns_per_m", &Mix::dragNewtonSecondsPerScreenMetre, dragRange);
     v.field("drag_ns_per_screen_m", &Mix::dragNewtonSecondsPerScreenMetre, dragRange, Need::required.from(4));
     v.field("strips", &Mix::strips, PerChannel<std::vector<Strip>>{v.object.count()});
-    v.field("groups", &Mix::groups, kinds::Objects<StripGroup>{mostGroups, "groups"}, Need::optional.from(8));
+    v.field("groups", &Mix::groups, kinds::Objects<StripGroup>{maxGroups, "groups"}, Need::optional.from(8));
 }
 
 /// True if the actuators are at the same places of the same extent, on the same parts. Any thread.
-inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept {
-    const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) {
+inline bool isSame(const ActuatorLayout& a, const ActuatorLayout& b) noexcept {
+    const auto equal = [](const ActuatorPlace& p, const ActuatorPlace& q) {
         return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.zMetres == q.zMetres && p.part == q.part;
     };
     return a.extentWidthMetres == b.extentWidthMetres && a.extentHeightMetres == b.extentHeightMetres &&
@@ -274,21 +274,21 @@ inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept 
 inline bool isSame(const Mix& a, const Mix& b) {
     return (a.scene == b.scene || *a.scene == *b.scene) && a.seed == b.seed &&
            a.layout.name == b.layout.name && isSame(a.layout.geometry, b.layout.geometry) &&
-           a.layout.enchanters == b.layout.enchanters && a.law == b.law && a.exponent == b.exponent &&
+           a.layout.actuators == b.layout.actuators && a.law == b.law && a.exponent == b.exponent &&
            a.strips == b.strips && a.groups == b.groups && a.levelDb == b.levelDb &&
            a.dragNewtonSecondsPerScreenMetre == b.dragNewtonSecondsPerScreenMetre;
 }
 
 /// Factor that all channels are multiplied by last. Any thread.
 inline float masterGain(const Mix& mix) noexcept {
-    return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb));
+    return mix.levelDb <= minStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb));
 }
 
 // Effective gain and mute of strips, with their groups and lanes applied.
 
 /// The strips as they are sent to the session: with their group's fader and mute applied, without group and
 /// lanes. Any thread (allocates), as all functions here.
-std::vector<Strip> feltStrips(const Mix& mix);
+std::vector<Strip> effectiveStrips(const Mix& mix);
 
 /// Whether the strip or its group has a lane.
 bool hasLane(const Mix& mix, std::size_t strip);
@@ -296,9 +296,9 @@ bool hasLane(const Mix& mix, std::size_t strip);
 /// The strip's gain at that time of the scene run, in dB: fader, group and both lanes.
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds);
 
-/// Maximum of gainDbAt() over time; and of what group and lanes add to the fader, beyond a fader's range.
-double loudestDb(const Mix& mix, std::size_t strip);
-double mostAddedDb(const Mix& mix, std::size_t strip);
+/// Maximum of gainDbAt() over time; and of the sum that group and lanes add to the fader, without limits.
+double maxGainDb(const Mix& mix, std::size_t strip);
+double maxAddedDb(const Mix& mix, std::size_t strip);
 
 /// Adds an empty group; returns its index.
 int addGroup(Mix& mix, std::string name);
@@ -310,27 +310,27 @@ void removeGroup(Mix& mix, int group);
 // Limits that a mixer state loaded from a file must not exceed: the levels that this computer's user has set.
 
 /// The limits, taken from the mixer state as the user left it.
-struct DeskLimits {
+struct MixerLimits {
     double levelDb = 0.0;
     std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
 
-    static DeskLimits of(const Mix& mix);
+    static MixerLimits of(const Mix& mix);
     /// Level of the loudest output by gain, ceiling and master; the master's alone if no output is in use.
     double loudestOutputDb() const;
 };
 
-void visitFields(auto& v, FieldsOf<DeskLimits>) {
-    v.field("level_db", &DeskLimits::levelDb, masterRangeDb);
-    v.field("strips", &DeskLimits::strips, kinds::Objects<Strip>{});
+void visitFields(auto& v, FieldsOf<MixerLimits>) {
+    v.field("level_db", &MixerLimits::levelDb, masterRangeDb);
+    v.field("strips", &MixerLimits::strips, kinds::Objects<Strip>{});
 }
 
-/// Lowers `mix` to `most`: its master level, and gain and ceiling of each output. An output that is muted in
-/// `most` is muted. An actuator on an output that `most` does not use gets no output. Returns a text for the
-/// user that lists the changes; empty: none. Any thread.
-std::string lowerTo(const DeskLimits& most, Mix& mix);
+/// Lowers `mix` to `limits`: its master level, and gain and ceiling of each output. An output that is muted
+/// in `limits` is muted. An actuator on an output that `limits` does not use gets no output. Returns a text
+/// for the user that lists the changes; empty: none. Any thread.
+std::string lowerToLimits(const MixerLimits& limits, Mix& mix);
 
 /// Conversion to text for a program's settings, and back; nullopt if the text is invalid. Any thread.
-std::string deskLimitsText(const DeskLimits& limits);
-std::optional<DeskLimits> readDeskLimits(std::string_view text);
+std::string mixerLimitsText(const MixerLimits& limits);
+std::optional<MixerLimits> readMixerLimits(std::string_view text);
 
 } // namespace physvib

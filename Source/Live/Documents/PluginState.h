@@ -18,15 +18,15 @@
 namespace physvib {
 
 /// Version of the format that is written, and the newest that is read. A new field makes a new version.
-/// 2: choices by name; the default controllers of version 1 are dropped; strips, equalisers, editor size. 3:
-/// direct mode. 4: parameter `beats`. 5: voice of notes; without one, notes sound as before.
+/// 2: choices by name, strips, equalisers, editor size; the default controllers of version 1 are dropped. 3:
+/// direct mode. 4: parameter `beats`. 5: voice of notes; older states get the default voice.
 constexpr int pluginStateVersion = 5;
 
 enum class TransportMode {
     free,          ///< the scene runs whenever the host renders
     restartOnPlay, ///< the scene starts from its seed when the transport starts or jumps; stopped: silent
-    inTempo ///< the same; its script begins with a beat of the host's and, as its motors, is as fast: by
-            ///< the scene at 120 beats a minute
+    inTempo ///< as restartOnPlay, but script and motors start on a beat and run at the host's tempo; a scene
+            ///< runs at its own speed at 120 beats per minute
 };
 
 // indexed by TransportMode
@@ -57,25 +57,25 @@ struct NoteRule {
 /// Pitch of a note without a rule.
 enum class NotePitch {
     material, ///< each octave plays one of the scene's materials
-    note      ///< its own frequency, moved by octaves into the range that can be felt
+    note      ///< the note's own frequency, moved by octaves into the range of touch
 };
 inline constexpr std::array<std::string_view, 2> notePitchNames{"material", "note"}; // indexed by NotePitch
 
 /// Where a note without a rule is played.
-enum class NotePlaces {
+enum class NotePlacement {
     octave,    ///< from left (C) to right (B), at half height
     actuators, ///< on one actuator after the other
     middle     ///< in the middle of the field
 };
-// indexed by NotePlaces
-inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"};
+// indexed by NotePlacement
+inline constexpr std::array<std::string_view, 3> notePlacementNames{"octave", "actuators", "middle"};
 
 /// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity.
 struct NoteVoice {
     NotePitch pitch = NotePitch::material;
-    NotePlaces places = NotePlaces::octave;
-    bool isHeld = false;    ///< with NotePitch::note: sounds until note-off; otherwise it decays
-    bool isLoudest = false; ///< the loudest actuator gets the strike level; otherwise the actuators share it
+    NotePlacement places = NotePlacement::octave;
+    bool isHeld = false;           ///< with NotePitch::note: sounds until note-off; otherwise it decays
+    bool levelsPeak = false;       ///< the loudest actuator has the strike level; otherwise they share it
     double decayPerSecond = 12.0;  ///< with NotePitch::note, if not held
     double releaseSeconds = 0.2;   ///< of a held note, to -60 dB
     double velocityExponent = 1.0; ///< exponent of velocity / 127
@@ -85,22 +85,22 @@ struct NoteVoice {
 
 /// Limits of a voice's numbers: 1/s, s, exponent, semitones.
 struct NoteVoiceLimits {
-    static constexpr double leastDecayPerSecond = 0.5, mostDecayPerSecond = 200.0,
-                            leastReleaseSeconds = 0.005, mostReleaseSeconds = 10.0;
-    static constexpr double leastExponent = 0.1, mostExponent = 10.0, mostSemitones = 96.0;
+    static constexpr double minDecayPerSecond = 0.5, maxDecayPerSecond = 200.0, minReleaseSeconds = 0.005,
+                            maxReleaseSeconds = 10.0;
+    static constexpr double minExponent = 0.1, maxExponent = 10.0, maxSemitones = 96.0;
 };
 
 void visitFields(auto& v, FieldsOf<NoteVoice>) {
     using V = NoteVoice;
     using L = NoteVoiceLimits;
     v.field("pitch", &V::pitch, kinds::OneOf{notePitchNames});
-    v.field("places", &V::places, kinds::OneOf{notePlaceNames});
-    v.field("held", &V::isHeld, kinds::truth);
-    v.field("loudest", &V::isLoudest, kinds::truth);
-    v.field("decay_per_s", &V::decayPerSecond, kinds::within(L::leastDecayPerSecond, L::mostDecayPerSecond));
-    v.field("release_s", &V::releaseSeconds, kinds::within(L::leastReleaseSeconds, L::mostReleaseSeconds));
-    v.field("velocity_exponent", &V::velocityExponent, kinds::within(L::leastExponent, L::mostExponent));
-    v.field("bend_semitones", &V::bendSemitones, kinds::within(0.0, L::mostSemitones));
+    v.field("places", &V::places, kinds::OneOf{notePlacementNames});
+    v.field("held", &V::isHeld, kinds::boolean);
+    v.field("loudest", &V::levelsPeak, kinds::boolean);
+    v.field("decay_per_s", &V::decayPerSecond, kinds::within(L::minDecayPerSecond, L::maxDecayPerSecond));
+    v.field("release_s", &V::releaseSeconds, kinds::within(L::minReleaseSeconds, L::maxReleaseSeconds));
+    v.field("velocity_exponent", &V::velocityExponent, kinds::within(L::minExponent, L::maxExponent));
+    v.field("bend_semitones", &V::bendSemitones, kinds::within(0.0, L::maxSemitones));
 }
 
 /// Maps a MIDI controller to the whole range of a parameter.
@@ -111,7 +111,7 @@ struct ControllerRule {
 };
 
 void visitFields(auto& v, FieldsOf<ControllerRule>) {
-    v.field("controller", &ControllerRule::controller, kinds::whole(0, 119));
+    v.field("controller", &ControllerRule::controller, kinds::wholeNumber(0, 119));
     v.field("parameter", &ControllerRule::parameter, kinds::text);
 }
 
@@ -129,7 +129,7 @@ struct PluginState {
     EqualisedActuators equalised{}; ///< per actuator
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
-    bool isDirect = false; ///< events by notes are as late as the limiter, not as collisions
+    bool isDirect = false; ///< notes are felt after the limiter's latency only, not that of collisions
     NoteVoice voice;
     std::vector<NoteRule> notes; ///< other notes use `voice`
     std::vector<ControllerRule> controllers;
@@ -148,23 +148,23 @@ struct EditorSize {}; // also a JSON kind
 void visitFields(auto& v, FieldsOf<PluginState>) {
     using S = PluginState;
     v.version("physvib_plugin_state", pluginStateVersion);
-    v.field("scene", &S::scene, Own<Scene>{});
-    v.field("seed", &S::seed, Own<std::uint32_t>{});
+    v.field("scene", &S::scene, Custom<Scene>{});
+    v.field("seed", &S::seed, Custom<std::uint32_t>{});
     v.field("steps_per_second", &S::stepsPerSecond,
-            kinds::whole(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
+            kinds::wholeNumber(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
     v.field("layout", &S::layout, kinds::LayoutFile{});
     v.field("strips", &S::strips, kinds::PluginStrips{v.object.layout.geometry.count},
             Need::required.from(2));
     v.field("equalised", &S::equalised, PerChannel<EqualisedActuators>{v.object.layout.geometry.count},
             Need::required.from(2));
-    v.field("limiter", &S::limiterEnabled, kinds::truth);
+    v.field("limiter", &S::limiterEnabled, kinds::boolean);
     v.field("transport", &S::transport, kinds::OneOf{transportNames});
-    v.field("direct", &S::isDirect, kinds::truth, Need::required.from(3));
+    v.field("direct", &S::isDirect, kinds::boolean, Need::required.from(3));
     v.field("voice", &S::voice, kinds::Object<NoteVoice>{}, Need::required.from(5));
     v.field("notes", &S::notes, kinds::Notes{&v.object.scene});
-    v.field("controllers", &S::controllers, Own<std::vector<ControllerRule>>{});
+    v.field("controllers", &S::controllers, Custom<std::vector<ControllerRule>>{});
     v.field("editor_px", both(&S::editorWidth, &S::editorHeight), EditorSize{}, Need::optional.from(2));
-    v.field("parameters", &S::parameters, Own<ParameterValues>{});
+    v.field("parameters", &S::parameters, Custom<ParameterValues>{});
 }
 
 /// Parses a state; or one line about the first error, such as `name: notes[3].x: expected a number from 0 to

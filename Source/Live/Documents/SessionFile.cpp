@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading and writing a session; scenes and inputs by the table in SceneFields.h.
+// Reads and writes session files; scenes and inputs by the table in SceneFields.h.
 #include "Live/Documents/SessionFile.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
@@ -13,13 +13,13 @@ namespace physvib {
 namespace detail {
 namespace {
 
-// Throws unless the times of a list are in order.
-void expectNotBefore(std::int64_t last, std::int64_t time, const JsonField& item) {
+// Throws if `time` is before `last`, the time of the list's item above.
+void expectTimeOrder(std::int64_t last, std::int64_t time, const JsonField& item) {
     if (time < last) item["time_s"].fail("expected a time that is not before that of the item above");
 }
 
 /// Number of bodies of a scene, including those that its script spawns.
-std::size_t bodiesOf(const Scene& scene) {
+std::size_t bodyCount(const Scene& scene) {
     std::size_t count = scene.bodies.size();
     for (const ScriptInput& input : scene.script)
         count +=
@@ -34,16 +34,16 @@ void readEach(const JsonField& json, std::string_view name, auto read) {
     for (std::size_t i = 0, count = list.arraySize(); i < count; ++i) read(list.item(i));
 }
 
-SceneRun readTake(const JsonField& json, const SceneRun* before) {
-    SceneRun take = readTakeStart(json, before, false);
+SceneRun readRun(const JsonField& json, const SceneRun* before) {
+    SceneRun run = readRunStart(json, before, false);
     if (json.has("inputs"))
-        detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs),
-                          take.scene->materials);
-    readEach(json, "stalls", [&](const JsonField& stall) { take.stalls.push_back(readStall(stall, take)); });
-    const bool isKnownToBeValid = before != nullptr && take.scene == before->scene && take.inputs.empty();
-    if (const std::string fault = isKnownToBeValid ? std::string{} : validate(take.whole()); !fault.empty())
-        json.fail(fault);
-    return take;
+        detail::readValue(json["inputs"], run.inputs, items(0, sceneLimits::maxLiveInputs),
+                          run.scene->materials);
+    readEach(json, "stalls", [&](const JsonField& stall) { run.stalls.push_back(readStall(stall, run)); });
+    const bool isCheckedBefore = before != nullptr && run.scene == before->scene && run.inputs.empty();
+    if (const std::string error = isCheckedBefore ? std::string{} : validate(run.fullScene()); !error.empty())
+        json.fail(error);
+    return run;
 }
 
 SavedSession readSessionRoot(const JsonField& root) {
@@ -54,10 +54,11 @@ SavedSession readSessionRoot(const JsonField& root) {
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
     std::size_t bodies = 0;
     readEach(root, "takes", [&](const JsonField& item) {
-        log.takes.push_back(readTake(item, log.takes.empty() ? nullptr : &log.takes.back()));
-        bodies += bodiesOf(*log.takes.back().scene);
-        if (bodies > limits::maxTakeBodies)
-            takes.fail("expected at most " + std::to_string(limits::maxTakeBodies) + " bodies in all takes");
+        log.runs.push_back(readRun(item, log.runs.empty() ? nullptr : &log.runs.back()));
+        bodies += bodyCount(*log.runs.back().scene);
+        if (bodies > limits::maxSessionBodies)
+            takes.fail("expected at most " + std::to_string(limits::maxSessionBodies) +
+                       " bodies in all takes");
     });
     readEach(root, "controls", [&](const JsonField& item) { readTimedControl(item, session); });
     readEach(root, "recordings", [&](const JsonField& item) { readRecordingsChange(item, log); });
@@ -67,43 +68,43 @@ SavedSession readSessionRoot(const JsonField& root) {
     return session;
 }
 
-OrderedJson takeJson(const SceneRun& take, const SceneRun* before) {
-    OrderedJson json = takeStartJson(take, before, false);
-    for (const LiveInput& input : take.inputs) json["inputs"].push_back(inputJson(input, *take.scene));
-    for (const WorldStall& stall : take.stalls) json["stalls"].push_back(writeTable(stall));
+OrderedJson runJson(const SceneRun& run, const SceneRun* before) {
+    OrderedJson json = runStartJson(run, before, false);
+    for (const LiveInput& input : run.inputs) json["inputs"].push_back(inputJson(input, *run.scene));
+    for (const WorldStall& stall : run.stalls) json["stalls"].push_back(writeTable(stall));
     return json;
 }
 
-std::string besides(const std::filesystem::path& folder, const std::string& path) {
+std::string relativePath(const std::filesystem::path& folder, const std::string& path) {
     if (folder.empty() || syntheticSeed(path)) return path;
-    const auto whole = std::filesystem::absolute(path).lexically_normal();
-    return whole.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
+    const auto absolute = std::filesystem::absolute(path).lexically_normal();
+    return absolute.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
 }
 
 } // namespace
 
-SceneRun readTakeStart(const JsonField& json, const SceneRun* before, bool isJournal) {
-    SceneRun take;
-    isJournal ? readTable<SceneRun, JournalTake>(json, take) : readTable(json, take);
-    if (before != nullptr && take.startNs < before->startNs)
+SceneRun readRunStart(const JsonField& json, const SceneRun* before, bool isJournal) {
+    SceneRun run;
+    isJournal ? readTable<SceneRun, JournalRun>(json, run) : readTable(json, run);
+    if (before != nullptr && run.startNs < before->startNs)
         json["start_s"].fail("expected a time that is not before that of the take above");
     if (before != nullptr && !json.has("scene"))
-        take.scene = before->scene;
+        run.scene = before->scene;
     else
-        take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
-    return take;
+        run.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
+    return run;
 }
 
-OrderedJson takeStartJson(const SceneRun& take, const SceneRun* before, bool isJournal) {
-    OrderedJson json = isJournal ? writeTable<SceneRun, JournalTake>(take) : writeTable(take);
-    const bool isSame = before != nullptr && (before->scene == take.scene || *before->scene == *take.scene);
-    if (!isSame) json["scene"] = fieldsJson(*take.scene, take.scene->materials);
+OrderedJson runStartJson(const SceneRun& run, const SceneRun* before, bool isJournal) {
+    OrderedJson json = isJournal ? writeTable<SceneRun, JournalRun>(run) : writeTable(run);
+    const bool isSame = before != nullptr && (before->scene == run.scene || *before->scene == *run.scene);
+    if (!isSame) json["scene"] = fieldsJson(*run.scene, run.scene->materials);
     return json;
 }
 
-WorldStall readStall(const JsonField& json, const SceneRun& take) {
+WorldStall readStall(const JsonField& json, const SceneRun& run) {
     const auto stall = kinds::Object<WorldStall>{}(json);
-    expectNotBefore(take.stalls.empty() ? 0 : take.stalls.back().worldNs, stall.worldNs, json);
+    expectTimeOrder(run.stalls.empty() ? 0 : run.stalls.back().worldNs, stall.worldNs, json);
     return stall;
 }
 
@@ -111,7 +112,7 @@ void readTimedControl(const JsonField& json, SavedSession& session) {
     SessionLog& log = session.log;
     const OwnedControl control = readControl(json, session.channels, "time_s");
     const std::int64_t time = kinds::Time{}(json["time_s"]);
-    expectNotBefore(log.lastControlNs(), time, json);
+    expectTimeOrder(log.lastControlNs(), time, json);
     if (control.panner != nullptr)
         log.panners.push_back({time, *control.panner});
     else
@@ -120,8 +121,8 @@ void readTimedControl(const JsonField& json, SavedSession& session) {
 
 CollisionEvent readStrike(const JsonField& json) {
     auto strike = kinds::Object<CollisionEvent>{}(json);
-    if (!json.has("sound")) takeFormerClip(strike);
-    if (isTooSlow(strike)) json["frequency_hz"].fail(tooSlowFault(strike));
+    if (!json.has("sound")) convertLegacyClip(strike);
+    if (isTooSlow(strike)) json["frequency_hz"].fail(tooSlowError(strike));
     if (!isPlayable(strike))
         json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or "
                   "a duration");
@@ -129,14 +130,14 @@ CollisionEvent readStrike(const JsonField& json) {
 }
 
 void readClipFile(const JsonField& json, SessionLog& log) {
-    if (log.clips.size() == mostClips)
-        json.fail("expected at most " + std::to_string(mostClips) + " channels of clips, found more");
+    if (log.clips.size() == maxClips)
+        json.fail("expected at most " + std::to_string(maxClips) + " channels of clips, found more");
     log.clips.push_back(kinds::Object<ClipFile>{}(json));
 }
 
 void readRecordingsChange(const JsonField& json, SessionLog& log) {
     const auto change = kinds::Object<RecordingsChange>{}(json);
-    expectNotBefore(log.recordings.empty() ? 0 : log.recordings.back().timeNs, change.timeNs, json);
+    expectTimeOrder(log.recordings.empty() ? 0 : log.recordings.back().timeNs, change.timeNs, json);
     log.recordings.push_back(change);
 }
 
@@ -151,28 +152,28 @@ OrderedJson timedControlJson(const RenderControl& control) {
 }
 
 OrderedJson clipJson(ClipFile clip, const std::filesystem::path& folder) {
-    clip.file.path = besides(folder, clip.file.path);
+    clip.file.path = relativePath(folder, clip.file.path);
     return writeTable(clip);
 }
 
 OrderedJson recordingsJson(RecordingsChange change, const std::filesystem::path& folder) {
-    for (RecordingFile& file : change.files) file.path = besides(folder, file.path);
+    for (RecordingFile& file : change.files) file.path = relativePath(folder, file.path);
     return writeTable(change);
 }
 
 } // namespace detail
 
-RenderingMethod readKind(const JsonField& json, const Own<RenderingMethod>&) {
+RenderingMethod readCustom(const JsonField& json, const Custom<RenderingMethod>&) {
     RenderingMethod method;
-    if (!renderingMethodNamed(json.text(), method)) json.fail("expected a name from AV-FV-DRV to AF-FF-DRF");
+    if (!parseRenderingMethod(json.text(), method)) json.fail("expected a name from AV-FV-DRV to AF-FF-DRF");
     return method;
 }
-OrderedJson writeKind(const Own<RenderingMethod>&, const RenderingMethod& method) {
+OrderedJson writeCustom(const Custom<RenderingMethod>&, const RenderingMethod& method) {
     const auto name = nameOf(method);
     return std::string(name.begin(), name.end());
 }
 
-Ceilings readKind(const JsonField& list, const PerChannel<Ceilings>& kind) {
+Ceilings readCustom(const JsonField& list, const PerChannel<Ceilings>& kind) {
     if (list.arraySize() != static_cast<std::size_t>(kind.channels))
         list.fail("expected " + std::to_string(kind.channels) + " numbers, one per channel");
     Ceilings ceilings = RendererSettings::fullScale();
@@ -182,7 +183,7 @@ Ceilings readKind(const JsonField& list, const PerChannel<Ceilings>& kind) {
     }
     return ceilings;
 }
-OrderedJson writeKind(const PerChannel<Ceilings>& kind, const Ceilings& ceilings) {
+OrderedJson writeCustom(const PerChannel<Ceilings>& kind, const Ceilings& ceilings) {
     return std::vector<double>(ceilings.begin(), ceilings.begin() + kind.channels);
 }
 
@@ -195,7 +196,7 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     auto session = loadText(path, limits::maxSessionFileBytes, readSession);
     const std::filesystem::path folder = path.parent_path();
-    const auto place = [&](std::string& file) { file = (folder / file).lexically_normal().string(); };
+    const auto resolve = [&](std::string& file) { file = (folder / file).lexically_normal().string(); };
     for (RecordingsChange& change : session.value.log.recordings)
         for (RecordingFile& file : change.files) {
             if (syntheticSeed(file.path)) continue;
@@ -204,18 +205,18 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
                                ": recordings: expected a hash for a file that is not in the session's folder "
                                "or below, found none for " +
                                inQuotes(file.path)};
-            place(file.path);
+            resolve(file.path);
         }
-    for (ClipFile& clip : session.value.log.clips) place(clip.file.path);
+    for (ClipFile& clip : session.value.log.clips) resolve(clip.file.path);
     return session;
 }
 
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
     OrderedJson root = writeTable(session);
     const SceneRun* before = nullptr;
-    for (const SceneRun& take : session.log.takes) {
-        root["takes"].push_back(detail::takeJson(take, before));
-        before = &take;
+    for (const SceneRun& run : session.log.runs) {
+        root["takes"].push_back(detail::runJson(run, before));
+        before = &run;
     }
     for (const RenderControl& control : controlsOf(session.log, true, session.channels))
         root["controls"].push_back(detail::timedControlJson(control));
@@ -227,23 +228,23 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
     return jsonLines(root);
 }
 
-// Slow motion delays each step too, but by less. A stall for lack of speed ends at once.
+// A pause is one long stall at the end. Stalls of slow motion are shorter; after others the world steps on.
 bool endsPaused(const SavedSession& session) {
-    constexpr std::int64_t leastNs = 100'000'000;
-    const SceneRun& last = session.log.takes.back();
+    constexpr std::int64_t minNs = 100'000'000;
+    const SceneRun& last = session.log.runs.back();
     if (last.stalls.empty()) return false;
     const WorldStall& stall = last.stalls.back();
-    return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= leastNs;
+    return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= minNs;
 }
 
 Mix mixOf(const SavedSession& session) {
     Mix mix = session.mix.value_or(Mix{});
-    mix.scene = std::make_shared<const Scene>(sceneAsLeft(session.log.takes.back()));
-    mix.seed = session.log.takes.back().seed;
+    mix.scene = std::make_shared<const Scene>(sceneAtEndOfRun(session.log.runs.back()));
+    mix.seed = session.log.runs.back().seed;
     if (session.mix) return mix;
     const PhantomPanner& panner =
         session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
-    const bool isDescribed = session.log.panners.empty() && !session.layout.enchanters.empty();
+    const bool isDescribed = session.log.panners.empty() && !session.layout.actuators.empty();
     mix.layout = isDescribed ? session.layout : describeLayout("own", panner.layout());
     mix.law = hasParts(panner.layout()) ? panner.requestedLaw() : panner.law();
     mix.exponent = panner.exponent();
@@ -251,19 +252,19 @@ Mix mixOf(const SavedSession& session) {
     const auto decibels = [](float gain) { return toDecibels(static_cast<double>(gain)); };
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
         mix.strips[j].output = static_cast<int>(j);
-        mix.strips[j].ceilingDb = std::clamp(decibels(session.ceilings[j]), leastCeilingDb, 0.0);
+        mix.strips[j].ceilingDb = std::clamp(decibels(session.ceilings[j]), minCeilingDb, 0.0);
     }
     for (const ChannelChange& change : session.log.channels) {
         if (change.channel >= mix.count()) continue;
         Strip& strip = mix.strips[static_cast<std::size_t>(change.channel)];
         if (change.kind == RenderControl::Kind::mute) strip.isMuted = change.value != 0.0f;
         if (change.kind == RenderControl::Kind::ceiling)
-            strip.ceilingDb = std::clamp(decibels(change.value), leastCeilingDb, 0.0);
+            strip.ceilingDb = std::clamp(decibels(change.value), minCeilingDb, 0.0);
         if (change.kind != RenderControl::Kind::gain) continue;
         strip.isInverted = change.value < 0.0f;
         strip.gainDb = change.value == 0.0f
-                           ? leastStripDb
-                           : std::clamp(decibels(std::abs(change.value)), leastStripDb, mostStripDb);
+                           ? minStripDb
+                           : std::clamp(decibels(std::abs(change.value)), minStripDb, maxStripDb);
     }
     return mix;
 }

@@ -26,12 +26,12 @@ constexpr int sessionFormatVersion = std::max(9, stripsVersion);
 inline constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
 inline constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
 
-using Ceilings = std::array<float, limits::maxEnchanters>;
+using Ceilings = std::array<float, limits::maxActuators>;
 
 /// A saved session.
 struct SavedSession {
     RunSettings run;      ///< its seed is not used: each scene run has its own
-    PhantomPanner panner; ///< at the start
+    PhantomPanner panner; ///< at the start of the session
     int channels = 0; ///< number of outputs, at least the number of actuators of any layout in the session
     bool limiterEnabled = true;
     /// drive ceiling per channel
@@ -49,11 +49,11 @@ void visitSetup(auto& v) {
     using S = SavedSession;
     constexpr auto run = &S::run;
     v.field("steps_per_second", in(run, &RunSettings::stepsPerSecond),
-            kinds::whole(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
+            kinds::wholeNumber(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
     v.field("timing", in(run, &RunSettings::timing), kinds::OneOf{timingNames});
     v.field("location", in(run, &RunSettings::location), kinds::OneOf{locationNames});
-    v.field("limiter", &S::limiterEnabled, kinds::truth);
-    v.field("channels", &S::channels, kinds::whole(1, limits::maxEnchanters));
+    v.field("limiter", &S::limiterEnabled, kinds::boolean);
+    v.field("channels", &S::channels, kinds::wholeNumber(1, limits::maxActuators));
     v.field("panning", &S::panner, DescribedPanner{v.object.channels, v.object.layout});
 }
 void visitChannels(auto& v) {
@@ -89,15 +89,15 @@ void visitFields(auto& v, FieldsOf<JournalHead>) {
 void visitFields(auto& v, FieldsOf<EventShaping>) {
     using S = EventShaping;
     constexpr auto method = &S::method;
-    v.field("method", method, Own<RenderingMethod>{}, Need::filled);
+    v.field("method", method, Custom<RenderingMethod>{}, Need::filled);
     v.field("fixed_amplitude", in(method, &RenderingMethod::fixedAmplitude),
             kinds::upTo(limits::maxAmplitude), Need::filled);
-    v.field("holds_level", in(method, &RenderingMethod::holdsLevel), kinds::truth, Need::optional.from(3));
-    v.field("remap_hz", in(&S::remap, &FrequencyRemap::band), Own<FrequencyBand>{}, Need::optional);
+    v.field("holds_level", in(method, &RenderingMethod::holdsLevel), kinds::boolean, Need::optional.from(3));
+    v.field("remap_hz", in(&S::remap, &FrequencyRemap::band), Custom<FrequencyBand>{}, Need::optional);
     v.field("gain", &S::gain, kinds::upTo(limits::maxAmplitude), Need::optional.from(3));
-    v.field("perceived_level", in(&S::perceived, &PerceivedLevel::isWeighted), kinds::truth,
+    v.field("perceived_level", in(&S::perceived, &PerceivedLevel::isWeighted), kinds::boolean,
             Need::optional.from(3));
-    v.field("gamma", &S::truncation, kinds::within(0.0, S::mostTruncation), Need::optional.from(3));
+    v.field("gamma", &S::truncation, kinds::within(0.0, S::maxTruncation), Need::optional.from(3));
 }
 
 /// Parses a session; or one line about the first error, `name: takes[0].scene.bodies[1]...`. Unknown and
@@ -119,8 +119,8 @@ bool endsPaused(const SavedSession& session);
 /// relative to `folder`, the file's folder; empty: they stay unchanged. Any thread.
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder = {});
 
-// Session journal: a file written while a session is played. Lines are only appended, so saving costs as much
-// as there is news.
+// Session journal: a file written while a session is played. Lines are only appended, so the cost of saving
+// does not grow with the session.
 //
 // The first line is the head of a session file. Each further line adds one item: a scene run, an input, a
 // stall, a control, recordings, a clip or a strike. A stall replaces the one before if it starts at the same
@@ -144,23 +144,23 @@ public:
 
     /// Lines for the items that Session::readLog has moved to `log` since the last call; they are complete up
     /// to `sessionNs`. `log` keeps what the next call needs. Returns empty once the journal is full.
-    std::string take(SessionLog& log, std::int64_t sessionNs);
+    std::string nextLines(SessionLog& log, std::int64_t sessionNs);
 
     /// Empty, or the limit of the file that was reached; the journal ends there.
-    const std::string& full() const noexcept { return full_; }
-    std::int64_t toldNs() const noexcept { return toldNs_; }
+    const std::string& limitError() const noexcept { return limitError_; }
+    std::int64_t completeNs() const noexcept { return completeNs_; }
 
 private:
     std::string linesOf(SessionLog& log, std::int64_t sessionNs);
 
     int channels_;
     std::filesystem::path folder_;
-    std::string head_, full_;
-    std::size_t bytes_, inputs_ = 0; // inputs of the current scene run
-    std::int64_t toldNs_ = 0;
-    bool isBegun_ = false; // the first scene run of the log has been written
+    std::string head_, limitError_;
+    std::size_t bytesWritten_, runInputs_ = 0; // inputs of the current scene run
+    std::int64_t completeNs_ = 0;
+    bool isRunWritten_ = false; // the first scene run of the log has been written
     WorldStall lastStall_{-1};
-    SceneRun before_; // the scene run before the last, to compare scenes
+    SceneRun previousRun_; // the scene run before the last, to compare scenes
 };
 
 } // namespace physvib

@@ -39,7 +39,7 @@ void visitFields(auto& v, FieldsOf<RecordingFile>) {
     v.field("file", &R::path, kinds::text);
     v.field("hash", &R::hash, kinds::text, Need::optional);
     v.field("decay_per_s", &R::decayPerSecond, kinds::positive, Need::optional);
-    v.field("matched", &R::isMatched, kinds::truth, Need::optional);
+    v.field("matched", &R::isMatched, kinds::boolean, Need::optional);
     v.field("material", &R::material, kinds::text, Need::optional.from(9));
 }
 
@@ -69,7 +69,7 @@ struct PannerChange {
     PhantomPanner panner;
 };
 
-/// Any other control. It has a type of its own because a panner is a hundred times larger.
+/// A change of any other control. It is a type of its own because a panner is a hundred times larger.
 struct ChannelChange {
     std::int64_t timeNs = 0;
     RenderControl::Kind kind = RenderControl::Kind::stopAll;
@@ -98,14 +98,14 @@ struct ClipFile {
 
 void visitFields(auto& v, FieldsOf<ClipFile>) {
     constexpr auto file = &ClipFile::file;
-    v.formerly("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
+    v.legacyField("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
     v.field("file", in(file, &RecordingFile::path), kinds::text);
-    v.field("channel", &ClipFile::channel, kinds::whole(0, limits::maxEnchanters - 1), Need::optional);
+    v.field("channel", &ClipFile::channel, kinds::wholeNumber(0, limits::maxActuators - 1), Need::optional);
     v.field("hash", in(file, &RecordingFile::hash), kinds::text);
 }
 
 struct SessionLog {
-    std::vector<SceneRun> takes;              ///< one after the other; the last goes on
+    std::vector<SceneRun> runs;               ///< one after the other; the last goes on
     std::vector<PannerChange> panners;        ///< in time order
     std::vector<ChannelChange> channels;      ///< in time order
     std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
@@ -118,8 +118,8 @@ struct SessionLog {
     }
 };
 
-/// The controls in time order, as a renderer takes them, without recordings; `keepLayouts` false leaves
-/// layouts out, and channels from `channels` on. Their panners are the log's. Any thread.
+/// The controls in time order, as a renderer needs them, without recordings: layouts only if `keepLayouts`,
+/// and channels below `channels`. They point to panners of the log. Any thread.
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
 
 } // namespace physvib

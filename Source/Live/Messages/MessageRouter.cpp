@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Routes messages: looks up the name, checks values and time, acts, and answers queries.
+// Handles a message: looks up its name, checks values and time, submits its events, or answers its query.
 #include "Live/Messages/MessageRouter.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NameList.h"
@@ -12,20 +12,20 @@ namespace {
 // one frame at the lowest rate, so that a later time by this much is a later frame at any rate
 constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz;
 
-/// A note if the felt position lags behind the path's position under this panning law; else empty.
+/// A note for the sender if a vibration seems to lag behind its path under this panning law; else empty.
 std::string lagNote(Spread spread, const PhantomPanner& panner) {
-    constexpr double meant = 0.3, nobodyFeels = 0.05;
+    constexpr double intendedShare = 0.3, maxLag = 0.05;
     if (spread == Spread::layout) spread = spreadBy(panner.law());
     if (const Spread exact = panner.travelSpread();
-        exact != Spread::equal && spread != exact && spread != Spread::alone)
+        exact != Spread::equal && spread != exact && spread != Spread::nearest)
         return "law: " + std::string(nameOf(spread)) + " lags on this layout; auto and " +
                std::string(nameOf(exact)) + " do not";
-    for (const auto& one : panningLaws) {
-        if (spread != spreadBy(one.law)) continue;
-        const double felt = centroidOf(one.law, meant);
-        if (std::abs(felt - meant) > nobodyFeels)
-            return "law: " + std::string(one.name) + " lags: felt at " + fixedNumber(felt, 2) +
-                   " of the way between two actuators where " + fixedNumber(meant, 1) +
+    for (const auto& law : panningLaws) {
+        if (spread != spreadBy(law.law)) continue;
+        const double centroid = centroidOf(law.law, intendedShare);
+        if (std::abs(centroid - intendedShare) > maxLag)
+            return "law: " + std::string(law.name) + " lags: felt at " + fixedNumber(centroid, 2) +
+                   " of the way between two actuators where " + fixedNumber(intendedShare, 1) +
                    " is meant; equal and energy do not";
     }
     return {};
@@ -37,7 +37,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 PlainMessage layoutAnswer(const Session& session) {
     const PhantomPanner panner = session.panner();
-    const EnchanterLayout& layout = panner.layout();
+    const ActuatorLayout& layout = panner.layout();
     const double scaleX = panner.fieldWidthMetres() / layout.extentWidthMetres,
                  scaleY = panner.fieldHeightMetres() / layout.extentHeightMetres;
     std::vector<double> places;
@@ -55,7 +55,7 @@ PlainMessage latencyAnswer(const Session& session) {
     return {"latency",
             {{"play_out_s", time.outputLatencySeconds()},
              {"direct_s", time.directSeconds()},
-             {"messages_s", time.outputLatencySeconds() - seconds(time.toldAheadNs())}}};
+             {"messages_s", time.outputLatencySeconds() - seconds(time.inputLeadNs())}}};
 }
 
 PlainMessage statusAnswer(const Session& session) {
@@ -66,30 +66,30 @@ PlainMessage statusAnswer(const Session& session) {
              {"waiting", static_cast<double>(size.strikes)},
              {"bodies", static_cast<double>(size.bodies)},
              {"lost", static_cast<double>(world.drops())},
-             {"stalls_s", seconds(world.slippedNs())},
+             {"stalls_s", seconds(world.stalledNs())},
              {"dropped", static_cast<double>(session.pulse().dropped())}}};
 }
 
-Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag,
-                                         const ClipSource& clips) {
+Result<PlainMessage> MessageRouter::handle(const PlainMessage& message, MessageTag* tag,
+                                           const ClipSource& clips) {
     const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
     if (description == messageTable.end())
         return Failure{inQuotes(message.name) + ": expected one of " + listed(namesOf(messageTable))};
     try {
         const PhantomPanner panner = session_.panner();
         const MessageValues values{message, *description, panner};
-        if (const auto* const answer = std::get_if<MessageDescription::Answer*>(&description->act))
+        if (const auto* const answer = std::get_if<MessageDescription::Answer*>(&description->action))
             return (*answer)(session_);
-        expectTime(values, tag);
+        checkTime(values, tag);
         std::string note;
         auto strikes = strikesOf(*description, values, clips, panner, note);
         const std::lock_guard lock{mutex_};
-        const std::int64_t time = timeOf(values, tag);
+        const std::int64_t timeNs = timeOf(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
-        if (std::holds_alternative<MessageDescription::Stop>(description->act))
-            stop(time);
+        if (std::holds_alternative<MessageDescription::Stop>(description->action))
+            submitStop(timeNs);
         else
-            strike(std::move(strikes), time, isNow);
+            submitStrikes(std::move(strikes), timeNs, isNow);
         if (note.empty()) return PlainMessage{};
         return PlainMessage{message.name, {{"note", note}}};
     } catch (const MessageError& error) {
@@ -100,9 +100,9 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
 std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& description,
                                                      const MessageValues& values, const ClipSource& clips,
                                                      const PhantomPanner& panner, std::string& note) {
-    if (std::holds_alternative<MessageDescription::Clip>(description.act))
+    if (std::holds_alternative<MessageDescription::Clip>(description.action))
         return clip(values, clips, panner, note);
-    const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.act);
+    const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.action);
     if (strikes != nullptr && *strikes == pathStrikes) note = lagNote(values.spread(), panner);
     return strikes == nullptr
                ? std::vector<CollisionEvent>{}
@@ -110,15 +110,15 @@ std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& d
 }
 
 // Checks the time before a file is read. It is computed again afterwards, because reading takes time.
-void MessageRouter::expectTime(const MessageValues& values, const MessageTag* tag) {
+void MessageRouter::checkTime(const MessageValues& values, const MessageTag* tag) {
     const std::lock_guard lock{mutex_};
-    MessageTag tried = tag == nullptr ? MessageTag{} : *tag;
-    timeOf(values, tag == nullptr ? nullptr : &tried);
+    MessageTag copy = tag == nullptr ? MessageTag{} : *tag;
+    timeOf(values, tag == nullptr ? nullptr : &copy);
 }
 
 std::int64_t MessageRouter::nowNs() const {
     return std::max(
-        {std::int64_t{0}, session_.timeline().presentNs() - session_.timeline().toldAheadNs(), latestNs_});
+        {std::int64_t{0}, session_.timeline().presentNs() - session_.timeline().inputLeadNs(), latestNowNs_});
 }
 
 // Session times in the past are refused: a render of the log would differ from what was felt. A sender of
@@ -126,41 +126,41 @@ std::int64_t MessageRouter::nowNs() const {
 std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag) const {
     values.expectOneOf({"at", "in"});
     if (tag != nullptr) {
-        for (const char* own : {"at", "in"})
-            if (values.has(own)) values.fail(own, "expected either this or a time tag");
+        for (const char* name : {"at", "in"})
+            if (values.has(name)) values.fail(name, "expected either this or a time tag");
         tag->isLate = tag->sessionNs < session_.timeline().presentNs();
-        return tag->isLate ? nowNs() : aheadOrFail(values, "time tag", tag->sessionNs);
+        return tag->isLate ? nowNs() : scheduledNs(values, "time tag", tag->sessionNs);
     }
     if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
     if (!values.has("at") || values.isWord("at")) {
         if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
         return nowNs();
     }
-    const std::int64_t at = std::llround(values.number("at") * 1e9),
-                       present = session_.timeline().presentNs();
-    if (at < present)
+    const std::int64_t timeNs = std::llround(values.number("at") * 1e9),
+                       presentNs = session_.timeline().presentNs();
+    if (timeNs < presentNs)
         values.fail("at", "expected a session time that is not over: it is " +
-                              fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) +
-                              " s");
-    return aheadOrFail(values, "at", at);
+                              fixedNumber(seconds(presentNs), 3) + " s, found " +
+                              numberText(seconds(timeNs)) + " s");
+    return scheduledNs(values, "at", timeNs);
 }
 
-std::int64_t MessageRouter::aheadOrFail(const MessageValues& values, std::string_view name,
-                                        std::int64_t at) const {
-    if (at > session_.timeline().presentNs() + std::llround(messages::mostAheadSeconds * 1e9))
-        values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
-    return std::max<std::int64_t>(0, at - session_.timeline().toldAheadNs());
+std::int64_t MessageRouter::scheduledNs(const MessageValues& values, std::string_view name,
+                                        std::int64_t timeNs) const {
+    if (timeNs > session_.timeline().presentNs() + std::llround(messages::maxAheadSeconds * 1e9))
+        values.fail(name, "expected at most " + plainNumber(messages::maxAheadSeconds) + " s from now");
+    return std::max<std::int64_t>(0, timeNs - session_.timeline().inputLeadNs());
 }
 
-void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow) {
-    if (isNow) latestNs_ = start;
+void MessageRouter::submitStrikes(std::vector<CollisionEvent> strikes, std::int64_t startNs, bool isNow) {
+    if (isNow) latestNowNs_ = startNs;
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
-        strike.timeNs += start;
+        strike.timeNs += startNs;
         // levels are shares of full scale in every scene, so the scene's gain is divided out
         if (sceneGain > 0.0 && !isClip(strike.sound)) strike.amplitude /= sceneGain;
     }
-    if (auto taken = session_.submit({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
+    if (auto sent = session_.submit({Strikes{strikes, true}, 0}); !sent) throw MessageError{sent.error};
 }
 
 // Adds the clip to the session before its events, so that they find its samples. Reading a file takes long,
@@ -172,9 +172,9 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
     const auto loaded = clips(values.word("file"));
     if (!loaded) values.fail("file", loaded.error);
     auto strikes = clipStrikes(values, loaded.value, panner); // checked before anything is kept
-    const auto number = session_.keepClip(loaded.value.channels);
+    const auto number = session_.addClip(loaded.value.channels);
     if (!number)
-        values.fail("file", "expected no more than " + std::to_string(mostClips) +
+        values.fail("file", "expected no more than " + std::to_string(maxClips) +
                                 " channels of clips in a session, and " +
                                 std::to_string(limits::maxRecordingSamples) + " samples");
     note = loaded.value.channels.front().note;
@@ -184,26 +184,26 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 }
 
 // If two messages have the same time, the second acts after the first.
-void MessageRouter::stop(std::int64_t at) {
-    if (at == latestNs_) at = latestNs_ = at + frameNs;
-    if (auto taken = session_.submit({Stop{}, at}); !taken) throw MessageError{taken.error};
+void MessageRouter::submitStop(std::int64_t timeNs) {
+    if (timeNs == latestNowNs_) timeNs = latestNowNs_ = timeNs + frameNs;
+    if (auto sent = session_.submit({Stop{}, timeNs}); !sent) throw MessageError{sent.error};
 }
 
-std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder) {
+std::string applySilence(MuteRequests& silence, const SilenceControl& control, MuteRequester requester) {
     if (control.isOn) {
         if (control.number == SilenceControl::unnumbered)
-            silence.request(holder);
+            silence.request(requester);
         else
-            silence.request(holder, control.number);
+            silence.request(requester, control.number);
         return {};
     }
-    silence.lift(holder, control.number);
+    silence.withdraw(requester, control.number);
     std::string others;
-    for (const auto& [other, words] : {std::pair{MuteRequester::machine, "at the machine"},
-                                       {MuteRequester::standardInput, "by standard input"},
-                                       {MuteRequester::osc, "by OSC"}})
-        if (other != holder && silence.isHeldBy(other))
-            others += std::string(others.empty() ? "" : " and ") + words;
+    for (const auto& [other, phrase] : {std::pair{MuteRequester::machine, "at the machine"},
+                                        {MuteRequester::standardInput, "by standard input"},
+                                        {MuteRequester::osc, "by OSC"}})
+        if (other != requester && silence.isRequestedBy(other))
+            others += std::string(others.empty() ? "" : " and ") + phrase;
     return others.empty() ? "" : "silence: still asked for " + others;
 }
 

@@ -35,44 +35,44 @@ struct PlainMessage;
 
 struct MessageArgument {
     enum class Type {
-        number, ///< from `least` to `most`
+        number, ///< from `minimum` to `maximum`
         word,
         place,  ///< an actuator's letter, or x and y in metres of the field
         places, ///< letters, or x, y, x, y...
-        numbers ///< rising, each from `least` to `most`
+        numbers ///< rising, each from `minimum` to `maximum`
     };
     std::string_view name;
     Type type = Type::number;
-    double least = 0.0, most = 0.0;
-    std::string_view usual; ///< default value as it is written in a line; empty: see `meaning`
+    double minimum = 0.0, maximum = 0.0;
+    std::string_view defaultText; ///< default value as it is written in a line; empty: see `meaning`
     std::string_view meaning;
 };
 
 struct MessageDescription {
-    /// The events of a message, in time order, from time 0 on. An event that is cut ends at the zero crossing
-    /// nearest to its end, at the frequency that the shaping plays. `materials` are the scene's. Throws
+    /// Computes the events of a message, in time order, from time 0 on. An event that is cut ends at the
+    /// nearest zero crossing of the frequency that is played. `materials` are the scene's. Throws
     /// MessageError. Any thread but the render thread (R). In MessageValues.cpp.
     using Strikes = std::vector<CollisionEvent>(const MessageValues& values,
                                                 const std::vector<Material>& materials,
                                                 const EventShaping& shaping);
-    /// The answer of a query. Any thread but R. In MessageRouter.cpp.
+    /// Computes the answer of a query. Any thread but R. In MessageRouter.cpp.
     using Answer = PlainMessage(const Session& session);
     struct Clip {};
     struct Stop {};
 
     std::string_view name, meaning;
-    std::span<const MessageArgument> arguments;      ///< all but queries have time arguments as well
-    std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does for it
+    std::span<const MessageArgument> arguments;         ///< all but queries have time arguments as well
+    std::variant<Strikes*, Answer*, Clip, Stop> action; ///< what the router does for it
 
-    constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }
+    constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(action); }
 };
 
 namespace messages {
 
 using Type = MessageArgument::Type;
-constexpr double mostSeconds = 3600.0;        // of one vibration
-constexpr double mostAheadSeconds = 86'400.0; // a day's programme can be sent in advance
-constexpr int mostPlaces = 64, mostPulses = 64;
+constexpr double maxSeconds = 3600.0;        // of one vibration
+constexpr double maxAheadSeconds = 86'400.0; // a day's programme can be sent in advance
+constexpr int maxPlaces = 64, maxPulses = 64;
 
 /// An argument's name means the same in every message.
 inline constexpr MessageArgument frequency{"frequency_hz",         Type::number, limits::slowestToneHz,
@@ -91,10 +91,10 @@ inline constexpr MessageArgument part{
     0.0,    0.0,
     "",     "of the body ([names](space.md#parts)), on whose actuators alone it is felt; left out: all"};
 
-inline constexpr std::array when{
+inline constexpr std::array timeArguments{
     MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now",
                     "session time in s, or `now`; felt the output latency later"},
-    MessageArgument{"in", Type::number, 0.0, mostAheadSeconds, "0", "seconds from now, instead of `at`"}};
+    MessageArgument{"in", Type::number, 0.0, maxAheadSeconds, "0", "seconds from now, instead of `at`"}};
 
 inline constexpr std::array strike{
     MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
@@ -104,7 +104,7 @@ inline constexpr std::array strike{
                     "with it: this or `seconds`"},
     place,
     level,
-    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0",
+    MessageArgument{"seconds", Type::number, 0.0, maxSeconds, "0",
                     "after which it is cut, at a zero crossing; 0: when it has decayed"},
     law,
     part};
@@ -118,14 +118,14 @@ inline constexpr std::array pattern{
     frequency,
     level};
 inline constexpr std::array phantom{
-    place, MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"}, law, frequency, level,
+    place, MessageArgument{"seconds", Type::number, 0.001, maxSeconds, "1", "length"}, law, frequency, level,
     part};
 inline constexpr std::array path{
     MessageArgument{"places", Type::places, 0.0, 0.0, "",
                     "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
-    MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "for all of it, at one speed"},
+    MessageArgument{"seconds", Type::number, 0.001, maxSeconds, "1", "for all of it, at one speed"},
     MessageArgument{"speed_m_per_s", Type::number, 1e-6, 1e6, "", "instead of `seconds`"},
-    MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "",
+    MessageArgument{"times_s", Type::numbers, 0.0, maxSeconds, "",
                     "instead of `seconds`: when each place is reached"},
     MessageArgument{"strokes", Type::number, 0.0, 64.0, "0",
                     "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
@@ -177,14 +177,14 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
      latencyAnswer},
 });
 
-// Callback by which an input of messages supplies clips. This module reads no files: each input (lines, OSC)
-// reads them from its own folder.
+// Clips are supplied by the input of a message through a callback. This module reads no files: each input
+// (lines, OSC) reads them from its own folder.
 
 struct LoadedClip {
     std::vector<ContactRecording> channels; ///< one or more, of one file, equal in rate and length; their
                                             ///< `file` has path and hash
-    std::vector<EnchanterPlace> shares; ///< places as shares of the field, 0 to 1, one per channel; empty:
-                                        ///< the file has no places
+    std::vector<ActuatorPlace> shares; ///< places as shares of the field, 0 to 1, one per channel; empty:
+                                       ///< the file has no places
 };
 
 /// Loads the clip of the name in a message, or returns a one-line error. Called on the input's thread.
@@ -198,66 +198,66 @@ struct MessageTag {
     bool isLate = false; ///< set by the router: the time had passed, so the message acted at once
 };
 
-/// For any number of inputs at once. Any thread but the render thread (R).
+/// Routes the messages of any number of inputs. Any thread but the render thread (R).
 class MessageRouter {
 public:
     /// `session` outlives it.
     explicit MessageRouter(Session& session) noexcept
         : session_{session} {}
 
-    /// Does what the message says, completely or not at all; with a tag at its time, as with `at`. Returns
+    /// Executes a message, completely or not at all; with a tag, at the tag's time, as with `at`. Returns
     /// the answer of a query, a note (an empty name: none), or a one-line error. `clips` loads this input's
     /// clips; empty: it accepts no clips.
-    Result<PlainMessage> take(const PlainMessage& message, MessageTag* tag = nullptr,
-                              const ClipSource& clips = {});
+    Result<PlainMessage> handle(const PlainMessage& message, MessageTag* tag = nullptr,
+                                const ClipSource& clips = {});
 
 private:
-    void expectTime(const MessageValues& values, const MessageTag* tag);
+    void checkTime(const MessageValues& values, const MessageTag* tag);
     std::vector<CollisionEvent> strikesOf(const MessageDescription& description, const MessageValues& values,
                                           const ClipSource& clips, const PhantomPanner& panner,
                                           std::string& note);
     std::vector<CollisionEvent> clip(const MessageValues& values, const ClipSource& clips,
                                      const PhantomPanner& panner, std::string& note);
     std::int64_t timeOf(const MessageValues& values, MessageTag* tag) const;
-    std::int64_t aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const;
-    void strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow);
-    void stop(std::int64_t at);
+    std::int64_t scheduledNs(const MessageValues& values, std::string_view name, std::int64_t timeNs) const;
+    void submitStrikes(std::vector<CollisionEvent> strikes, std::int64_t startNs, bool isNow);
+    void submitStop(std::int64_t timeNs);
     std::int64_t nowNs() const;
 
     Session& session_;
-    std::mutex mutex_;          // guards the following member
-    std::int64_t latestNs_ = 0; // time of the newest event that was requested for "now": a stop comes after
-                                // it, and the next such event not before
+    std::mutex mutex_;             // guards the following member
+    std::int64_t latestNowNs_ = 0; // time of the newest event requested for "now"; a stop is later, and the
+                                   // next such event not earlier
 };
 
 // Rate limit for error reports per cause, so that many faulty messages do not flood a log or an input's reply
 // line.
 
-/// At most one report per cause in `everyNs`, and at most `mostCauses` causes in that time; the others are
+/// At most one report per cause in `intervalNs`, and at most `maxCauses` causes in that time; the others are
 /// counted. The caller supplies the clock. One thread at a time.
 class ErrorRateLimit {
 public:
-    static constexpr std::size_t mostCauses = 16;
+    static constexpr std::size_t maxCauses = 16;
 
-    explicit ErrorRateLimit(std::int64_t everyNs) noexcept
-        : everyNs_{everyNs} {}
+    explicit ErrorRateLimit(std::int64_t intervalNs) noexcept
+        : intervalNs_{intervalNs} {}
 
     /// True if this error is to be reported.
-    bool take(std::string_view reason, std::int64_t nowNs) noexcept {
+    bool shouldReport(std::string_view reason, std::int64_t nowNs) noexcept {
         const std::uint64_t cause = causeOf(reason);
-        Said* place = nullptr; // entry of this cause, or a free one
-        for (Said& one : said_) {
-            const bool isFree = one.untilNs <= nowNs;
-            if (!isFree && one.cause == cause) return ++leftOut_, false;
-            if (isFree) place = &one;
+        ReportedCause* entry = nullptr; // entry of this cause, or a free one
+        for (ReportedCause& candidate : reported_) {
+            const bool isFree = candidate.untilNs <= nowNs;
+            if (!isFree && candidate.cause == cause) return ++suppressed_, false;
+            if (isFree) entry = &candidate;
         }
-        if (place == nullptr) return ++leftOut_, false;
-        *place = {cause, nowNs + everyNs_};
+        if (entry == nullptr) return ++suppressed_, false;
+        *entry = {cause, nowNs + intervalNs_};
         return true;
     }
 
-    /// How many were suppressed since the last call.
-    std::uint64_t takeLeftOut() noexcept { return std::exchange(leftOut_, 0); }
+    /// Number of errors that were suppressed since the last call.
+    std::uint64_t resetSuppressedCount() noexcept { return std::exchange(suppressed_, 0); }
 
     /// Equal for errors that differ only in what was found, in numbers and in quoted words. Any thread.
     static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
@@ -273,16 +273,16 @@ public:
     }
 
 private:
-    struct Said {
+    struct ReportedCause {
         std::uint64_t cause = 0;
         std::int64_t untilNs = INT64_MIN;
     };
-    std::int64_t everyNs_;
-    std::array<Said, mostCauses> said_{};
-    std::uint64_t leftOut_ = 0;
+    std::int64_t intervalNs_;
+    std::array<ReportedCause, maxCauses> reported_{};
+    std::uint64_t suppressed_ = 0;
 };
 
-/// Executes an input's control. Returns a line if it withdraws, but others still request silence. Any thread.
-std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
+/// Requests or withdraws silence. Returns a line if other inputs still request it, or empty. Any thread.
+std::string applySilence(MuteRequests& silence, const SilenceControl& control, MuteRequester requester);
 
 } // namespace physvib

@@ -14,35 +14,35 @@ namespace physvib {
 
 namespace {
 
-constexpr double farthestMetres = 1e6; // beyond every field
+constexpr double maxPlaceMetres = 1e6; // beyond every field
 
-bool isOnSomeField(double metres) { return std::abs(metres) <= farthestMetres; }
+bool isOnSomeField(double metres) { return std::abs(metres) <= maxPlaceMetres; }
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
-CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, double fromSeconds,
+CollisionEvent toneOf(const MessageValues& values, const ActuatorPlace& place, double fromSeconds,
                       double toSeconds, Spread spread) {
     CollisionEvent tone;
     tone.timeNs = nanoseconds(fromSeconds);
     tone.durationNs = nanoseconds(toSeconds) - tone.timeNs;
     tone.frequencyHz = values.number("frequency_hz");
     tone.amplitude = values.number("level");
-    tone.x = at.xMetres;
-    tone.y = at.yMetres;
-    tone.z = at.zMetres;
+    tone.x = place.xMetres;
+    tone.y = place.yMetres;
+    tone.z = place.zMetres;
     tone.spread = spread;
-    if (values.has("part")) tone.source.part = partOf(values.word("part"));
+    if (values.has("part")) tone.source.part = partNumberOf(values.word("part"));
     return tone;
 }
 
 /// For a tone that begins at phase 0: moves its end to a zero crossing of the frequency that is played.
-CollisionEvent softlyEnded(CollisionEvent tone, const EventShaping& shaping) {
-    if (tone.durationNs > 0) tone.durationNs = softEndNs(shaping(tone).frequencyHz, tone.durationNs);
+CollisionEvent endedAtCrossing(CollisionEvent tone, const EventShaping& shaping) {
+    if (tone.durationNs > 0) tone.durationNs = toneEndNs(shaping(tone).frequencyHz, tone.durationNs);
     return tone;
 }
 
-void takeMaterial(CollisionEvent& strike, const MessageValues& values,
-                  const std::vector<Material>& materials) {
+void applyMaterial(CollisionEvent& strike, const MessageValues& values,
+                   const std::vector<Material>& materials) {
     const std::string name = values.word("material");
     const auto found = std::ranges::find(materials, name, &Material::name);
     if (found == materials.end() || !(found->frequencyHz > 0.0))
@@ -57,14 +57,14 @@ void takeMaterial(CollisionEvent& strike, const MessageValues& values,
 std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view name,
                                    const std::string& letters, double pulseSeconds,
                                    const EventShaping& shaping) {
-    if (letters.empty() || letters.size() > messages::mostPulses)
-        values.fail(name, "expected 1 to " + std::to_string(messages::mostPulses) + " letters, found " +
+    if (letters.empty() || letters.size() > messages::maxPulses)
+        values.fail(name, "expected 1 to " + std::to_string(messages::maxPulses) + " letters, found " +
                               std::to_string(letters.size()));
     std::vector<CollisionEvent> all;
     double from = 0.0;
     for (const char letter : letters) {
-        all.push_back(softlyEnded(
-            toneOf(values, values.enchanter(name, letter), from, from + pulseSeconds, Spread::alone),
+        all.push_back(endedAtCrossing(
+            toneOf(values, values.enchanter(name, letter), from, from + pulseSeconds, Spread::nearest),
             shaping));
         from += pulseSeconds + values.number("gap_s");
     }
@@ -73,20 +73,20 @@ std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view
 
 /// A path: places and the times at which they are reached, from 0 on or later.
 struct Route {
-    std::vector<EnchanterPlace> places;
+    std::vector<ActuatorPlace> places;
     std::vector<double> times;
 
     double startSeconds() const { return times.front(); }
     double seconds() const { return times.back() - times.front(); }
-    EnchanterPlace at(double time) const {
+    ActuatorPlace at(double time) const {
         const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
             std::ranges::upper_bound(times, time) - times.begin(), 1, std::ssize(times) - 1));
         const double share = std::clamp((time - times[next - 1]) / (times[next] - times[next - 1]), 0.0, 1.0);
-        return sumOf(places[next - 1], vectorFrom(places[next - 1], places[next]), share);
+        return addScaled(places[next - 1], vectorBetween(places[next - 1], places[next]), share);
     }
 };
 
-double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
+double distance(const ActuatorPlace& a, const ActuatorPlace& b) {
     // nested, so that a path in the plane keeps its length to the bit
     return portable::hypot(portable::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres),
                            b.zMetres - a.zMetres);
@@ -95,17 +95,17 @@ double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
 /// The path at constant speed; of consecutive equal places only the first is used.
 Route steadyRoute(const MessageValues& values) {
     Route route;
-    for (const EnchanterPlace& place : values.places()) {
-        const double way = route.places.empty() ? 0.0 : distance(route.places.back(), place);
-        if (way == 0.0 && !route.places.empty()) continue;
-        route.times.push_back(route.times.empty() ? 0.0 : route.times.back() + way);
+    for (const ActuatorPlace& place : values.places()) {
+        const double metres = route.places.empty() ? 0.0 : distance(route.places.back(), place);
+        if (metres == 0.0 && !route.places.empty()) continue;
+        route.times.push_back(route.times.empty() ? 0.0 : route.times.back() + metres);
         route.places.push_back(place);
     }
     if (route.places.size() < 2) values.fail("places", "expected places that are not all the same");
     const double seconds = values.has("speed_m_per_s") ? route.times.back() / values.number("speed_m_per_s")
                                                        : values.number("seconds");
-    if (seconds > messages::mostSeconds)
-        values.fail("speed_m_per_s", "expected a path of at most " + numberText(messages::mostSeconds) +
+    if (seconds > messages::maxSeconds)
+        values.fail("speed_m_per_s", "expected a path of at most " + numberText(messages::maxSeconds) +
                                          " s, found " + numberText(seconds));
     const double scale = seconds / route.times.back();
     for (double& time : route.times) time *= scale;
@@ -121,12 +121,12 @@ Route timedRoute(const MessageValues& values) {
 }
 
 /// Ends the last segment at a zero crossing of the whole tone. Later segments are removed.
-void endSoftly(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
+void endAtCrossing(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
     const auto& last = segments.back();
-    const std::int64_t end = softEndNs(shaping(last).frequencyHz, last.course.sinceNs + last.durationNs);
-    while (segments.back().course.sinceNs >= end)
+    const std::int64_t endNs = toneEndNs(shaping(last).frequencyHz, last.course.toneAgeNs + last.durationNs);
+    while (segments.back().course.toneAgeNs >= endNs)
         segments.pop_back(); // the first one begins at 0, so one remains
-    segments.back().durationNs = end - segments.back().course.sinceNs;
+    segments.back().durationNs = endNs - segments.back().course.toneAgeNs;
 }
 
 /// Events of one moving tone, a segment each, which continue each other's phase.
@@ -141,10 +141,10 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
         segment.course.toY = route.places[i + 1].yMetres;
         segment.course.toZ = route.places[i + 1].zMetres;
         segment.course.travelNs = segment.durationNs;
-        segment.course.sinceNs = segment.timeNs - nanoseconds(route.startSeconds());
+        segment.course.toneAgeNs = segment.timeNs - nanoseconds(route.startSeconds());
         segments.push_back(segment);
     }
-    if (!segments.empty()) endSoftly(segments, shaping);
+    if (!segments.empty()) endAtCrossing(segments, shaping);
     return segments;
 }
 
@@ -153,39 +153,39 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
 std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count,
                                          const EventShaping& shaping) {
     const double length = strokeSeconds(count, route.seconds());
-    constexpr double least = 0.01; // two periods of 200 Hz
-    if (length < least)
+    constexpr double minSeconds = 0.01; // two periods of 200 Hz
+    if (length < minSeconds)
         values.fail("strokes", "expected so few that each lasts 0.01 s, found " + std::to_string(count) +
                                    " in " + numberText(route.seconds()) + " s");
     std::vector<CollisionEvent> strokes;
     for (int k = 0; k < count; ++k) {
-        const double from = route.startSeconds() + k * strokeOnsetsSeconds(length);
-        const EnchanterPlace at = route.at(route.startSeconds() + route.seconds() * k / (count - 1));
-        strokes.push_back(toneOf(values, at, from, from + length, values.spread()));
+        const double fromSeconds = route.startSeconds() + k * strokeOnsetDelaySeconds(length);
+        const ActuatorPlace place = route.at(route.startSeconds() + route.seconds() * k / (count - 1));
+        strokes.push_back(toneOf(values, place, fromSeconds, fromSeconds + length, values.spread()));
         CollisionEvent& stroke = strokes.back();
-        const std::int64_t begin = strokes.front().timeNs;
+        const std::int64_t startNs = strokes.front().timeNs;
         const double playedHz = shaping(stroke).frequencyHz;
-        stroke.course.sinceNs = nearestCrossingNs(playedHz, stroke.timeNs - begin);
+        stroke.course.toneAgeNs = nearestCrossingNs(playedHz, stroke.timeNs - startNs);
         stroke.durationNs =
-            softEndNs(playedHz, stroke.timeNs + stroke.durationNs - begin - stroke.course.sinceNs);
-        stroke.timeNs = begin + stroke.course.sinceNs;
+            toneEndNs(playedHz, stroke.timeNs + stroke.durationNs - startNs - stroke.course.toneAgeNs);
+        stroke.timeNs = startNs + stroke.course.toneAgeNs;
     }
     return strokes;
 }
 
-EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip,
-                              const PhantomPanner& panner) {
+ActuatorPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip,
+                             const PhantomPanner& panner) {
     if (values.has("place") || (clip.shares.empty() && clip.channels.size() == 1)) return values.place();
-    const double wide = panner.fieldWidthMetres(), high = panner.fieldHeightMetres();
-    if (!clip.shares.empty()) return {clip.shares[j].xMetres * wide, clip.shares[j].yMetres * high};
-    const EnchanterLayout& layout = panner.layout();
+    const double width = panner.fieldWidthMetres(), height = panner.fieldHeightMetres();
+    if (!clip.shares.empty()) return {clip.shares[j].xMetres * width, clip.shares[j].yMetres * height};
+    const ActuatorLayout& layout = panner.layout();
     if (static_cast<int>(clip.channels.size()) != layout.count)
         values.fail("file", "expected one channel, places, or as many channels as actuators, " +
                                 std::to_string(layout.count) + ", found " +
                                 std::to_string(clip.channels.size()));
-    const EnchanterPlace& at = layout.places[j];
-    return {at.xMetres / layout.extentWidthMetres * wide, at.yMetres / layout.extentHeightMetres * high,
-            at.zMetres / layout.extentWidthMetres * wide};
+    const ActuatorPlace& at = layout.places[j];
+    return {at.xMetres / layout.extentWidthMetres * width, at.yMetres / layout.extentHeightMetres * height,
+            at.zMetres / layout.extentWidthMetres * width};
 }
 
 } // namespace
@@ -212,24 +212,24 @@ const PlainValue* MessageValues::find(std::string_view name) const {
 }
 
 const MessageArgument& MessageValues::argument(std::string_view name) const {
-    for (const MessageArgument& own : description_.arguments)
-        if (own.name == name) return own;
-    for (const MessageArgument& common : messages::when)
+    for (const MessageArgument& candidate : description_.arguments)
+        if (candidate.name == name) return candidate;
+    for (const MessageArgument& common : messages::timeArguments)
         if (common.name == name && !description_.isQuery()) return common;
     throw MessageError{"has no " + inQuotes(name)};
 }
 
 double MessageValues::inRange(const MessageArgument& argument, double found) const {
-    if (!(found >= argument.least && found <= argument.most))
-        fail(argument.name, "expected " + numberText(argument.least) + " to " + plainNumber(argument.most) +
-                                ", found " + numberText(found));
+    if (!(found >= argument.minimum && found <= argument.maximum))
+        fail(argument.name, "expected " + numberText(argument.minimum) + " to " +
+                                plainNumber(argument.maximum) + ", found " + numberText(found));
     return found;
 }
 
 double MessageValues::number(std::string_view name) const {
     const MessageArgument& wanted = argument(name);
     const PlainValue* const value = find(name);
-    if (value == nullptr) return parseNumber<double>(wanted.usual).value_or(0.0);
+    if (value == nullptr) return parseNumber<double>(wanted.defaultText).value_or(0.0);
     const auto* const found = std::get_if<double>(value);
     if (found == nullptr) fail(name, "expected a number");
     return inRange(wanted, *found);
@@ -243,7 +243,7 @@ int MessageValues::wholeNumber(std::string_view name) const {
 
 std::string MessageValues::word(std::string_view name) const {
     const PlainValue* const value = find(name);
-    if (value == nullptr) return std::string(argument(name).usual);
+    if (value == nullptr) return std::string(argument(name).defaultText);
     const auto* const found = std::get_if<std::string>(value);
     if (found == nullptr) fail(name, "expected a word");
     return *found;
@@ -275,20 +275,20 @@ Spread MessageValues::spread() const {
     fail("law", "expected one of " + listed(spreadNames) + ", found " + inQuotes(name));
 }
 
-EnchanterPlace MessageValues::enchanter(std::string_view name, char letter) const {
-    const EnchanterLayout& layout = panner_.layout();
+ActuatorPlace MessageValues::enchanter(std::string_view name, char letter) const {
+    const ActuatorLayout& layout = panner_.layout();
     const int j = letter - 'A';
     if (j < 0 || j >= layout.count || letter > 'Z')
         fail(name, "expected " + std::string(layout.count > 1 ? "letters from A to " : "the letter ") +
                        static_cast<char>('A' + std::min(layout.count, 26) - 1) + ", found " +
                        inQuotes({&letter, 1}));
-    const EnchanterPlace& at = layout.places[static_cast<std::size_t>(j)];
+    const ActuatorPlace& at = layout.places[static_cast<std::size_t>(j)];
     return {at.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres,
             at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres,
             at.zMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres};
 }
 
-EnchanterPlace MessageValues::place() const {
+ActuatorPlace MessageValues::place() const {
     const PlainValue* const value = find("place");
     if (value == nullptr) return {0.5 * panner_.fieldWidthMetres(), 0.5 * panner_.fieldHeightMetres()};
     if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1)
@@ -300,8 +300,8 @@ EnchanterPlace MessageValues::place() const {
     return {(*found)[0], (*found)[1], count == 3 ? (*found)[2] : 0.0};
 }
 
-std::vector<EnchanterPlace> MessageValues::places() const {
-    std::vector<EnchanterPlace> all;
+std::vector<ActuatorPlace> MessageValues::places() const {
+    std::vector<ActuatorPlace> all;
     const PlainValue* const value = find("places");
     if (value == nullptr) fail("places", "expected places, found none");
     if (const auto* letters = std::get_if<std::string>(value))
@@ -311,8 +311,8 @@ std::vector<EnchanterPlace> MessageValues::places() const {
             fail("places", "expected pairs of x and y in metres");
         for (std::size_t i = 0; i < found->size(); i += 2) all.push_back({(*found)[i], (*found)[i + 1]});
     }
-    if (all.size() < 2 || all.size() > messages::mostPlaces)
-        fail("places", "expected 2 to " + std::to_string(messages::mostPlaces) + " places, found " +
+    if (all.size() < 2 || all.size() > messages::maxPlaces)
+        fail("places", "expected 2 to " + std::to_string(messages::maxPlaces) + " places, found " +
                            std::to_string(all.size()));
     return all;
 }
@@ -332,20 +332,20 @@ std::vector<CollisionEvent> strikeStrikes(const MessageValues& values, const std
     CollisionEvent strike = toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread());
     strike.decayPerSecond = values.number("decay_per_s");
     if (values.has("material"))
-        takeMaterial(strike, values, materials);
+        applyMaterial(strike, values, materials);
     else if (!values.has("frequency_hz"))
         values.fail("material", "expected a material, or frequency_hz");
     if (strike.decayPerSecond == 0.0 && strike.durationNs == 0)
         values.fail("seconds", "expected a length, or a decay: it would not end");
     if (isTooSlow(strike))
-        values.fail(values.has("material") ? "material" : "frequency_hz", tooSlowFault(strike));
-    return {softlyEnded(strike, shaping)};
+        values.fail(values.has("material") ? "material" : "frequency_hz", tooSlowError(strike));
+    return {endedAtCrossing(strike, shaping)};
 }
 
 std::vector<CollisionEvent> phantomStrikes(const MessageValues& values, const std::vector<Material>&,
                                            const EventShaping& shaping) {
-    return {
-        softlyEnded(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()), shaping)};
+    return {endedAtCrossing(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()),
+                            shaping)};
 }
 
 std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const std::vector<Material>&,
@@ -377,14 +377,14 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
                                         const PhantomPanner& panner) {
     std::vector<CollisionEvent> strikes;
     for (std::size_t j = 0; j < clip.channels.size(); ++j) {
-        const EnchanterPlace at = placeOfChannel(j, values, clip, panner);
+        const ActuatorPlace place = placeOfChannel(j, values, clip, panner);
         const ContactRecording& channel = clip.channels[j];
         CollisionEvent& strike = strikes.emplace_back();
         strike.frequencyHz = clipFrequencyHz;
         strike.amplitude = values.number("level");
-        strike.x = at.xMetres;
-        strike.y = at.yMetres;
-        strike.z = at.zMetres;
+        strike.x = place.xMetres;
+        strike.y = place.yMetres;
+        strike.z = place.zMetres;
         // so that the last sample is included
         strike.durationNs =
             nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;

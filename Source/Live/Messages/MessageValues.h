@@ -18,26 +18,26 @@ struct MessageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// All methods throw MessageError. Any thread but the render thread (R).
+/// The checked values of one message. All methods throw MessageError. Any thread but the render thread (R).
 class MessageValues {
 public:
-    /// For a message of the table; both must outlive this object. Throws if a value is unknown to the
-    /// message, or occurs twice.
+    /// `message` is one of the table; all must outlive this object. Throws if a value is unknown to the
+    /// message or occurs twice.
     MessageValues(const PlainMessage& message, const MessageDescription& description,
                   const PhantomPanner& panner);
 
     bool has(std::string_view name) const { return find(name) != nullptr; }
-    double number(std::string_view name) const; ///< or the default
+    double number(std::string_view name) const; ///< a number in range, or the default
     int wholeNumber(std::string_view name) const;
-    std::string word(std::string_view name) const; ///< or the default
+    std::string word(std::string_view name) const; ///< without a value the default
     bool isWord(std::string_view name) const;
     std::vector<double> numbers(std::string_view name) const;
-    Spread spread() const;        ///< of the argument `law`
-    EnchanterPlace place() const; ///< in metres of the field
-    std::vector<EnchanterPlace> places() const;
+    Spread spread() const;       ///< of the argument `law`
+    ActuatorPlace place() const; ///< in metres of the field
+    std::vector<ActuatorPlace> places() const;
 
     /// The actuator's place, in metres of the field.
-    EnchanterPlace enchanter(std::string_view name, char letter) const;
+    ActuatorPlace enchanter(std::string_view name, char letter) const;
 
     /// Throws if more than one of these was given.
     void expectOneOf(std::initializer_list<std::string_view> names) const;
@@ -59,7 +59,7 @@ private:
 constexpr double strokeOnsetShare = 0.32, strokeOnsetSeconds = 0.0473;
 
 /// Onset delay at which strokes of `strokeSeconds` are felt as one motion. Any thread.
-constexpr double strokeOnsetsSeconds(double strokeSeconds) noexcept {
+constexpr double strokeOnsetDelaySeconds(double strokeSeconds) noexcept {
     return strokeOnsetShare * strokeSeconds + strokeOnsetSeconds;
 }
 

@@ -11,23 +11,23 @@ namespace physvib {
 
 namespace {
 
-constexpr double rampSeconds = 0.005;   // of the master level, as on a device; within a report
-constexpr double watchedSeconds = 2.0;  // over which the reserve is watched
-constexpr double keptSeconds = 0.0015;  // of the reserve, for blocks that come late
-constexpr std::int64_t mostStarved = 4; // periods without samples until silence is sent
-constexpr int usualRateHz = 48000;
+constexpr double rampSeconds = 0.005;         // of the master level, as on a device; within a report
+constexpr double paceSeconds = 2.0;           // interval for which the reserve is observed
+constexpr double reserveSeconds = 0.0015;     // frames that should wait, for blocks that come late
+constexpr std::int64_t maxStarvedPeriods = 4; // periods without samples until silence is sent
+constexpr int defaultRateHz = 48000;
 
-constexpr double zeros = 6.0, cutOff = 0.4833; // zeros on each side; share of the lower rate
+constexpr double zeroCrossings = 6.0, cutOff = 0.4833; // zeros on each side; share of the lower rate
 
-/// Weights for a centre that lies `before` input frames before the newest one.
-std::vector<float> kernelFor(double before, std::size_t taps, double cyclesPerFrame) {
+/// Weights for a centre that lies `delayFrames` input frames before the newest one.
+std::vector<float> kernelFor(double delayFrames, std::size_t taps, double cyclesPerFrame) {
     std::vector<double> weights(taps);
-    const double half = zeros / (2.0 * cyclesPerFrame);
+    const double half = zeroCrossings / (2.0 * cyclesPerFrame);
     for (std::size_t k = 0; k < taps; ++k) {
-        const double t = static_cast<double>(taps - 1 - k) - before,
-                     x = 2.0 * std::numbers::pi * cyclesPerFrame * t;
+        const double frame = static_cast<double>(taps - 1 - k) - delayFrames,
+                     x = 2.0 * std::numbers::pi * cyclesPerFrame * frame;
         const double window =
-            std::abs(t) < half ? 0.5 + 0.5 * portable::cos(std::numbers::pi * t / half) : 0.0;
+            std::abs(frame) < half ? 0.5 + 0.5 * portable::cos(std::numbers::pi * frame / half) : 0.0;
         weights[k] = window * (x == 0.0 ? 1.0 : portable::sin(x) / x);
     }
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -42,16 +42,16 @@ CoilFeed::CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const Phan
     : kind_{kind}
     , format_{format}
     , channels_{static_cast<std::size_t>(panner.layout().count)}
-    , reducer_{usualRateHz, format.rateHz}
-    , reducedHz_{usualRateHz} {
-    sides_.write(sidesOf(panner.layout()));
+    , reducer_{defaultRateHz, format.rateHz}
+    , reducedHz_{defaultRateHz} {
+    sides_.write(coilGainsOf(panner.layout()));
     begin();
 }
 
-CoilFeed::Sides CoilFeed::sidesOf(const EnchanterLayout& layout) noexcept {
-    Sides sides{static_cast<std::size_t>(layout.count), {}};
+CoilFeed::CoilGains CoilFeed::coilGainsOf(const ActuatorLayout& layout) noexcept {
+    CoilGains sides{static_cast<std::size_t>(layout.count), {}};
     const auto places = std::span{layout.places}.first(static_cast<std::size_t>(layout.count));
-    const auto [left, right] = std::ranges::minmax(places, {}, &EnchanterPlace::xMetres);
+    const auto [left, right] = std::ranges::minmax(places, {}, &ActuatorPlace::xMetres);
     const double width = right.xMetres - left.xMetres;
     for (std::size_t j = 0; j < places.size(); ++j) {
         const double share = width > 0.0 ? (places[j].xMetres - left.xMetres) / width : 0.5,
@@ -62,16 +62,16 @@ CoilFeed::Sides CoilFeed::sidesOf(const EnchanterLayout& layout) noexcept {
     return sides;
 }
 
-void CoilFeed::posted(const RenderControl& control) noexcept {
-    if (control.panner != nullptr) sides_.write(sidesOf(control.panner->layout()));
+void CoilFeed::onControl(const RenderControl& control) noexcept {
+    if (control.panner != nullptr) sides_.write(coilGainsOf(control.panner->layout()));
 }
 
-void CoilFeed::rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
-    const Sides& sides = sides_.read();
+void CoilFeed::onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
+    const CoilGains& sides = sides_.read();
     const std::size_t count = std::min(sides.count, channels_);
     rateHz_.store(block.sampleRateHz, std::memory_order_relaxed);
     for (int n = 0; n < block.frames; ++n)
-        samples_.pushBy([&](CoilFrame& frame) noexcept {
+        samples_.pushInPlace([&](CoilFrame& frame) noexcept {
             frame = {};
             for (std::size_t j = 0; j < count; ++j)
                 for (std::size_t side = 0; side < 2; ++side)
@@ -83,49 +83,49 @@ void CoilFeed::begin() {
     for (CoilFrame frame; samples_.pop(frame);) {
     }
     reducer_ = RateReducer{reducedHz_, format_.rateHz};
-    level_.prepare(format_.rateHz, rampSeconds, 0.0f);
+    levelRamp_.prepare(format_.rateHz, rampSeconds, 0.0f);
     guard_.begin(std::string{kind_.name}, {0, 1}, format_.rateHz);
-    for (const int side : {0, 1}) guard_.follow(side, side);
+    for (const int side : {0, 1}) guard_.setChannel(side, side);
     dueNs_ = 0;
-    leastLeft_ = SIZE_MAX, reports_ = 0;
-    isEarly_ = isStarved_ = false;
+    minFramesLeft_ = SIZE_MAX, reportCount_ = 0;
+    isPaceRaised_ = isStarved_ = false;
 }
 
-void CoilFeed::drain() {
-    if (const int rate = rateHz_.load(std::memory_order_relaxed);
-        rate != reducedHz_ && rate > format_.rateHz) {
-        reducedHz_ = rate;
-        reducer_ = RateReducer{rate, format_.rateHz};
+void CoilFeed::drainQueue() {
+    if (const int newRateHz = rateHz_.load(std::memory_order_relaxed);
+        newRateHz != reducedHz_ && newRateHz > format_.rateHz) {
+        reducedHz_ = newRateHz;
+        reducer_ = RateReducer{newRateHz, format_.rateHz};
     }
     for (CoilFrame frame; samples_.pop(frame);) reducer_.push(frame);
 }
 
 std::optional<PadReport> CoilFeed::next(std::int64_t nowNs, std::int64_t, float level) {
-    drain();
+    drainQueue();
     if (nowNs < dueNs_) return {};
     if (reducer_.size() < static_cast<std::size_t>(format_.frames)) {
         if (!isStarved_) dueNs_ = std::max(dueNs_, nowNs - periodNs());
         isStarved_ = true;
-        if (isAtRest_ || nowNs - dueNs_ < mostStarved * periodNs()) return {};
-        return rest(); // the device has stopped
+        if (isSilent_ || nowNs - dueNs_ < maxStarvedPeriods * periodNs()) return {};
+        return silentReport(); // the device has stopped
     }
     // late samples delay all later reports; a late thread does not
     dueNs_ = isStarved_ || dueNs_ == 0 ? nowNs : std::max(dueNs_, nowNs - periodNs());
-    dueNs_ += isEarly_ ? periodNs() * 999 / 1000 : periodNs();
+    dueNs_ += isPaceRaised_ ? periodNs() * 999 / 1000 : periodNs();
     isStarved_ = false;
     const PadReport report = compose(level);
-    watchReserve();
+    adjustPace();
     return report;
 }
 
-void CoilFeed::watchReserve() {
+void CoilFeed::adjustPace() {
     const double rate = format_.rateHz, frames = format_.frames;
-    leastLeft_ = std::min(leastLeft_, reducer_.size());
-    if (frames * static_cast<double>(++reports_) < watchedSeconds * rate) return;
-    isEarly_ = static_cast<double>(leastLeft_) > keptSeconds * rate;
-    for (; static_cast<double>(leastLeft_) > 2.0 * frames; --leastLeft_, ++skipped_)
+    minFramesLeft_ = std::min(minFramesLeft_, reducer_.size());
+    if (frames * static_cast<double>(++reportCount_) < paceSeconds * rate) return;
+    isPaceRaised_ = static_cast<double>(minFramesLeft_) > reserveSeconds * rate;
+    for (; static_cast<double>(minFramesLeft_) > 2.0 * frames; --minFramesLeft_, ++skipped_)
         reducer_.pull(); // drops samples that gathered while this thread paused
-    leastLeft_ = SIZE_MAX, reports_ = 0;
+    minFramesLeft_ = SIZE_MAX, reportCount_ = 0;
 }
 
 PadReport CoilFeed::compose(float level) {
@@ -134,34 +134,34 @@ PadReport CoilFeed::compose(float level) {
         const CoilFrame frame = reducer_.pull();
         for (std::size_t side = 0; side < 2; ++side) sides[side].push_back(frame[side]);
     }
-    std::array<float*, limits::maxEnchanters> io{sides[0].data(), sides[1].data()};
-    level > 0.0f ? level_.moveTo(level) : level_.moveTo(0.0f, format_.frames / 2);
-    level_.apply(io.data(), 2, format_.frames);
+    std::array<float*, limits::maxActuators> io{sides[0].data(), sides[1].data()};
+    level > 0.0f ? levelRamp_.moveTo(level) : levelRamp_.moveTo(0.0f, format_.frames / 2);
+    levelRamp_.apply(io.data(), 2, format_.frames);
     guard_.process(io.data(), format_.frames);
     std::vector<CoilFrame> frames;
     for (std::size_t n = 0; n < sides[0].size(); ++n) frames.push_back({sides[0][n], sides[1][n]});
-    isAtRest_ = std::ranges::all_of(
+    isSilent_ = std::ranges::all_of(
         frames, [](const CoilFrame& frame) { return frame[0] == 0.0f && frame[1] == 0.0f; });
-    return format_.encode(frames, number_++);
+    return format_.encode(frames, reportNumber_++);
 }
 
-PadReport CoilFeed::rest() {
-    isAtRest_ = true;
+PadReport CoilFeed::silentReport() {
+    isSilent_ = true;
     const std::vector<CoilFrame> silence(static_cast<std::size_t>(format_.frames));
-    return format_.encode(silence, number_++);
+    return format_.encode(silence, reportNumber_++);
 }
 
-double CoilFeed::laterSeconds() const noexcept { return (1.5 * format_.frames + 6.2) / format_.rateHz; }
+double CoilFeed::maxDelaySeconds() const noexcept { return (1.5 * format_.frames + 6.2) / format_.rateHz; }
 
 // One kernel for each position that an output frame can have between two input frames.
 
 RateReducer::RateReducer(int inHz, int outHz)
-    : in_{inHz / std::gcd(inHz, outHz)}
-    , out_{outHz / std::gcd(inHz, outHz)} {
-    const double cyclesPerFrame = cutOff * outHz / inHz, half = zeros / (2.0 * cyclesPerFrame);
+    : inRate_{inHz / std::gcd(inHz, outHz)}
+    , outRate_{outHz / std::gcd(inHz, outHz)} {
+    const double cyclesPerFrame = cutOff * outHz / inHz, half = zeroCrossings / (2.0 * cyclesPerFrame);
     const auto taps = static_cast<std::size_t>(2.0 * std::ceil(half)) + 2;
-    for (int phase = 0; phase < out_; ++phase)
-        kernels_.push_back(kernelFor(half + static_cast<double>(phase) / out_, taps, cyclesPerFrame));
+    for (int phase = 0; phase < outRate_; ++phase)
+        kernels_.push_back(kernelFor(half + static_cast<double>(phase) / outRate_, taps, cyclesPerFrame));
     ring_.resize(taps);
 }
 
@@ -170,10 +170,10 @@ void RateReducer::push(const CoilFrame& frame) {
     ring_[oldest_] = frame;
     oldest_ = (oldest_ + 1) % ring_.size();
     if (due_ <= 0) {
-        ready_.push_back(filtered(static_cast<std::size_t>(-due_)));
-        due_ += in_;
+        outputFrames_.push_back(filtered(static_cast<std::size_t>(-due_)));
+        due_ += inRate_;
     }
-    due_ -= out_;
+    due_ -= outRate_;
 }
 
 CoilFrame RateReducer::filtered(std::size_t phase) const {
@@ -185,9 +185,9 @@ CoilFrame RateReducer::filtered(std::size_t phase) const {
 }
 
 CoilFrame RateReducer::pull() {
-    if (ready_.empty()) return {};
-    const CoilFrame frame = ready_.front();
-    ready_.pop_front();
+    if (outputFrames_.empty()) return {};
+    const CoilFrame frame = outputFrames_.front();
+    outputFrames_.pop_front();
     return frame;
 }
 

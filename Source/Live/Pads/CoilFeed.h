@@ -15,8 +15,8 @@
 namespace physvib {
 
 // Reduces the sample rate of two channels to that of a controller's coils, with a windowed sinc of six zeros
-// on each side: flat to 0.35 of the lower rate, 40 dB down from 0.62 on. Later by 6.2 of its frames (2 ms at
-// 3 kHz).
+// on each side: flat to 0.35 of the lower rate, 40 dB down from 0.62 on. It delays by 6.2 output frames (2 ms
+// at 3 kHz).
 
 /// One thread.
 class RateReducer {
@@ -25,20 +25,20 @@ public:
     RateReducer(int inHz, int outHz);
 
     void push(const CoilFrame& frame);
-    /// Frames that can be pulled.
-    std::size_t size() const noexcept { return ready_.size(); }
+    /// Number of output frames that can be pulled.
+    std::size_t size() const noexcept { return outputFrames_.size(); }
     /// The next frame; silence if there is none.
     CoilFrame pull();
 
 private:
     CoilFrame filtered(std::size_t phase) const;
 
-    int in_, out_;                            // both rates, in lowest terms
+    int inRate_, outRate_;                    // both rates, divided by their common factor
     std::vector<std::vector<float>> kernels_; // per phase, oldest frame first; each sums to 1
     std::vector<CoilFrame> ring_;             // the newest input frames
-    std::size_t oldest_ = 0;                  // of the ring, overwritten next
-    int due_ = 0;                             // until the next output frame, in 1/out_ of an input frame
-    std::deque<CoilFrame> ready_;
+    std::size_t oldest_ = 0;                  // index in the ring; overwritten next
+    int due_ = 0;                             // until the next output frame, in 1/outRate_ of an input frame
+    std::deque<CoilFrame> outputFrames_;
 };
 
 class CoilFeed final : public HidFeed {
@@ -48,46 +48,46 @@ public:
     CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const PhantomPanner& panner);
 
     const HidFeedKind& kind() const noexcept override { return kind_; }
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override;
-    void posted(const RenderControl& control) noexcept override;
+    void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override;
+    void onControl(const RenderControl& control) noexcept override;
     void begin() override;
-    std::span<const PadReport> on() const noexcept override { return format_.on; }
-    std::span<const PadReport> off() const noexcept override { return format_.off; }
+    std::span<const PadReport> startReports() const noexcept override { return format_.on; }
+    std::span<const PadReport> endReports() const noexcept override { return format_.off; }
     std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
-    PadReport rest() override;
+    PadReport silentReport() override;
     std::uint64_t lost() const noexcept override { return samples_.overflows() + skipped_; }
-    double laterSeconds() const noexcept override;
+    double maxDelaySeconds() const noexcept override;
 
 private:
     /// Gains of each actuator in both coils.
-    struct Sides {
+    struct CoilGains {
         std::size_t count = 0;
-        std::array<CoilFrame, limits::maxEnchanters> gains{};
+        std::array<CoilFrame, limits::maxActuators> gains{};
     };
-    static Sides sidesOf(const EnchanterLayout& layout) noexcept;
-    void drain();
+    static CoilGains coilGainsOf(const ActuatorLayout& layout) noexcept;
+    void drainQueue();
     PadReport compose(float level);
-    void watchReserve();
+    void adjustPace();
     std::int64_t periodNs() const noexcept { return 1'000'000'000LL * format_.frames / format_.rateHz; }
 
     const HidFeedKind& kind_;
     const CoilFormat& format_;
     const std::size_t channels_; // of the session
-    LatestValue<Sides> sides_;
+    LatestValue<CoilGains> sides_;
     EventQueue<CoilFrame, 16384> samples_;
-    std::atomic<int> rateHz_{0}; // of what is in the queue
+    std::atomic<int> rateHz_{0}; // sample rate of the queued frames
 
     RateReducer reducer_;
     int reducedHz_; // input rate of the reducer
-    GainRamp level_;
-    DeviceGuard guard_; // remembers what a controller of this kind has had, as a sound device's does
-    std::uint32_t number_ = 0;
+    GainRamp levelRamp_;
+    DeviceGuard guard_; // its state is stored per kind of controller
+    std::uint32_t reportNumber_ = 0;
     std::int64_t dueNs_ = 0; // steady time of the next report; 0: as soon as there are samples
-    std::size_t leastLeft_ = 0, reports_ = 0; // fewest frames left over the last `reports_` reports
-    bool isEarly_ = false;                    // more frames wait than needed: a little faster
-    bool isStarved_ = false;                  // a report was due before its samples were there
-    bool isAtRest_ = true;                    // the last report was all zeros
-    std::atomic<std::uint64_t> skipped_{0};   // frames
+    std::size_t minFramesLeft_ = 0, reportCount_ = 0; // minimum of unread frames over these reports
+    bool isPaceRaised_ = false;                       // too many frames wait: reports are sent 0.1% faster
+    bool isStarved_ = false;                          // a report was due before its samples were there
+    bool isSilent_ = true;                            // the last report was all zeros
+    std::atomic<std::uint64_t> skipped_{0};           // frames
 };
 
 } // namespace physvib

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t subsystems = SDL_INIT_JOYSTICK | SDL_INIT_GAMECONTROLLER;
 
-std::mutex openedMutex;
-std::set<std::int64_t> opened; // controllers opened by this process; guarded by openedMutex
+std::mutex openPadsMutex;
+std::set<std::int64_t> openPads; // ids of controllers; guarded by openPadsMutex
 
 /// SDL updates its list of devices under this lock, so an index stays valid while it is held.
 class JoystickLock {
@@ -79,8 +79,8 @@ public:
         if (hasRumbled_) sdl_.JoystickRumble(joystick_, 0, 0, 0);
         if (controller_) sdl_.GameControllerClose(controller_);
         if (joystick_) sdl_.JoystickClose(joystick_);
-        const std::lock_guard lock{openedMutex};
-        opened.erase(info_.id);
+        const std::lock_guard lock{openPadsMutex};
+        openPads.erase(info_.id);
     }
 
     bool isOpen() const { return joystick_ != nullptr; }
@@ -113,17 +113,17 @@ private:
     bool isSensing_ = false, hasRumbled_ = false;
 };
 
-bool isWanted(const GamePadInfo& info, const std::string& name) {
+bool matchesName(const GamePadInfo& info, const std::string& name) {
     return name == anyPad || lowerCase(info.name).find(lowerCase(name)) != std::string::npos;
 }
 
-bool take(std::int64_t id) {
-    const std::lock_guard lock{openedMutex};
-    return opened.insert(id).second;
+bool claimPad(std::int64_t id) {
+    const std::lock_guard lock{openPadsMutex};
+    return openPads.insert(id).second;
 }
 
-// A host that uses SDL itself keeps its own hints.
-void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
+// Sets nothing if the host uses SDL itself and has its own hints.
+void setHints(const SdlLibrary& sdl, GamePads::Driver driver) {
     if (sdl.WasInit(SDL_INIT_JOYSTICK) != 0) return;
     const auto hint = [&](const char* name, const char* value) {
         sdl.SetHintWithPriority(name, value, SDL_HINT_DEFAULT);
@@ -139,27 +139,27 @@ void giveHints(const SdlLibrary& sdl, GamePads::Driver driver) {
 #endif
 }
 
-struct Loaded {
+struct LoadedSdl {
     SdlLibrary sdl;
-    std::string fault;
+    std::string error;
 };
 
 template <class Function>
-void find(void* library, const char* name, Function& function, std::string& fault) {
-    function = reinterpret_cast<Function>(functionIn(library, name));
-    if (function == nullptr) fault = std::string{"SDL 2 is too old for game controllers: it has no "} + name;
+void findSdlFunction(void* library, const char* name, Function& function, std::string& error) {
+    function = reinterpret_cast<Function>(findFunction(library, name));
+    if (function == nullptr) error = std::string{"SDL 2 is too old for game controllers: it has no "} + name;
 }
 
-Loaded load() {
-    Loaded loaded;
+LoadedSdl loadSdl() {
+    LoadedSdl loaded;
     void* library = nullptr;
     for (const char* name : {"libSDL2-2.0.so.0", "SDL2.dll", "libSDL2-2.0.0.dylib"})
         if (library == nullptr) library = openLibrary(name);
     if (library == nullptr) {
-        loaded.fault = "game controllers need SDL 2 (Debian: libsdl2-2.0-0)";
+        loaded.error = "game controllers need SDL 2 (Debian: libsdl2-2.0-0)";
         return loaded;
     }
-#define PHYSVIB_SDL_FIND(name) find(library, "SDL_" #name, loaded.sdl.name, loaded.fault);
+#define PHYSVIB_SDL_FIND(name) findSdlFunction(library, "SDL_" #name, loaded.sdl.name, loaded.error);
     PHYSVIB_SDL_FUNCTIONS(PHYSVIB_SDL_FIND)
 #undef PHYSVIB_SDL_FIND
     return loaded;
@@ -170,15 +170,15 @@ Loaded load() {
 const char* busName(PadBus bus) noexcept {
     return bus == PadBus::usb ? "usb" : bus == PadBus::bluetooth ? "bluetooth" : "other";
 }
-double mostCommandsPerSecond(PadBus bus) noexcept { return bus == PadBus::usb ? 125.0 : 30.0; }
+double maxCommandsPerSecond(PadBus bus) noexcept { return bus == PadBus::usb ? 125.0 : 30.0; }
 
 GamePads::GamePads(Driver driver)
-    : sdl_{sdlLibrary(fault_)} {
+    : sdl_{sdlLibrary(error_)} {
     if (sdl_ == nullptr) return;
-    giveHints(*sdl_, driver);
+    setHints(*sdl_, driver);
     const bool isFirst = sdl_->WasInit(SDL_INIT_JOYSTICK) == 0;
     if (sdl_->InitSubSystem(subsystems) != 0) {
-        fault_ = std::string{"game controllers: "} + sdl_->GetError();
+        error_ = std::string{"game controllers: "} + sdl_->GetError();
         sdl_ = nullptr;
     } else if (isFirst) { // this process does not read SDL events
         sdl_->JoystickEventState(SDL_IGNORE);
@@ -200,7 +200,7 @@ std::vector<GamePadInfo> GamePads::list() {
     const JoystickLock lock{*sdl_};
     for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
         const GamePadInfo info = infoOf(*sdl_, i);
-        found.push_back(take(info.id) ? SdlPad{*sdl_, i}.info() : info);
+        found.push_back(claimPad(info.id) ? SdlPad{*sdl_, i}.info() : info);
     }
     return found;
 }
@@ -210,17 +210,17 @@ std::unique_ptr<GamePad> GamePads::open(const std::string& name) {
     const JoystickLock lock{*sdl_};
     for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
         const GamePadInfo info = infoOf(*sdl_, i);
-        if (!isWanted(info, name) || !take(info.id)) continue;
+        if (!matchesName(info, name) || !claimPad(info.id)) continue;
         auto pad = std::make_unique<SdlPad>(*sdl_, i);
         if (pad->isOpen() && pad->info().hasMotors) return pad;
     }
     return {};
 }
 
-const SdlLibrary* sdlLibrary(std::string& fault) {
-    static const Loaded loaded = load();
-    fault = loaded.fault;
-    return fault.empty() ? &loaded.sdl : nullptr;
+const SdlLibrary* sdlLibrary(std::string& error) {
+    static const LoadedSdl loaded = loadSdl();
+    error = loaded.error;
+    return error.empty() ? &loaded.sdl : nullptr;
 }
 
 } // namespace physvib

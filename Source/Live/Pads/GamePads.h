@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists and opens game controllers through SDL.
+// Lists and opens game controllers through SDL, which is loaded at run time.
 #pragma once
 #include <SDL2/SDL.h>
 #include <array>
@@ -24,7 +24,7 @@ struct GamePadInfo {
 /// "usb", "bluetooth", "other".
 const char* busName(PadBus bus) noexcept;
 /// Maximum rate for that connection; faster commands queue up and are felt late (Docs/pads.md).
-double mostCommandsPerSecond(PadBus bus) noexcept;
+double maxCommandsPerSecond(PadBus bus) noexcept;
 
 /// A command ends after this time and must be repeated before, so motors stop even if the program is killed.
 constexpr std::chrono::milliseconds padTimeOut{200};
@@ -35,7 +35,7 @@ public:
     virtual ~GamePad() = default;
     virtual const GamePadInfo& info() const noexcept = 0;
     virtual bool isAttached() = 0;
-    /// Sets both motors, 0 to 1, for at most padTimeOut; false: the controller refused.
+    /// Sets the heavy (`low`) and the light motor, 0 to 1, for at most padTimeOut; false: it failed.
     virtual bool rumble(double low, double high) = 0;
     /// Reads the acceleration in m/s^2; false: not available.
     virtual bool acceleration(std::array<float, 3>& metresPerSecond2) = 0;
@@ -55,7 +55,7 @@ public:
     GamePads& operator=(const GamePads&) = delete;
 
     /// Empty, or one line why controllers are not available.
-    const std::string& fault() const noexcept { return fault_; }
+    const std::string& error() const noexcept { return error_; }
     /// Detects connected and disconnected controllers, and ends commands that have timed out. Call often.
     void update();
     /// All controllers; capabilities are known only once one is open.
@@ -65,11 +65,11 @@ public:
     std::unique_ptr<GamePad> open(const std::string& name);
 
 private:
-    std::string fault_;
+    std::string error_;
     const struct SdlLibrary* sdl_ = nullptr;
 };
 
-/// As a name: the first free controller.
+/// The name that stands for the first free controller.
 inline constexpr const char* anyPad = "auto";
 
 // Loads SDL at run time, when a controller is first needed. Programs without controllers neither load SDL and
@@ -93,8 +93,8 @@ struct SdlLibrary {
 #undef PHYSVIB_SDL_MEMBER
 };
 
-/// Loads SDL at the first call, for the life of the process. Null if SDL is missing or too old; `fault` then
+/// Loads SDL at the first call, for the life of the process. Null if SDL is missing or too old; `error` then
 /// has one line. Any thread.
-const SdlLibrary* sdlLibrary(std::string& fault);
+const SdlLibrary* sdlLibrary(std::string& error);
 
 } // namespace physvib

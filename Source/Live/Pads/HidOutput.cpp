@@ -13,8 +13,8 @@ namespace physvib {
 
 namespace {
 
-std::mutex openedMutex;
-std::set<std::filesystem::path> opened; // nodes opened by this process; guarded by openedMutex
+std::mutex openNodesMutex;
+std::set<std::filesystem::path> openNodes; // nodes opened by this process; guarded by openNodesMutex
 
 /// "HID_ID=0005:0000054C:00000CE6": bus, vendor, product.
 bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bus) {
@@ -28,8 +28,8 @@ bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bu
 }
 
 constexpr std::int64_t msNs = 1'000'000;
-constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
-constexpr std::int64_t patienceNs = 500 * msNs;
+constexpr std::int64_t searchIntervalNs = 250 * msNs; // search interval for a newly connected controller
+constexpr std::int64_t timeOutNs = 500 * msNs;
 
 } // namespace
 
@@ -39,11 +39,11 @@ HidFolders HidFolders::ofSystem() {
     return {};
 }
 
-std::vector<HidPlace> HidDevice::list(std::span<const HidModel> models, const HidFolders& folders) {
-    std::vector<HidPlace> found;
+std::vector<HidNode> HidDevice::list(std::span<const HidModel> models, const HidFolders& folders) {
+    std::vector<HidNode> found;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator{folders.classes, ignored}) {
-        HidPlace place{folders.nodes / entry.path().filename(), {}, {}};
+        HidNode place{folders.nodes / entry.path().filename(), {}, {}};
         std::ifstream file{entry.path() / "device" / "uevent"};
         bool isModel = false;
         for (std::string line; std::getline(file, line);) {
@@ -55,59 +55,59 @@ std::vector<HidPlace> HidDevice::list(std::span<const HidModel> models, const Hi
         }
         if (isModel) found.push_back(std::move(place));
     }
-    std::ranges::sort(found, {}, &HidPlace::node);
+    std::ranges::sort(found, {}, &HidNode::path);
     return found;
 }
 
 Result<std::unique_ptr<HidDevice>> HidDevice::open(std::span<const HidModel> models, const std::string& where,
                                                    const HidFolders& folders) {
-    std::string refused;
-    const std::lock_guard lock{openedMutex};
-    for (HidPlace& place : list(models, folders)) {
-        const std::string node = place.node.string();
+    std::string openError;
+    const std::lock_guard lock{openNodesMutex};
+    for (HidNode& place : list(models, folders)) {
+        const std::string node = place.path.string();
         if (where != anyPad && lowerCase(place.name + " " + node).find(lowerCase(where)) == std::string::npos)
             continue;
-        if (opened.contains(place.node)) continue;
+        if (openNodes.contains(place.path)) continue;
         if (std::FILE* const file = std::fopen(node.c_str(), "r+b")) {
             std::setvbuf(file, nullptr, _IONBF, 0);
-            opened.insert(place.node);
+            openNodes.insert(place.path);
             return std::unique_ptr<HidDevice>{new HidDevice{std::move(place), file}};
         }
         const bool isForbidden = errno == EACCES || errno == EPERM;
-        refused = place.name +
-                  (isForbidden ? ": this user may not write to " + node +
-                                     "; install PhysVib's rule for udev and connect it again (Docs/pads.md)"
-                               : ": " + node + " cannot be opened");
+        openError = place.name +
+                    (isForbidden ? ": this user may not write to " + node +
+                                       "; install PhysVib's rule for udev and connect it again (Docs/pads.md)"
+                                 : ": " + node + " cannot be opened");
     }
-    return Failure{refused.empty() ? "none is there" : refused};
+    return Failure{openError.empty() ? "none is there" : openError};
 }
 
 HidDevice::~HidDevice() {
     std::fclose(file_);
-    const std::lock_guard lock{openedMutex};
-    opened.erase(place_.node);
+    const std::lock_guard lock{openNodesMutex};
+    openNodes.erase(place_.path);
 }
 
 bool HidDevice::write(std::span<const std::uint8_t> report) {
     std::error_code ignored;
-    return std::filesystem::exists(place_.node, ignored) &&
+    return std::filesystem::exists(place_.path, ignored) &&
            std::fwrite(report.data(), 1, report.size(), file_) == report.size();
 }
 
 HidOutput::HidOutput(const std::string& where, std::unique_ptr<HidFeed> feed)
-    : where_{where.empty() ? anyPad : where}
+    : nameFilter_{where.empty() ? anyPad : where}
     , feed_{std::move(feed)}
     , thread_{[this] { run(); }} {}
 
 HidOutput::~HidOutput() {
     follow(nullptr);
-    stop_ = true;
+    isStopping_ = true;
     thread_.join();
 }
 
 std::string HidOutput::awaitReady(const std::function<bool()>& keepGoing) {
     return device_.await(
-        patienceNs, keepGoing, [this] { return !node_.empty(); }, [this] { return troubleNow(); });
+        timeOutNs, keepGoing, [this] { return !node_.empty(); }, [this] { return currentError(); });
 }
 
 void HidOutput::follow(OutputClock* device) {
@@ -116,31 +116,31 @@ void HidOutput::follow(OutputClock* device) {
 }
 
 void HidOutput::run() {
-    for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
+    for (; !isStopping_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
         connect();
-        device_.beginAnew([this] { rest(); }, [this] { feed_->begin(); });
-        if (const auto report = due(steadyNs())) write(*report);
+        device_.restartIfChanged([this] { stopOutput(); }, [this] { feed_->begin(); });
+        if (const auto report = dueReport(steadyNs())) write(*report);
     }
-    rest();
+    stopOutput();
 }
 
 void HidOutput::connect() {
     const std::int64_t nowNs = steadyNs();
-    if (pad_ || nowNs < looksNs_) return;
-    looksNs_ = nowNs + lookNs;
-    auto found = HidDevice::open(feed_->kind().models, where_);
+    if (pad_ || nowNs < nextSearchNs_) return;
+    nextSearchNs_ = nowNs + searchIntervalNs;
+    auto found = HidDevice::open(feed_->kind().models, nameFilter_);
     const std::lock_guard lock{device_.mutex};
-    refusal_ = found.error;
+    openError_ = found.error;
     if (!found) return;
     pad_ = std::move(found.value);
-    hasSent_ = false;
-    node_ = pad_->place().node.string();
+    hasStartedOutput_ = false;
+    node_ = pad_->place().path.string();
     lastName_ = pad_->place().name;
     leadSeconds_ = feed_->leadSeconds();
     ++counts_.connections;
 }
 
-std::optional<PadReport> HidOutput::due(std::int64_t nowNs) {
+std::optional<PadReport> HidOutput::dueReport(std::int64_t nowNs) {
     const std::lock_guard lock{device_.mutex};
     const auto sessionNs = device_.sessionNs(nowNs, [this] { feed_->begin(); });
     return sessionNs ? feed_->next(nowNs, *sessionNs, device_.level()) : std::nullopt;
@@ -148,8 +148,8 @@ std::optional<PadReport> HidOutput::due(std::int64_t nowNs) {
 
 void HidOutput::write(const PadReport& report) {
     if (!pad_) return;
-    if (!hasSent_) sendAll(feed_->on());
-    hasSent_ = true;
+    if (!hasStartedOutput_) sendAll(feed_->startReports());
+    hasStartedOutput_ = true;
     if (!send(report)) return;
     const std::lock_guard lock{device_.mutex};
     ++counts_.reports;
@@ -171,21 +171,21 @@ void HidOutput::sendAll(std::span<const PadReport> reports) {
     }
 }
 
-void HidOutput::rest() {
-    if (!pad_ || !hasSent_) return;
-    for (int i = 0; i < silentReports && send(feed_->rest()); ++i)
+void HidOutput::stopOutput() {
+    if (!pad_ || !hasStartedOutput_) return;
+    for (int i = 0; i < silentReportCount && send(feed_->silentReport()); ++i)
         std::this_thread::sleep_for(std::chrono::duration<double>{switchSeconds});
-    sendAll(feed_->off());
-    hasSent_ = false;
+    sendAll(feed_->endReports());
+    hasStartedOutput_ = false;
 }
 
-std::string HidOutput::troubleNow() const {
+std::string HidOutput::currentError() const {
     if (!node_.empty()) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
-    if (refusal_ == "none is there")
-        return where_ == anyPad ? "no " + label() + " is there"
-                                : "no " + label() + " is called " + inQuotes(where_);
-    return refusal_;
+    if (openError_ == "none is there")
+        return nameFilter_ == anyPad ? "no " + kindName() + " is there"
+                                     : "no " + kindName() + " is called " + inQuotes(nameFilter_);
+    return openError_;
 }
 
 HidCounts HidOutput::counts() const {
@@ -201,18 +201,18 @@ SinkState HidOutput::state() const {
     state.sent = counts_.reports;
     state.lost = feed_->lost();
     state.playsClips = feed_->playsClips();
-    state.trouble = troubleNow();
-    state.where = state.isReady ? label() + ", " + node_ + ": up to " +
-                                      fixedNumber(1e3 * feed_->laterSeconds(), 0) + " ms after the device"
-                                : state.trouble;
-    state.facts = {{"Controller", state.where, !state.isReady},
-                   {"Reports", std::to_string(counts_.reports), false}};
+    state.error = currentError();
+    state.where = state.isReady ? kindName() + ", " + node_ + ": up to " +
+                                      fixedNumber(1e3 * feed_->maxDelaySeconds(), 0) + " ms after the device"
+                                : state.error;
+    state.details = {{"Controller", state.where, !state.isReady},
+                     {"Reports", std::to_string(counts_.reports), false}};
     return state;
 }
 
 std::string HidOutput::summary(const std::function<bool()>&) const {
     const std::lock_guard lock{device_.mutex};
-    std::string line = (lastName_.empty() ? label() : lastName_) + ": " + std::to_string(counts_.reports) +
+    std::string line = (lastName_.empty() ? kindName() : lastName_) + ": " + std::to_string(counts_.reports) +
                        " reports, " + std::to_string(feed_->lost()) + " lost";
     if (counts_.connections > 1) line += "; connected " + std::to_string(counts_.connections) + " times";
     return line + "\n";

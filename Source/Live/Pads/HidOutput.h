@@ -29,14 +29,14 @@ struct HidModel {
     PadBus bus; ///< other: any
 };
 
-struct HidPlace {
-    std::filesystem::path node; ///< "/dev/hidraw3"
+struct HidNode {
+    std::filesystem::path path; ///< "/dev/hidraw3"
     std::string name;           ///< as the controller reports it
     PadBus bus = PadBus::other;
 };
 
-/// Where the system lists such devices. PHYSVIB_HIDRAW=FOLDER replaces both by FOLDER/class and FOLDER/dev,
-/// for tests.
+/// The folders in which the system lists such devices. For tests, PHYSVIB_HIDRAW=FOLDER replaces both by
+/// FOLDER/class and FOLDER/dev.
 struct HidFolders {
     std::filesystem::path classes = "/sys/class/hidraw", nodes = "/dev";
     static HidFolders ofSystem();
@@ -47,8 +47,8 @@ class HidDevice {
 public:
     /// Connected controllers of these models, sorted by node. Empty where the system has no such list. Any
     /// thread but the render thread (R), as all functions here.
-    static std::vector<HidPlace> list(std::span<const HidModel> models,
-                                      const HidFolders& folders = HidFolders::ofSystem());
+    static std::vector<HidNode> list(std::span<const HidModel> models,
+                                     const HidFolders& folders = HidFolders::ofSystem());
 
     /// Opens the first one whose name or node contains `where` (ignoring case; anyPad: any) and that this
     /// process has not opened. An error if there is none, or this user may not write to it.
@@ -58,19 +58,19 @@ public:
     HidDevice(const HidDevice&) = delete;
     HidDevice& operator=(const HidDevice&) = delete;
 
-    const HidPlace& place() const noexcept { return place_; }
+    const HidNode& place() const noexcept { return place_; }
     /// Sends one whole report, its number first; may wait for the system. False: the controller has gone.
     bool write(std::span<const std::uint8_t> report);
 
 private:
-    HidDevice(HidPlace place, std::FILE* file)
+    HidDevice(HidNode place, std::FILE* file)
         : place_{std::move(place)}
         , file_{file} {}
-    HidPlace place_;
+    HidNode place_;
     std::FILE* file_;
 };
 
-// What a controller's reports are made of: samples of the session, or its events as tones.
+// Sources of reports: a session's samples, or its events as tones.
 
 /// Which controllers a feed is for, and how they are called.
 struct HidFeedKind {
@@ -78,34 +78,34 @@ struct HidFeedKind {
     std::string_view name; ///< "DualSense by Bluetooth"
 };
 
-inline constexpr int silentReports = 5; ///< as Linux' own driver sends to a Switch's controller
+inline constexpr int silentReportCount = 5; ///< as Linux' own driver sends to a Switch's controller
 
-/// Makes reports. Methods without a remark run on the controller's thread.
+/// Makes the reports of one controller. Methods without a remark run on the controller's thread.
 class HidFeed {
 public:
     virtual ~HidFeed() = default;
     virtual const HidFeedKind& kind() const noexcept = 0;
 
     /// Render thread (R), wait-free.
-    virtual void rendered(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
-    /// As for Sink: the thread that holds the world mutex, wait-free; the input mutex.
-    virtual void made(const CollisionEvent&) noexcept {}
-    virtual void posted(const RenderControl&) noexcept {}
+    virtual void onBlock(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
+    /// As in Sink: wait-free, on the threads that hold the world mutex and the input mutex.
+    virtual void onCollision(const CollisionEvent&) noexcept {}
+    virtual void onControl(const RenderControl&) noexcept {}
 
     /// A session begins, or time has gone back: what was fed before is discarded.
     virtual void begin() = 0;
     /// Reports that a controller needs before the first and after the last one, switchSeconds apart.
-    virtual std::span<const PadReport> on() const noexcept { return {}; }
-    virtual std::span<const PadReport> off() const noexcept { return {}; }
+    virtual std::span<const PadReport> startReports() const noexcept { return {}; }
+    virtual std::span<const PadReport> endReports() const noexcept { return {}; }
     /// The report that is due at that steady time, if one is. `sessionNs`: what is felt now on the device;
     /// `level`: the master level, 0: silent within this report.
     virtual std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) = 0;
-    /// A report of silence. It is sent `silentReports` times, because radio may lose one.
-    virtual PadReport rest() = 0;
+    /// A report of silence. It is sent `silentReportCount` times, because radio may lose one.
+    virtual PadReport silentReport() = 0;
     virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
     virtual bool playsClips() const noexcept { return true; }   ///< as SinkState
     virtual double leadSeconds() const noexcept { return 0.0; } ///< as Sink::latencySeconds
-    virtual double laterSeconds() const noexcept = 0;           ///< longest delay of a write after the device
+    virtual double maxDelaySeconds() const noexcept = 0;        ///< longest delay of a report
 };
 
 /// Counts of what was sent, for display and tests.
@@ -113,8 +113,8 @@ struct HidCounts {
     std::uint64_t reports = 0, connections = 0;
 };
 
-/// Its own thread owns the controller and writes to it without a lock, as the system may hold a write for
-/// seconds. M waits for that thread in the destructor, and for its silence, a moment at most, in follow().
+/// A thread of its own owns the controller and writes to it without a lock, as a write may take seconds.
+/// The message thread (M) waits for it in the destructor, and at most 250 ms for its silence in follow().
 class HidOutput final : public Sink {
 public:
     /// `where`: anyPad, or part of a controller's name or node. M.
@@ -122,13 +122,11 @@ public:
     ~HidOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
-    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until one is there
+    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until it connects
     void follow(OutputClock* device) override;
-    void made(const CollisionEvent& event) noexcept override { feed_->made(event); }
-    void posted(const RenderControl& control) noexcept override { feed_->posted(control); }
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
-        feed_->rendered(block);
-    }
+    void onCollision(const CollisionEvent& event) noexcept override { feed_->onCollision(event); }
+    void onControl(const RenderControl& control) noexcept override { feed_->onControl(control); }
+    void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override { feed_->onBlock(block); }
     SinkState state() const override;
     std::string summary(const std::function<bool()>& keepGoing) const override;
 
@@ -137,28 +135,28 @@ public:
 private:
     void run();
     void connect();
-    std::optional<PadReport> due(std::int64_t nowNs);
+    std::optional<PadReport> dueReport(std::int64_t nowNs);
     void write(const PadReport& report);
     bool send(const PadReport& report);
     void sendAll(std::span<const PadReport> reports);
-    void rest();
-    std::string label() const { return std::string{feed_->kind().name}; }
-    std::string troubleNow() const;
+    void stopOutput();
+    std::string kindName() const { return std::string{feed_->kind().name}; }
+    std::string currentError() const;
 
-    const std::string where_;
+    const std::string nameFilter_;
     const std::unique_ptr<HidFeed> feed_;
 
     std::unique_ptr<HidDevice> pad_; // used by the thread alone, as the next two lines
-    std::int64_t looksNs_ = 0;       // steady clock
-    bool hasSent_ = false;           // since it was switched on
+    std::int64_t nextSearchNs_ = 0;  // steady clock
+    bool hasStartedOutput_ = false;  // a report has been sent since the output started
 
     FollowedDevice device_; // its mutex guards the members below, used by the thread and M
-    std::string node_;      // of the controller; empty: there is none
-    std::string lastName_, refusal_{"none is there"};
+    std::string node_;      // node of the controller; empty: none is open
+    std::string lastName_, openError_{"none is there"};
     HidCounts counts_;
 
     std::atomic<double> leadSeconds_{0.0};
-    std::atomic<bool> stop_{false};
+    std::atomic<bool> isStopping_{false};
     std::thread thread_; // last: it uses the other members
 };
 

@@ -22,13 +22,13 @@ namespace physvib {
 /// Counts of what was sent to a controller, for display and tests.
 struct PadCounts {
     std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: sent again before the time-out
-    std::uint64_t late = 0;    ///< commands sent as part of a later one: of several, the strongest is
-    std::uint64_t refused = 0; ///< by the controller
+    std::uint64_t late = 0;    ///< commands not sent, because a stronger one was due as well
+    std::uint64_t refused = 0; ///< commands that the controller refused
     std::uint64_t connections = 0;
 };
 
-/// Its own thread talks to the controller, without a lock, as SDL may hold a call for seconds. M waits for
-/// that thread in the destructor, and for its rest, a moment at most, in follow().
+/// A thread of its own calls SDL without a lock, because a call may take seconds. The message thread (M)
+/// waits for it in the destructor, and at most 250 ms for its output to stop in follow().
 class PadOutput final : public Sink {
 public:
     /// `where`: a controller name or anyPad; optionally followed by "@" and the name or file of a profile,
@@ -37,10 +37,10 @@ public:
     ~PadOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
-    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until one is there
+    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until it connects
     void follow(OutputClock* device) override;
-    void made(const CollisionEvent& event) noexcept override { events_.push(event); }
-    void posted(const RenderControl& control) noexcept override { controls_.push(control); }
+    void onCollision(const CollisionEvent& event) noexcept override { events_.push(event); }
+    void onControl(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
     std::string summary(const std::function<bool()>& keepGoing) const override;
 
@@ -49,38 +49,38 @@ public:
 private:
     void run();
     void connect(GamePads& pads);
-    std::optional<PadCommand> due(std::int64_t nowNs);
-    void takeControls(std::int64_t sessionNs);
-    void takeEvents();
-    std::optional<PadCommand> command(std::int64_t sessionNs, std::int64_t nowNs);
+    std::optional<PadCommand> dueCommand(std::int64_t nowNs);
+    void processControls(std::int64_t sessionNs);
+    void processEvents();
+    std::optional<PadCommand> nextCommand(std::int64_t sessionNs, std::int64_t nowNs);
     void send(const PadCommand& command);
     void begin();
-    std::string troubleNow() const;
+    std::string currentError() const;
 
-    std::string name_;
+    std::string wantedName_;
     bool isProfileGiven_ = false;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 
     std::unique_ptr<GamePad> pad_; // used by the thread alone, as the next two lines
-    PadCommand sent_, wanted_;
-    std::int64_t sentNs_ = 0, looksNs_ = 0; // steady clock
-    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several commands stays; then wanted_
+    PadCommand sentCommand_, latestCommand_;
+    std::int64_t sentNs_ = 0, nextSearchNs_ = 0; // steady clock
+    std::int64_t strongestUntilNs_ = 0;          // time until which the strongest command stays
 
     FollowedDevice device_; // its mutex guards the members below, used by the thread and M
     PadProfile profile_;
-    std::string fault_; // a permanent error: nothing can be played
-    std::optional<GamePadInfo> there_;
+    std::string error_; // a permanent error: nothing can be played
+    std::optional<GamePadInfo> connectedPad_;
     std::string lastName_; // of the last controller
     PadMotors motors_{PadLaw{}};
-    const PhantomPanner first_; // the session's first panner
-    PhantomPanner grips_;
-    std::vector<PannerChange> layouts_; // panners and stops that wait for their time
+    const PhantomPanner initialPanner_; // the session's first panner
+    PhantomPanner gripPanner_;
+    std::vector<PannerChange> pendingPanners_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;
     PadCounts counts_;
 
-    std::atomic<bool> stop_{false};
+    std::atomic<bool> isStopping_{false};
     std::thread thread_; // last: it uses the other members
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Byte formats of vibration reports for controllers with coils. Not tried on hardware; Docs/pads.md has the
-// sources.
+// Byte formats of vibration reports for DualSense, Steam and Switch controllers, not tried on hardware;
+// Docs/pads.md has the sources.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include <array>
@@ -25,7 +25,7 @@ using CoilFrame = std::array<float, 2>;
 /// Format in which a controller receives samples.
 struct CoilFormat {
     int rateHz; ///< of its frames
-    int frames; ///< of one report
+    int frames; ///< number in one report
     /// Frames as a report, `number` counts reports from 0. Any thread.
     PadReport (*encode)(std::span<const CoilFrame> frames, std::uint32_t number) noexcept;
     /// Reports that switch samples on or off, in order, `switchSeconds` apart; empty: none needed.

@@ -8,10 +8,10 @@ namespace physvib {
 namespace {
 
 constexpr double onSeconds = 0.75, restSeconds = 0.75, repeatSeconds = 0.1;
-constexpr double steadyFrom = 0.4;     // of a step, in seconds; motors need 0.2 s
+constexpr double steadyFrom = 0.4;     // s after a step's begin; motors need 0.2 s
 constexpr double windowSeconds = 0.04; // a few revolutions of the heavy motor
-constexpr double leastShare = 0.08;    // of the strongest; below it the motor is not turning
-constexpr double leastRatio = 4.0;     // strongest to rest; below it nothing moved
+constexpr double minShare = 0.08;      // of the largest strength; below it the motor does not turn
+constexpr double minPeakRatio = 4.0;   // largest strength to that at rest; below it nothing moved
 
 /// Variance summed over the axes, within [from, to); 0 for fewer than three samples.
 double variance(const PadStep& step, double from, double to) {
@@ -20,9 +20,9 @@ double variance(const PadStep& step, double from, double to) {
         double n = 0.0, mean = 0.0, squares = 0.0;
         for (const PadStep::Sample& sample : step.samples) {
             if (sample.seconds < from || sample.seconds >= to) continue;
-            const double value = static_cast<double>(sample.metresPerSecond2[axis]), before = value - mean;
-            mean += before / ++n;
-            squares += before * (value - mean);
+            const double value = static_cast<double>(sample.metresPerSecond2[axis]), deviation = value - mean;
+            mean += deviation / ++n;
+            squares += deviation * (value - mean);
         }
         if (n >= 3.0) sum += squares / n;
     }
@@ -44,19 +44,19 @@ double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
 
 } // namespace
 
-bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialTime& time) {
-    const double end = time.seconds() + seconds;
-    for (double next = 0.0; time.keepGoing() && pad.isAttached(); time.tick()) {
-        if (time.seconds() >= end) return true;
-        if (time.seconds() < next) continue;
+bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialClock& clock) {
+    const double end = clock.seconds() + seconds;
+    for (double next = 0.0; clock.keepGoing() && pad.isAttached(); clock.tick()) {
+        if (clock.seconds() >= end) return true;
+        if (clock.seconds() < next) continue;
         pad.rumble(low, high);
-        next = time.seconds() + repeatSeconds;
+        next = clock.seconds() + repeatSeconds;
     }
     pad.rumble(0.0, 0.0);
     return false;
 }
 
-Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialTime& time) {
+Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialClock& clock) {
     std::vector<PadStep> steps;
     std::array<float, 3> now{}, before{};
     if (!pad.acceleration(now))
@@ -67,17 +67,18 @@ Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTr
         PadStep& step = steps.emplace_back();
         step.command = tenth / 10.0;
         step.onSeconds = onSeconds;
-        const double begin = time.seconds();
-        PadTrialTime listening = time;
-        listening.tick = [&] {
-            time.tick();
+        const double begin = clock.seconds();
+        PadTrialClock sampling = clock;
+        sampling.tick = [&] {
+            clock.tick();
             // each sensor report counts once
-            if (pad.acceleration(now) && now != before) step.samples.push_back({time.seconds() - begin, now});
+            if (pad.acceleration(now) && now != before)
+                step.samples.push_back({clock.seconds() - begin, now});
             before = now;
         };
         const bool isWhole = holdMotors(pad, isHeavy ? step.command : 0.0, isHeavy ? 0.0 : step.command,
-                                        onSeconds, listening) &&
-                             holdMotors(pad, 0.0, 0.0, restSeconds, listening);
+                                        onSeconds, sampling) &&
+                             holdMotors(pad, 0.0, 0.0, restSeconds, sampling);
         if (!isWhole)
             return Failure{pad.isAttached() ? "ended before it was measured" : pad.info().name + " is gone"};
     }
@@ -86,36 +87,36 @@ Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTr
 
 Result<PadMotor> fitMotor(const std::vector<PadStep>& steps) {
     if (steps.size() < 3) return Failure{"expected at least three steps"};
-    double rest = INFINITY;
+    double noise = INFINITY;
     for (const PadStep& step : steps)
-        rest =
-            std::min(rest, variance(step, step.onSeconds + 0.6 * restSeconds, step.onSeconds + restSeconds));
-    const auto strength = [rest](const PadStep& step, double from, double to) {
-        return std::sqrt(std::max(0.0, variance(step, from, to) - rest));
+        noise =
+            std::min(noise, variance(step, step.onSeconds + 0.6 * restSeconds, step.onSeconds + restSeconds));
+    const auto strength = [noise](const PadStep& step, double from, double to) {
+        return std::sqrt(std::max(0.0, variance(step, from, to) - noise));
     };
     std::vector<double> strengths;
     for (const PadStep& step : steps)
         strengths.push_back(
             std::max(strengths.empty() ? 0.0 : strengths.back(), strength(step, steadyFrom, step.onSeconds)));
-    const double most = strengths.back();
-    if (!(most * most > leastRatio * leastRatio * rest) || !(most > 0.0))
+    const double peak = strengths.back();
+    if (!(peak * peak > minPeakRatio * minPeakRatio * noise) || !(peak > 0.0))
         return Failure{"nothing moved: is the controller lying on something soft?"};
     PadMotor motor;
-    const auto turns = std::ranges::find_if(strengths, [&](double s) { return s >= leastShare * most; });
+    const auto turns = std::ranges::find_if(strengths, [&](double s) { return s >= minShare * peak; });
     const auto first = static_cast<std::size_t>(turns - strengths.begin());
     motor.threshold = first == 0 ? 0.0 : rounded(0.5 * (steps[first - 1].command + steps[first].command));
-    motor.half = std::clamp(rounded(commandAt(0.5 * most, steps, strengths)), motor.threshold + 0.01, 0.98);
-    motor.full = std::clamp(rounded(commandAt(0.98 * most, steps, strengths)), motor.half + 0.01, 1.0);
-    const PadStep& whole = steps.back();
-    const auto passes = [&](double from, auto isThere) {
-        for (double at = from; at < whole.onSeconds + restSeconds - windowSeconds; at += 0.002)
-            if (isThere(strength(whole, at - 0.5 * windowSeconds, at + 0.5 * windowSeconds)))
-                return at - from;
+    motor.half = std::clamp(rounded(commandAt(0.5 * peak, steps, strengths)), motor.threshold + 0.01, 0.98);
+    motor.full = std::clamp(rounded(commandAt(0.98 * peak, steps, strengths)), motor.half + 0.01, 1.0);
+    const PadStep& fullStep = steps.back();
+    const auto secondsTo = [&](double from, auto isReached) {
+        for (double t = from; t < fullStep.onSeconds + restSeconds - windowSeconds; t += 0.002)
+            if (isReached(strength(fullStep, t - 0.5 * windowSeconds, t + 0.5 * windowSeconds)))
+                return t - from;
         return restSeconds;
     };
-    motor.riseSeconds = std::max(0.005, rounded(passes(0.0, [&](double s) { return s >= 0.9 * most; })));
+    motor.riseSeconds = std::max(0.005, rounded(secondsTo(0.0, [&](double s) { return s >= 0.9 * peak; })));
     motor.fallSeconds =
-        std::max(0.005, rounded(passes(whole.onSeconds, [&](double s) { return s <= 0.1 * most; })));
+        std::max(0.005, rounded(secondsTo(fullStep.onSeconds, [&](double s) { return s <= 0.1 * peak; })));
     return motor;
 }
 

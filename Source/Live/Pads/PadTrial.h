@@ -11,7 +11,7 @@
 namespace physvib {
 
 /// Clock of a trial: real, or simulated by a test.
-struct PadTrialTime {
+struct PadTrialClock {
     std::function<double()> seconds; ///< any starting point
     std::function<void()> tick;      ///< waits about 1 ms and polls controllers
     std::function<bool()> keepGoing; ///< false: the trial ends and the motors stop
@@ -30,13 +30,13 @@ struct PadStep {
 
 /// Steps one motor from 0.1 to 1 with rests between: 15 s. One line if the controller has no accelerometer,
 /// is disconnected, or the trial is ended. The caller's thread.
-Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialTime& time);
+Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialClock& clock);
 
 /// Fits threshold, half and full command, rise and fall time to such steps; one line if nothing moved, or
 /// strength does not grow with the command. Any thread.
 Result<PadMotor> fitMotor(const std::vector<PadStep>& steps);
 
 /// Holds both commands for that time, repeated as needed; false: ended early.
-bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialTime& time);
+bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialClock& clock);
 
 } // namespace physvib

@@ -18,15 +18,15 @@ public:
     ToneFeed(const HidFeedKind& kind, const PhantomPanner& panner);
 
     const HidFeedKind& kind() const noexcept override { return kind_; }
-    void made(const CollisionEvent& event) noexcept override { events_.push(event); }
-    void posted(const RenderControl& control) noexcept override { controls_.push(control); }
+    void onCollision(const CollisionEvent& event) noexcept override { events_.push(event); }
+    void onControl(const RenderControl& control) noexcept override { controls_.push(control); }
     void begin() override;
     std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
-    PadReport rest() override;
+    PadReport silentReport() override;
     std::uint64_t lost() const noexcept override { return events_.overflows() + controls_.overflows(); }
     bool playsClips() const noexcept override { return false; }
     double leadSeconds() const noexcept override { return 1e-9 * static_cast<double>(reportNs); }
-    double laterSeconds() const noexcept override { return 0.0; }
+    double maxDelaySeconds() const noexcept override { return 0.0; }
 
     /// A decaying sinusoid's share in a report: its frequency, and the mean square of its amplitude.
     struct Partial {
@@ -34,27 +34,27 @@ public:
     };
     /// The two tones that fit the partials best: these are divided where both parts are nearest to playable
     /// tones, and each tone has its part's energy and mean pitch. Total energy is at most 1. Any thread.
-    static TonePair fitted(std::vector<Partial> partials);
+    static TonePair fitTones(std::vector<Partial> partials);
 
 private:
     struct Voice {
         CollisionEvent event;
         std::array<double, 2> gains; // left, right
     };
-    void takeAll();
+    void processQueues();
     TonePair tonesOf(std::size_t side, std::int64_t fromNs, double level) const;
 
     const HidFeedKind& kind_;
-    const PhantomPanner first_; // the session's first panner
-    PhantomPanner grips_;
+    const PhantomPanner initialPanner_; // the session's first panner
+    PhantomPanner gripPanner_;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
-    std::vector<PannerChange> layouts_; // panners and stops that wait for their time
+    std::vector<PannerChange> pendingPanners_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;
     std::vector<Voice> voices_;
-    std::int64_t dueNs_ = INT64_MIN / 2; // steady time of the next report
-    int silent_ = silentReports;         // reports of silence since the last tone
-    std::uint32_t number_ = 0;
+    std::int64_t dueNs_ = INT64_MIN / 2;    // steady time of the next report
+    int silentReports_ = silentReportCount; // reports of silence since the last tone
+    std::uint32_t reportNumber_ = 0;
 };
 
 } // namespace physvib

@@ -17,33 +17,33 @@ namespace {
 constexpr double maxWavBytes = 500e6; // the file is written while the user waits for a drag to start
 
 /// Replaces each moving event by a series of stationary ones, as the board does: other formats have none.
-std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events) {
-    std::vector<CollisionEvent> still;
+std::vector<CollisionEvent> stationaryEvents(std::span<const CollisionEvent> events) {
+    std::vector<CollisionEvent> stationary;
     for (const CollisionEvent& event : events) {
         if (event.course.travelNs == 0)
-            still.push_back(event);
+            stationary.push_back(event);
         else
-            for (BoardSteps steps{event}; !steps.isOver();) still.push_back(steps.take());
+            for (BoardSteps steps{event}; !steps.isOver();) stationary.push_back(steps.next());
     }
-    std::ranges::stable_sort(still, {}, &CollisionEvent::timeNs);
-    return still;
+    std::ranges::stable_sort(stationary, {}, &CollisionEvent::timeNs);
+    return stationary;
 }
 
 /// Data of an actuator's profile; without one ("none"), only its full scale.
-Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& enchanter) {
+Result<ClipDevice> deviceOf(const HitExport& hits, const ActuatorDescription& enchanter) {
     const ClipDevice device{0.0, 0.0, 0.0, enchanter.fullScaleG};
     const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
     if (name == "none") return device;
     const auto profile = findActuator(name);
     if (!profile) return Failure{hits.layoutName + ": actuator " + enchanter.label + ": " + profile.error};
-    const FrequencyBand band = profile.value.bandOrNone();
+    const FrequencyBand band = profile.value.bandOrUnknown();
     return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), enchanter.fullScaleG};
 }
 
 /// The band of the channel's actuator, if known.
-FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& usual) {
+FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& defaultScale) {
     const ClipDevice& device = clip.channels.front().device;
-    return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : usual;
+    return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : defaultScale;
 }
 
 std::string summary(const ClipPart& part, std::size_t bytes) {
@@ -53,7 +53,7 @@ std::string summary(const ClipPart& part, std::size_t bytes) {
 }
 
 /// Time until the last event has decayed.
-double secondsOf(std::span<const CollisionEvent> events, int rate) {
+double durationSeconds(std::span<const CollisionEvent> events, int rate) {
     double end = 0.0;
     for (const CollisionEvent& event : events) {
         const auto life =
@@ -66,70 +66,70 @@ double secondsOf(std::span<const CollisionEvent> events, int rate) {
 
 } // namespace
 
-Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn) {
-    if (const std::size_t found = hits.events.size(); found > limits::maxClipStrikes)
-        return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipStrikes) +
+Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings) {
+    if (const std::size_t found = hits.events.size(); found > limits::maxClipEvents)
+        return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipEvents) +
                        " hits, found " + std::to_string(found)};
-    Clip clip = clipOfStrikes(stillStrikes(hits.events), drawn);
+    Clip clip = clipFromEvents(stationaryEvents(hits.events), settings);
     clip.title = hits.title;
     clip.extentWidthMetres = hits.layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = hits.layout.geometry.extentHeightMetres;
-    for (std::size_t j = 0; j < std::min(clip.channels.size(), hits.layout.enchanters.size()); ++j) {
-        const auto device = deviceOf(hits, hits.layout.enchanters[j]);
+    for (std::size_t j = 0; j < std::min(clip.channels.size(), hits.layout.actuators.size()); ++j) {
+        const auto device = deviceOf(hits, hits.layout.actuators[j]);
         if (!device) return Failure{device.error};
-        clip.channels[j].label = hits.layout.enchanters[j].label;
+        clip.channels[j].label = hits.layout.actuators[j].label;
         clip.channels[j].place = hits.layout.geometry.places[j];
         clip.channels[j].device = device.value;
     }
-    if (auto fault = clipFault(clip); !fault.empty()) return Failure{hits.source + ": " + fault};
+    if (auto error = clipError(clip); !error.empty()) return Failure{hits.source + ": " + error};
     return clip;
 }
 
-std::vector<ClipPart> partsOf(const Clip& clip, const std::string& to, ClipFormat format) {
-    if (!isMono(format) || clip.channels.size() == 1) return {{to, clip}};
+std::vector<ClipPart> partsOf(const Clip& clip, const std::string& targetPath, ClipFormat format) {
+    if (!isMono(format) || clip.channels.size() == 1) return {{targetPath, clip}};
     std::vector<ClipPart> parts;
-    const std::filesystem::path path{to};
+    const std::filesystem::path path{targetPath};
     for (std::size_t j = 0; j < clip.channels.size(); ++j) {
-        Clip one{clip.title, 0.0, 0.0, {clip.channels[j]}};
-        if (!(one.seconds() > 0.0)) continue;
+        Clip mono{clip.title, 0.0, 0.0, {clip.channels[j]}};
+        if (!(mono.seconds() > 0.0)) continue;
         std::string label = clip.channels[j].label.empty() ? std::to_string(j + 1) : clip.channels[j].label;
         std::ranges::replace_if(
             label, [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
         parts.push_back(
             {(path.parent_path() / (path.stem().string() + "-" + label + path.extension().string())).string(),
-             std::move(one)});
+             std::move(mono)});
     }
     return parts;
 }
 
 Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
-                               const FrequencyScale& usual) {
+                               const FrequencyScale& defaultScale) {
     std::list<AtomicFile> files;
-    std::string told;
+    std::string report;
     for (const ClipPart& part : parts) {
-        const std::string bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
+        const std::string bytes = clipBytes(part.clip, format, scaleOf(part.clip, defaultScale));
         if (const std::string& error = files.emplace_back(part.path).error(); !error.empty())
             return Failure{error};
         if (const std::string& error = files.back().write(bytes); !error.empty()) return Failure{error};
-        told += summary(part, bytes.size());
+        report += summary(part, bytes.size());
     }
     for (AtomicFile& file : files)
         if (const std::string& error = file.commit(); !error.empty()) return Failure{error};
-    return told;
+    return report;
 }
 
 std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
-                                  const FrequencyScale& usual) {
+                                  const FrequencyScale& defaultScale) {
     std::vector<std::string> losses;
     for (const ClipPart& part : parts)
-        for (const std::string& loss : clipLosses(part.clip, format, scaleOf(part.clip, usual)))
+        for (const std::string& loss : clipLosses(part.clip, format, scaleOf(part.clip, defaultScale)))
             if (std::ranges::find(losses, loss) == losses.end()) losses.push_back(loss);
     return losses;
 }
 
 std::string writeHitsWav(const HitExport& hits, const PhantomPanner& panner, int sampleRateHz,
                          const std::string& path, const std::string& comment) {
-    const double seconds = secondsOf(hits.events, sampleRateHz);
+    const double seconds = durationSeconds(hits.events, sampleRateHz);
     if (!(seconds <= limits::maxClipSeconds))
         return hits.source + ": expected at most " + plainNumber(limits::maxClipSeconds) +
                " seconds, found " + fixedNumber(seconds, 0);

@@ -22,8 +22,8 @@ struct HitExport {
     std::string actuator{}; ///< of all actuators; empty: each has its own
 };
 
-/// A clip with a channel per actuator, drawn with the settings `drawn`; or the error in one line. M.
-Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn);
+/// A clip with a channel per actuator, drawn by `settings`; or the error in one line. M.
+Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings);
 
 /// One file of an exported clip.
 struct ClipPart {
@@ -31,19 +31,19 @@ struct ClipPart {
     Clip clip;
 };
 
-/// One file; for single-channel formats, one file per channel that is not empty: NAME-A.haptic,
+/// The files of a clip: one; for single-channel formats, one per channel that is not empty: NAME-A.haptic,
 /// NAME-B.haptic... Any thread.
-std::vector<ClipPart> partsOf(const Clip& clip, const std::string& to, ClipFormat format);
+std::vector<ClipPart> partsOf(const Clip& clip, const std::string& targetPath, ClipFormat format);
 
-/// Writes all files or none. `usual`: frequency range that the format's 0 to 1 stands for, where the
+/// Writes all files or none. `defaultScale`: frequency range that the format's 0 to 1 stands for, where the
 /// channel's actuator has no known band. Returns one line per file with its length and size, or one line with
 /// the reason. M only.
 Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
-                               const FrequencyScale& usual = {});
+                               const FrequencyScale& defaultScale = {});
 
-/// What the format cannot express of the parts, each line once. Any thread.
+/// Lines on what the format cannot express, without duplicates. Any thread.
 std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
-                                  const FrequencyScale& usual = {});
+                                  const FrequencyScale& defaultScale = {});
 
 /// Writes one channel per actuator of the panner, from 0 s until all events have decayed. Returns empty, or
 /// one line with the reason. M only.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loads each recording of a saved session once, and checks the limits on samples.
+// Reads recordings and clips, trims and scales them, makes synthetic contacts, and checks hashes and limits.
 #include "Live/Recordings/LoadRecordings.h"
 #include "Core/PortableMath.h"
 #include "Core/Samples.h"
@@ -15,24 +15,24 @@ namespace physvib {
 
 namespace {
 
-struct Content {
+struct FileContent {
     SampledSound sound;
     std::string hash;
-    std::vector<EnchanterPlace> shares{};
+    std::vector<ActuatorPlace> shares{};
 };
 
 /// Positions of the channels as fractions of the extent; empty unless every channel has one.
-std::vector<EnchanterPlace> sharesOf(const Clip& clip) {
-    std::vector<EnchanterPlace> shares;
+std::vector<ActuatorPlace> sharesOf(const Clip& clip) {
+    std::vector<ActuatorPlace> shares;
     for (const ClipChannel& channel : clip.channels)
         if (channel.place && clip.extentWidthMetres > 0.0 && clip.extentHeightMetres > 0.0)
             shares.push_back({channel.place->xMetres / clip.extentWidthMetres,
                               channel.place->yMetres / clip.extentHeightMetres});
-    return shares.size() == clip.channels.size() ? shares : std::vector<EnchanterPlace>{};
+    return shares.size() == clip.channels.size() ? shares : std::vector<ActuatorPlace>{};
 }
 
 /// Reads a haptic file once: samples and hash come from the same bytes.
-Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) {
+Result<FileContent> readHapticFile(const std::filesystem::path& path, ClipFormat format) {
     if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular)
         return Failure{regular.error};
     const auto bytes = readFile(path, limits::maxClipFileBytes);
@@ -41,29 +41,29 @@ Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) 
     if (!clip) return Failure{clip.error};
     auto sound = soundOf(clip.value, path);
     if (!sound) return Failure{sound.error};
-    return Content{std::move(sound.value), contentHash(bytes.value), sharesOf(clip.value)};
+    return FileContent{std::move(sound.value), contentHash(bytes.value), sharesOf(clip.value)};
 }
 
 /// The decoders read from the disk, so computing the hash reads the file again.
-Result<Content> readSampled(const std::filesystem::path& path) {
+Result<FileContent> readSoundFile(const std::filesystem::path& path) {
     auto sound = readRecording(path);
     if (!sound) return Failure{sound.error};
     const auto bytes = readFile(path, limits::maxRecordingFileBytes);
     if (!bytes) return Failure{bytes.error};
-    return Content{std::move(sound.value), contentHash(bytes.value)};
+    return FileContent{std::move(sound.value), contentHash(bytes.value)};
 }
 
 /// Loads one set of recordings, reusing files that other sets have loaded.
-Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files,
-                                              const LoadedRecordings& before) {
+Result<std::vector<ContactRecording>> loadRecordingSet(const std::vector<RecordingFile>& files,
+                                                       const LoadedRecordings& loaded) {
     std::vector<ContactRecording> set;
     for (const RecordingFile& file : files) {
-        const ContactRecording* known = nullptr;
-        for (const auto& other : before.sets)
+        const ContactRecording* cached = nullptr;
+        for (const auto& other : loaded.sets)
             if (const auto found = std::ranges::find(other, file, &ContactRecording::file);
                 found != other.end())
-                known = &*found;
-        auto contact = known != nullptr ? Result<ContactRecording>{*known} : loadContact(file);
+                cached = &*found;
+        auto contact = cached != nullptr ? Result<ContactRecording>{*cached} : loadContact(file);
         if (!contact) return Failure{contact.error};
         set.push_back(std::move(contact.value));
     }
@@ -82,12 +82,12 @@ std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, s
     std::vector<float> samples(static_cast<std::size_t>(sampleRateHz * std::min(1.0, 7.0 / decayPerSecond)));
     double weight = 1.0, decay = decayPerSecond;
     for (const double ratio : ratios) {
-        const double f = frequencyHz * ratio * (ratio > 1.0 ? 0.96 + 0.08 * random.uniform() : 1.0),
-                     a = weight * (0.7 + 0.6 * random.uniform());
-        if (f < 0.45 * sampleRateHz)
+        const double hz = frequencyHz * ratio * (ratio > 1.0 ? 0.96 + 0.08 * random.uniform() : 1.0),
+                     amplitude = weight * (0.7 + 0.6 * random.uniform());
+        if (hz < 0.45 * sampleRateHz)
             for (std::size_t n = 0; n < samples.size(); ++n) {
                 const double t = static_cast<double>(n) / sampleRateHz;
-                samples[n] += static_cast<float>(a * portable::sin(2.0 * std::numbers::pi * f * t) *
+                samples[n] += static_cast<float>(amplitude * portable::sin(2.0 * std::numbers::pi * hz * t) *
                                                  portable::exp(-decay * t));
             }
         weight *= 0.6;
@@ -117,7 +117,7 @@ constexpr int syntheticRateHz = 48000;
 constexpr double assumedDecayPerSecond = 40.0; // of synthetic contacts of an unknown material
 
 Result<ContactRecording> readContact(const RecordingFile& file) {
-    constexpr double shortestSeconds = 0.001;
+    constexpr double minSeconds = 0.001;
     const std::string& path = file.path;
     if (const auto seed = syntheticSeed(path)) {
         const double decay = file.decayPerSecond > 0.0 ? file.decayPerSecond : assumedDecayPerSecond;
@@ -129,30 +129,30 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
     }
     const auto read = readRecording(path);
     if (!read) return Failure{read.error};
-    const std::vector<float>& heard = loudestOf(read.value.channels);
+    const std::vector<float>& channel = loudestChannel(read.value.channels);
     const double rateHz = read.value.sampleRateHz;
-    std::string fault = recordingFault(heard, rateHz, shortestSeconds);
-    if (fault.empty() && isSilent(heard)) fault = "expected a hit, found silence";
-    if (fault.empty()) fault = clippingFault(heard, rateHz);
-    if (!fault.empty()) return Failure{path + ": " + fault};
-    const HitExcerpt hit = strongestHit(heard, rateHz);
+    std::string error = recordingError(channel, rateHz, minSeconds);
+    if (error.empty() && isSilent(channel)) error = "expected a hit, found silence";
+    if (error.empty()) error = clippingError(channel, rateHz);
+    if (!error.empty()) return Failure{path + ": " + error};
+    const HitExcerpt hit = strongestHit(channel, rateHz);
     ContactRecording contact{file.frequencyHz,
                              read.value.sampleRateHz,
-                             {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin),
-                              heard.begin() + static_cast<std::ptrdiff_t>(hit.end)},
+                             {channel.begin() + static_cast<std::ptrdiff_t>(hit.begin),
+                              channel.begin() + static_cast<std::ptrdiff_t>(hit.end)},
                              file};
     for (float& x : contact.samples) x -= static_cast<float>(hit.offset);
     if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found silence"};
-    const SlowPart taken = takeSlowPart(contact.samples, rateHz, peakOf(contact.samples));
+    const SlowPart removed = removeSlowPart(contact.samples, rateHz, peakOf(contact.samples));
     if (!(peakOf(contact.samples) > 0.0f))
         return Failure{path + ": expected a hit, found nothing above " + numberText(limits::slowestToneHz) +
                        " Hz"};
-    if (taken.isAny()) contact.note = cleanLine(path + ": " + taken.text());
+    if (removed.isPresent()) contact.note = cleanLine(path + ": " + removed.text());
     return contact;
 }
 
-/// Checks and sets the hash; empty, or the error that the file has changed.
-std::string takeHash(RecordingFile& file) {
+/// Compares the file with its hash and sets a missing one. Empty, or the error that the file has changed.
+std::string checkAndSetHash(RecordingFile& file) {
     if (syntheticSeed(file.path)) return {};
     const auto bytes = readFile(file.path, limits::maxRecordingFileBytes);
     if (!bytes) return bytes.error;
@@ -166,15 +166,15 @@ std::string takeHash(RecordingFile& file) {
 
 double energyOf(const std::vector<float>& samples, int rateHz) {
     double sum = 0.0;
-    for (std::size_t n = 0; n < std::min(samples.size(), static_cast<std::size_t>(matchedSeconds * rateHz));
-         ++n)
+    for (std::size_t n = 0;
+         n < std::min(samples.size(), static_cast<std::size_t>(matchWindowSeconds * rateHz)); ++n)
         sum += double{samples[n]} * samples[n];
     return sum / rateHz;
 }
 
 /// Energy of the mode whose envelope starts at 1.
 double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
-    std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
+    std::vector<float> mode(static_cast<std::size_t>(matchWindowSeconds * rateHz));
     for (std::size_t n = 0; n < mode.size(); ++n) {
         const double t = static_cast<double>(n) / rateHz;
         mode[n] = static_cast<float>(portable::sin(2.0 * std::numbers::pi * frequencyHz * t) *
@@ -187,10 +187,10 @@ double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
 
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
     const auto format = clipFormatOf(path.string());
-    auto content = format ? readDrawn(path, *format) : readSampled(path);
+    auto content = format ? readHapticFile(path, *format) : readSoundFile(path);
     if (!content) return Failure{content.error};
     LoadedClip clip;
-    const std::string note = takeSlowPart(content.value.sound, path);
+    const std::string note = removeSlowPart(content.value.sound, path);
     for (std::vector<float>& samples : content.value.sound.channels) {
         ContactRecording& channel = clip.channels.emplace_back();
         channel.sampleRateHz = content.value.sound.sampleRateHz;
@@ -207,15 +207,15 @@ Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
 
 Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
     std::error_code failed;
-    const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
+    const std::filesystem::path requested{name}, folder = std::filesystem::canonical(folder_, failed);
     if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
-    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked))
+    if (name.empty() || requested.is_absolute() || !isWithin(folder, folder / requested))
         return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
-    return loadWholeClip(std::filesystem::weakly_canonical(folder / asked, failed));
+    return loadWholeClip(std::filesystem::weakly_canonical(folder / requested, failed));
 }
 
-Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {
-    std::vector<ContactRecording> kept;
+Result<std::vector<ContactRecording>> loadSessionClips(const std::vector<ClipFile>& clips) {
+    std::vector<ContactRecording> loadedClips;
     LoadedClip last; // channels of one file are adjacent
     std::size_t samples = 0;
     for (const ClipFile& clip : clips) {
@@ -232,13 +232,13 @@ Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>&
         if (clip.channel >= std::ssize(last.channels))
             return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) +
                            " channels, found " + std::to_string(last.channels.size())};
-        kept.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
-        samples += kept.back().samples.size();
+        loadedClips.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
+        samples += loadedClips.back().samples.size();
         if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
             return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) +
                            " samples in all clips"};
     }
-    return kept;
+    return loadedClips;
 }
 
 Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
@@ -246,11 +246,11 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
     std::vector<const std::vector<RecordingFile>*> files; // one entry per set
     std::size_t samples = 0;
     for (const RecordingsChange& change : log.recordings) {
-        const auto same =
+        const auto sameSet =
             std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
-        all.setOfChange.push_back(static_cast<std::size_t>(same - files.begin()));
-        if (same != files.end()) continue;
-        auto set = loadSet(change.files, all);
+        all.setIndices.push_back(static_cast<std::size_t>(sameSet - files.begin()));
+        if (sameSet != files.end()) continue;
+        auto set = loadRecordingSet(change.files, all);
         if (!set) return Failure{set.error};
         for (const ContactRecording& recording : set.value) samples += recording.samples.size();
         if (files.size() == limits::maxRecordingSets)
@@ -262,7 +262,7 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
         files.push_back(&change.files);
         all.sets.push_back(std::move(set.value));
     }
-    auto clips = loadKeptClips(log.clips);
+    auto clips = loadSessionClips(log.clips);
     if (!clips) return Failure{clips.error};
     all.clips = std::move(clips.value);
     return all;
@@ -279,7 +279,7 @@ std::vector<std::string> recordingPaths(const SessionLog& log) {
 Result<ContactRecording> loadContact(const RecordingFile& file) {
     auto contact = readContact(file);
     if (!contact) return contact;
-    if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
+    if (auto error = checkAndSetHash(contact.value.file); !error.empty()) return Failure{error};
     auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
     if (syntheticSeed(file.path) != linearSeed) // that begins at 1, as a mode does
         for (const float peak = peakOf(samples); float& x : samples) x /= peak;

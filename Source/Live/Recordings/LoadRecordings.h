@@ -22,11 +22,12 @@ std::vector<std::string> recordingPaths(const SessionLog& log);
 
 /// Time from the onset over which the strength of a contact is measured: long enough for most of a hit,
 /// with little of its tail (assumed).
-constexpr double matchedSeconds = 0.25;
+constexpr double matchWindowSeconds = 0.25;
 
 /// The loudest channel of a recording from the onset of its strongest hit; or one line naming the file. The
-/// peak is 1, like that of a mode's envelope; if `file.isMatched`, the RMS over matchedSeconds equals that of
-/// the mode instead. A file whose hash differs from the expected one has changed and is refused. M only.
+/// peak is 1, like that of a mode's envelope; if `file.isMatched`, the RMS over matchWindowSeconds equals
+/// that of the mode instead. A file whose hash differs from the expected one has changed and is refused. M
+/// only.
 Result<ContactRecording> loadContact(const RecordingFile& file);
 
 // Loads clips by name from one folder, so that a message can only read files below it.
@@ -45,10 +46,10 @@ private:
     std::filesystem::path folder_;
 };
 
-/// All channels of that file, without content below 5 Hz (takeSlowPart). Any thread but R.
+/// All channels of that file, without content below 5 Hz (removeSlowPart). Any thread but R.
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path);
 
 /// The clips that a session refers to; or one line if a file is missing or has changed. Any thread but R.
-Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips);
+Result<std::vector<ContactRecording>> loadSessionClips(const std::vector<ClipFile>& clips);
 
 } // namespace physvib

@@ -53,20 +53,20 @@ public:
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
     /// Frames that find the buffer full are lost and counted. R, wait-free.
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
-        if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
+    void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        if (block.sampleRateHz != sampleRateHz_) isRateUnchanged_.store(false, std::memory_order_relaxed);
         // the output runs before the world's first step: session time stands still, and nothing is to be
         // heard
-        if (!isWhole() || block.sessionFrame < 0) return;
+        if (!isRateUnchanged() || block.sessionFrame < 0) return;
         if (firstFrame_.load(std::memory_order_relaxed) < 0)
             firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
-        tap_.take(block.channels, block.frames);
+        tap_.push(block.channels, block.frames);
     }
     /// The sample rate has not changed. Any thread.
-    bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
+    bool isRateUnchanged() const noexcept { return isRateUnchanged_.load(std::memory_order_relaxed); }
 
     /// Sets the output latency that the file's start time is computed with; before the first frame. M.
-    void tellBeginning(std::int64_t outputLatencyFrames) noexcept {
+    void setOutputLatency(std::int64_t outputLatencyFrames) noexcept {
         outputLatencyFrames_ = outputLatencyFrames;
     }
 
@@ -77,25 +77,25 @@ public:
         return error_ = wav_.finish();
     }
 
-    /// In session time; -1: no frame yet.
+    /// Session frame of the file's first sample; -1: none yet.
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
     /// Session time at which the file begins, in seconds: an event at session time t is at t minus this in
-    /// the file. Empty before tellBeginning() and the first frame.
-    std::optional<double> beginsSeconds() const noexcept {
+    /// the file. Empty before setOutputLatency() and the first frame.
+    std::optional<double> startSeconds() const noexcept {
         if (outputLatencyFrames_ < 0 || firstFrame() < 0) return {};
         return static_cast<double>(firstFrame() - outputLatencyFrames_) / sampleRateHz_;
     }
-    std::int64_t frames() const noexcept { return written_; } ///< written to the file. M
+    std::int64_t frames() const noexcept { return framesWritten_; } ///< written to the file. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
     float peak() const noexcept { return peak_; } ///< of what was written. M, after finish()
 
 private:
-    // With the disk's own delay, shorter than the audio that may be lost when the process is killed.
+    // With the disk's delay, less than the half second that may be missing after a kill.
     static constexpr std::chrono::milliseconds period{200};
 
     void run() {
         std::unique_lock lock{mutex_};
-        while (!ends_.wait_for(lock, period, [this] { return isEnding_; })) {
+        while (!endSignal_.wait_for(lock, period, [this] { return isEnding_; })) {
             lock.unlock();
             write();
             lock.lock();
@@ -103,15 +103,15 @@ private:
         }
     }
     void write() {
-        const std::int64_t before = written_;
+        const std::int64_t writtenBefore = framesWritten_;
         tap_.read([this](const float* const* channels, int frames) {
-            if (const auto begins = beginsSeconds(); begins && written_ == 0)
-                wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
-            if (wav_.write(channels, frames)) written_ += frames;
+            if (const auto start = startSeconds(); start && framesWritten_ == 0)
+                wav_.setComment("begins at session time " + fixedNumber(*start, 6) + " s");
+            if (wav_.write(channels, frames)) framesWritten_ += frames;
             for (int j = 0; j < tap_.channels(); ++j)
                 for (int n = 0; n < frames; ++n) peak_ = std::max(peak_, std::abs(channels[j][n]));
         });
-        if (written_ > before) wav_.show();
+        if (framesWritten_ > writtenBefore) wav_.publish();
     }
     void end() {
         if (!thread_.joinable()) return;
@@ -119,27 +119,27 @@ private:
             const std::lock_guard lock{mutex_};
             isEnding_ = true;
         }
-        ends_.notify_one();
+        endSignal_.notify_one();
         thread_.join();
     }
 
     int sampleRateHz_;
     SignalTap tap_;
-    std::atomic<std::int64_t> firstFrame_{-1}, outputLatencyFrames_{-1}, written_{0};
-    std::atomic<bool> isWhole_{true};
+    std::atomic<std::int64_t> firstFrame_{-1}, outputLatencyFrames_{-1}, framesWritten_{0};
+    std::atomic<bool> isRateUnchanged_{true};
 
     WavSink wav_; // used by the thread; by M once the thread has ended, as the next
     float peak_ = 0.0f;
 
     mutable std::mutex mutex_; // guards the members below
-    std::condition_variable ends_;
+    std::condition_variable endSignal_;
     bool isEnding_ = false;
     std::string error_;
 
     std::thread thread_; // last: it uses the other members
 };
 
-/// M only; the audio output feeds recorder().
+/// A WAV file and its event list. M only; recorder() is a sink of the session.
 class Recording {
 public:
     /// `path` ends in .wav; the events go to the same name with .csv.
@@ -153,7 +153,7 @@ public:
         return std::filesystem::path{path_}.replace_extension(".csv");
     }
 
-    void take(const PlayedEvent& played) { played_.push_back(played.event); }
+    void addEvent(const PlayedEvent& played) { played_.push_back(played.event); }
 
     /// Completes both files, after R has stopped. `outputLatencyFrames` is the output latency; `field` is the
     /// field that places refer to; `names` are those of the scene's materials. Empty, or one line why.
@@ -161,8 +161,8 @@ public:
                        const SoundNames& names) {
         if (auto error = recorder_.finish(); !error.empty()) return error;
         const std::int64_t rate = recorder_.sampleRateHz(),
-                           late = outputLatencyFrames - recorder_.firstFrame();
-        const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
+                           shift = outputLatencyFrames - recorder_.firstFrame();
+        const std::int64_t shiftNs = shift / rate * 1'000'000'000 + shift % rate * 1'000'000'000 / rate;
         const std::int64_t lengthNs = static_cast<std::int64_t>(
             1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));
         for (auto& event : played_) event.timeNs += shiftNs;
@@ -185,7 +185,7 @@ inline std::string renderSessionWav(const SavedSession& session, const SessionEx
                                     const std::string& path, const std::string& comment) {
     const auto loaded = loadRecordings(session.log);
     if (!loaded) return loaded.error;
-    if (auto clash = fileClash({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
+    if (auto clash = fileClashError({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
     WavSink wav{path, session.channels, extent.sampleRateHz, comment};
     if (!wav.error().empty()) return wav.error();
     const bool isWhole = renderSession(session, loaded.value, extent,

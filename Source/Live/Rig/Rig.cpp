@@ -4,10 +4,10 @@
 
 namespace physvib {
 
-ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends)
+ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* isEnded)
     : session_{session}
-    , stepNs_{std::max(poll, std::int64_t{1'000'000'000} / stepsPerSecond)}
-    , ends_{ends}
+    , stepNs_{std::max(pollNs, std::int64_t{1'000'000'000} / stepsPerSecond)}
+    , isEnded_{isEnded}
     , thread_{[this] { run(); }} {}
 
 ThreadDriver::~ThreadDriver() {
@@ -19,13 +19,13 @@ void ThreadDriver::run() {
     raiseThreadPriority(false);
     while (!isOver()) {
         const std::int64_t begin = steadyNs();
-        // a thread that draws a world too slow for real time waits a step or two, not until it has caught up
-        session_.advance([&](auto) { return steadyNs() - begin <= mostHold && !isOver(); });
-        const std::int64_t now = steadyNs(), left = session_.world().nextStepNs() - now;
-        std::int64_t pause = std::max(left, std::int64_t{0}) + poll; // by then the block is rendered
-        if (left > longestBlock) pause = 4 * poll;                   // the first block may come at any time
-        if (session_.pulse().isStill(now)) pause = stepNs_;
-        std::this_thread::sleep_for(std::chrono::nanoseconds{std::max(pause, (now - begin) / 8)});
+        // limited, so that a display of a world too slow for real time need not wait until it has caught up
+        session_.advance([&](auto) { return steadyNs() - begin <= maxAdvanceNs && !isOver(); });
+        const std::int64_t now = steadyNs(), untilStepNs = session_.world().nextStepNs() - now;
+        std::int64_t sleepNs = std::max(untilStepNs, std::int64_t{0}) + pollNs; // then the block is rendered
+        if (untilStepNs > maxBlockNs) sleepNs = 4 * pollNs; // the first block may come at any time
+        if (session_.pulse().isPaused(now)) sleepNs = stepNs_;
+        std::this_thread::sleep_for(std::chrono::nanoseconds{std::max(sleepNs, (now - begin) / 8)});
     }
 }
 
@@ -50,32 +50,30 @@ Rig::Rig(RigSettings settings, AudioDrivers drivers, const std::atomic<bool>* is
 Rig::~Rig() { close(); }
 
 std::string Rig::open() {
-    if (auto fault = connectSinks(); !fault.empty()) return fault;
-    if (auto fault = openDevice(settings_.output); !fault.empty()) return fault;
-    if (auto fault = beginRecording(); !fault.empty()) return fault;
+    if (auto error = connectSinks(); !error.empty()) return error;
+    if (auto error = openDevice(settings_.output); !error.empty()) return error;
+    if (auto error = beginRecording(); !error.empty()) return error;
     return beginJournal();
 }
 
 std::string Rig::connectSinks() {
     const auto keepGoing = [this] { return this->keepGoing(); };
     connectedAt_ = std::chrono::steady_clock::now();
-    if (auto fault = openSinks(settings_.sinks, settings_.setup.panner,
+    if (auto error = openSinks(settings_.sinks, settings_.setup.panner,
                                settings_.awaitsSinks ? std::function<bool()>{keepGoing} : nullptr, sinks_);
-        !fault.empty())
-        return fault;
+        !error.empty())
+        return error;
     for (const auto& sink : sinks_) session_.sinks().attach(*sink);
     return {};
 }
 
-std::string Rig::openDevice(const AudioOutputSettings& wanted) {
-    return deviceTrouble_ = output_.open(wanted);
-}
+std::string Rig::openDevice(const AudioOutputSettings& wanted) { return deviceError_ = output_.open(wanted); }
 
 std::string Rig::beginRecording() {
     if (settings_.recordPath.empty()) return {};
     recording_.emplace(settings_.recordPath, settings_.setup.channels, output_.sampleRateHz());
-    if (auto fault = recording_->error(); !fault.empty()) return fault;
-    recording_->tellBeginning(session_.timeline().outputLatencyFrames());
+    if (auto error = recording_->error(); !error.empty()) return error;
+    recording_->setOutputLatency(session_.timeline().outputLatencyFrames());
     session_.sinks().attach(*recording_);
     return {};
 }
@@ -88,23 +86,23 @@ std::string Rig::beginJournal() {
 
 void Rig::start() {
     session_.sinks().follow(&output_);
-    if (settings_.ownThread) driver_.emplace(session_, settings_.setup.stepsPerSecond, isEnded_);
+    if (settings_.hasOwnThread) driver_.emplace(session_, settings_.setup.stepsPerSecond, isEnded_);
 }
 
 void Rig::step() {
-    if (!settings_.ownThread && keepGoing()) session_.advance([this](auto) { return keepGoing(); });
+    if (!settings_.hasOwnThread && keepGoing()) session_.advance([this](auto) { return keepGoing(); });
 }
 
-std::string droppedWords(std::uint64_t events) {
+std::string droppedEventsText(std::uint64_t events) {
     return events == 0 ? ""
                        : std::to_string(events) + (events == 1 ? " event was" : " events were") +
                              " lost, as no device ran";
 }
 
 void Rig::maintain() {
-    deviceTrouble_ = output_.maintain();
+    deviceError_ = output_.maintain();
     const std::uint64_t dropped = session_.pulse().dropped();
-    eventTrouble_ = std::exchange(toldDropped_, dropped) == dropped ? "" : droppedWords(dropped);
+    eventError_ = std::exchange(reportedDropped_, dropped) == dropped ? "" : droppedEventsText(dropped);
 }
 
 std::vector<SinkState> Rig::sinkStates() const {
@@ -113,35 +111,35 @@ std::vector<SinkState> Rig::sinkStates() const {
     return states;
 }
 
-std::vector<RigTrouble> Rig::troubles() const {
-    std::vector<RigTrouble> all;
-    const auto add = [&all](const std::string& source, const std::string& words) {
-        if (!words.empty()) all.push_back({source, words});
+std::vector<RigError> Rig::errors() const {
+    std::vector<RigError> all;
+    const auto add = [&all](const std::string& source, const std::string& text) {
+        if (!text.empty()) all.push_back({source, text});
     };
-    add("device", deviceTrouble_);
-    add("events", eventTrouble_);
-    const bool isPatient =
-        !settings_.awaitsSinks && std::chrono::steady_clock::now() - connectedAt_ < patience;
-    if (!isPatient)
-        for (const SinkState& sink : sinkStates()) add(sink.name, sink.trouble);
-    if (journal_) add("journal", journal_->news());
+    add("device", deviceError_);
+    add("events", eventError_);
+    const bool isStarting =
+        !settings_.awaitsSinks && std::chrono::steady_clock::now() - connectedAt_ < sinkTimeOut;
+    if (!isStarting)
+        for (const SinkState& sink : sinkStates()) add(sink.name, sink.error);
+    if (journal_) add("journal", journal_->currentError());
     if (recording_) add("recording", recording_->error());
     return all;
 }
 
-std::string Rig::trouble() const {
+std::string Rig::errorText() const {
     std::string line;
-    for (const RigTrouble& trouble : troubles()) line += (line.empty() ? "" : "; ") + trouble.words;
+    for (const RigError& error : errors()) line += (line.empty() ? "" : "; ") + error.text;
     return line;
 }
 
-std::string Rig::summary(std::string& trouble) const {
+std::string Rig::summary(std::string& sinkError) const {
     std::string lines;
     for (const auto& sink : sinks_) {
         lines += sink->summary([this] { return keepGoing(); });
         const SinkState state = sink->state();
-        if (trouble.empty() && !state.isReady)
-            trouble = state.trouble.empty() ? "the " + state.name + " is gone" : state.trouble;
+        if (sinkError.empty() && !state.isReady)
+            sinkError = state.error.empty() ? "the " + state.name + " is gone" : state.error;
     }
     return lines;
 }
@@ -149,15 +147,15 @@ std::string Rig::summary(std::string& trouble) const {
 // The journal's pending lines come first, because the rest may take long or hang.
 void Rig::endFiles() {
     if (journal_) journal_->end(session_.status().sessionNs);
-    if (recording_) recorded_ = recording_->finish();
+    if (recording_) recordingError_ = recording_->finish();
 }
 
 std::string Rig::finish(bool isHurried) {
-    std::string saved;
-    if (journal_) saved = isHurried ? journal_->finish(SessionJournal::quickBytes) : journal_->finish();
+    std::string error;
+    if (journal_) error = isHurried ? journal_->finish(SessionJournal::maxQuickBytes) : journal_->finish();
     driver_.reset();
     session_.sinks().follow(nullptr);
-    return saved + (saved.empty() || recorded_.empty() ? "" : "; ") + recorded_;
+    return error + (error.empty() || recordingError_.empty() ? "" : "; ") + recordingError_;
 }
 
 void Rig::close() {

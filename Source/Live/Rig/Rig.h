@@ -17,25 +17,25 @@
 
 namespace physvib {
 
-/// A thread that wakes when the next step is due, by the blocks of the device (threadGapSeconds). It runs at
-/// realtime priority where the system permits, because an ordinary thread is sometimes late on a loaded
-/// machine. It steps the session from construction to destruction, or until `ends` (may be null) is true;
-/// then at most one more step follows. One driver at a time per session. Created and destroyed on M.
+/// A thread that steps a session from construction to destruction, or until `isEnded` (may be null) is true;
+/// then at most one more step follows. It wakes when the device's blocks make a step due (threadGapSeconds),
+/// at realtime priority where the system permits, because an ordinary thread may be late on a loaded machine.
+/// One driver at a time per session. Created and destroyed on the message thread (M).
 class ThreadDriver {
 public:
-    ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends = nullptr);
+    ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* isEnded = nullptr);
     ~ThreadDriver();
     ThreadDriver(const ThreadDriver&) = delete;
     ThreadDriver& operator=(const ThreadDriver&) = delete;
 
 private:
-    static constexpr std::int64_t poll = 250'000, mostHold = 20'000'000, longestBlock = 500'000'000; // ns
+    static constexpr std::int64_t pollNs = 250'000, maxAdvanceNs = 20'000'000, maxBlockNs = 500'000'000;
     void run();
-    bool isOver() const noexcept { return isDestroyed_ || (ends_ != nullptr && *ends_); }
+    bool isOver() const noexcept { return isDestroyed_ || (isEnded_ != nullptr && *isEnded_); }
 
     Session& session_;
     const std::int64_t stepNs_;
-    const std::atomic<bool>* const ends_;
+    const std::atomic<bool>* const isEnded_;
     std::atomic<bool> isDestroyed_{false};
     std::thread thread_;
 };
@@ -58,23 +58,23 @@ struct RigSettings {
     AudioOutputSettings output{};
     std::vector<SinkName> sinks{}; ///< sinks that play in sync with the device
     bool awaitsSinks = true;  ///< open() waits until the sinks are ready; otherwise each joins when it is
-    bool ownThread = true;    ///< a thread of its own steps the world; otherwise step() does
+    bool hasOwnThread = true; ///< a thread of its own steps the world; otherwise step() does
     std::string recordPath{}; ///< WAV file; empty: none
     std::string savePath{};   ///< session as JSON, with its event list beside it; empty: none
     Provenance provenance{};  ///< of the event list
 };
 
 /// A part of the rig that does not work, and its one-line error.
-struct RigTrouble {
+struct RigError {
     std::string source; ///< "device", "events", the name of a sink, "journal" or "recording"
-    std::string words;
-    bool operator==(const RigTrouble&) const = default;
+    std::string text;
+    bool operator==(const RigError&) const = default;
 };
 
 /// One line on events that were dropped because no device ran (DevicePulse); empty if there were none.
-std::string droppedWords(std::uint64_t events);
+std::string droppedEventsText(std::uint64_t events);
 
-/// All methods M only, except session() and those methods of it that any thread may call.
+/// All methods: M, except session(), whose own methods name their threads.
 class Rig {
 public:
     /// When `isEnded` (may be null; outlives the rig) becomes true, waits end and the world stops.
@@ -85,7 +85,7 @@ public:
 
     /// Opens sinks, device, recording and journal, in this order. Returns empty, or one line with the reason.
     std::string open();
-    /// Only the first step, for programs that open devices when a user chooses them.
+    /// The first two steps alone, for programs whose user chooses the device. Empty, or the reason.
     std::string connectSinks();
     std::string openDevice(const AudioOutputSettings& wanted);
 
@@ -102,34 +102,34 @@ public:
     InputTap* inputs() noexcept { return inputs_.get(); } ///< the device's audio input; null: not open
     const PlayedRecorder* recording() const noexcept { return recording_ ? &*recording_ : nullptr; }
 
-    /// Passes the events played since the last call to the sinks, and each to `take`.
-    template <class Take>
-    void takePlayed(Take take) {
+    /// Passes the events played since the last call to the sinks, and each to `consume`.
+    template <class Consume>
+    void drainPlayed(Consume consume) {
         for (PlayedEvent played; session_.played().pop(played);) {
-            session_.sinks().played(played, output_.sampleRateHz());
-            take(played);
+            session_.sinks().onPlayed(played, output_.sampleRateHz());
+            consume(played);
         }
     }
 
     /// Supervises the device; call about once a second.
     void maintain();
-    /// Errors of the device and events that it did not run for (from the last maintain()), the sinks, the
-    /// journal and the recording.
-    std::vector<RigTrouble> troubles() const;
-    /// All errors in one line; empty if there are none.
-    std::string trouble() const;
+    /// Present errors: of the device, of events dropped before the last maintain(), of the sinks, the journal
+    /// and the recording.
+    std::vector<RigError> errors() const;
+    /// The same errors in one line; empty if there are none.
+    std::string errorText() const;
     /// State of each sink.
     std::vector<SinkState> sinkStates() const;
-    /// A report per sink, after stop(); waits up to a second for each. `trouble`: set to the first sink that
-    /// does not play.
-    std::string summary(std::string& trouble) const;
+    /// A report per sink, after stop(); waits up to a second for each. `sinkError`: set to the first sink
+    /// that does not play.
+    std::string summary(std::string& sinkError) const;
 
-    /// Silences the device within two blocks. Then nothing is played, recorded or logged any more, and `take`
+    /// Silences the device within two blocks. After it nothing is played, recorded or logged, and `consume`
     /// has received every event.
-    template <class Take>
-    void stop(Take take) {
+    template <class Consume>
+    void stop(Consume consume) {
         output_.stop();
-        takePlayed(take);
+        drainPlayed(consume);
         endFiles();
     }
     /// Completes the files, after stop(); threads that use the session must have ended. Returns empty, or the
@@ -139,7 +139,7 @@ public:
     void close();
 
 private:
-    static constexpr std::chrono::seconds patience{3}; // handshake, clock and Bluetooth take a second
+    static constexpr std::chrono::seconds sinkTimeOut{3}; // handshake, clock and Bluetooth take a second
 
     bool keepGoing() const noexcept { return isEnded_ == nullptr || !*isEnded_; }
     std::string beginRecording();
@@ -156,9 +156,9 @@ private:
     AudioOutput output_;
     std::optional<ThreadDriver> driver_;
     std::chrono::steady_clock::time_point connectedAt_;
-    std::string deviceTrouble_, eventTrouble_;
-    std::string recorded_; // why the recording is incomplete
-    std::uint64_t toldDropped_ = 0;
+    std::string deviceError_, eventError_;
+    std::string recordingError_; // why the recording is incomplete
+    std::uint64_t reportedDropped_ = 0;
 };
 
 } // namespace physvib

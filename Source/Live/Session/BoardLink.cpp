@@ -9,24 +9,23 @@ namespace physvib {
 
 namespace {
 
-constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
-constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second,
-                       searchEvery = second / 2;
-constexpr std::int64_t firstGainsAgain = 8 * ms; // later gains are repeated at doubled intervals: if the line
-                                                 // loses a mute, it is delayed by milliseconds, not by a
-                                                 // second
-constexpr std::int64_t givenUpAfter = 3 * second / 2; // so long without an answer: the line is opened again
-constexpr std::int64_t tooOld = 50 * ms;              // an event later than this is not sent
-constexpr std::int64_t lineAhead = 4 * ms; // limit for data in the system's buffers: what is not written yet
-                                           // can still be thinned
-constexpr double marginMs = 4.0 + 3.0 + 2.1;   // lineAhead, this thread's sleeps, one event on the line
-constexpr std::int64_t longestAnswer = second; // an answer is never later than this
+constexpr std::int64_t msNs = 1'000'000, secondNs = 1000 * msNs;
+constexpr std::int64_t helloIntervalNs = 250 * msNs, telemetryIntervalNs = secondNs,
+                       gainsIntervalNs = secondNs, searchIntervalNs = secondNs / 2;
+// gains are repeated after this, then at doubled intervals, so that a lost mute is late by milliseconds only
+constexpr std::int64_t firstGainsRepeatNs = 8 * msNs;
+constexpr std::int64_t answerTimeOutNs = 3 * secondNs / 2; // without an answer the line is opened again
+constexpr std::int64_t maxAgeNs = 50 * msNs;               // an event later than this is not sent
+// limit for data in the system's buffers: events that are not written yet can still be dropped
+constexpr std::int64_t maxLineAheadNs = 4 * msNs;
+constexpr double marginMs = 4.0 + 3.0 + 2.1;   // maxLineAheadNs, this thread's sleeps, one event on the line
+constexpr std::int64_t maxAnswerNs = secondNs; // an answer is never later than this
 // the clock of a board that did not restart differs by less
-constexpr double restartFrames = limits::board::sampleRateHz;
-constexpr int crowded = 4; // with more pending events the compact form is sent
+constexpr double minRestartJumpFrames = limits::board::sampleRateHz;
+constexpr int maxLongFormCount = 4; // with more pending events the compact form is sent
 
 /// Why the board cannot be used; empty if it fits this program.
-std::string refusal(const wire::HelloReply& board) {
+std::string boardError(const wire::HelloReply& board) {
     if (board.version < 1 || board.version > wire::protocolVersion)
         return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " +
                std::to_string(board.version);
@@ -40,18 +39,18 @@ std::string refusal(const wire::HelloReply& board) {
     return {};
 }
 
-constexpr std::size_t compactBytes = 16;       // of an event in the compact form on the line
-constexpr std::int64_t earlySegment = 40 * ms; // a segment due later than this can also be sent later
-constexpr std::size_t segmentBytes = 36;       // of a segment
-constexpr double besidesMs = 3.0; // line time for pings, gains and the last events in the long form
+constexpr std::size_t compactBytes = 16;           // of an event in the compact form on the line
+constexpr std::int64_t earlySegmentNs = 40 * msNs; // a segment due later than this can also be sent later
+constexpr std::size_t segmentBytes = 36;           // of a segment
+constexpr double overheadMs = 3.0; // line time for pings, gains and the last events in the long form
 
-// The board's wrapping frame counter of an unwrapped, fractional frame.
-std::uint32_t wrapped(double frame) {
+// The value of the board's frame counter, modulo 2^32, at an unwrapped, fractional frame.
+std::uint32_t wrappedFrame(double frame) {
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame)));
 }
 
 constexpr std::int64_t lineNs(std::size_t bytes) {
-    return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond;
+    return static_cast<std::int64_t>(bytes) * 10 * secondNs / wire::lineBitsPerSecond;
 }
 
 constexpr int stLinkVendor = 0x0483;
@@ -79,18 +78,18 @@ private:
     Port port_;
 };
 
-std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
+std::string textOr(const char* text, const char* fallback) { return text != nullptr ? text : fallback; }
 
 } // namespace
 
 std::int64_t BoardLink::nowNs() noexcept { return steadyNs(); }
 
 BoardLink::BoardLink(std::string port)
-    : wanted_{port == anyBoard ? std::string{} : std::move(port)}
+    : port_{port == anyBoard ? std::string{} : std::move(port)}
     , thread_{[this] { run(); }} {}
 
 BoardLink::~BoardLink() {
-    stop_ = true;
+    isStopping_ = true;
     thread_.join();
 }
 
@@ -99,7 +98,7 @@ void BoardLink::setGains(const std::array<double, limits::board::channels>& gain
     for (std::size_t j = 0; j < gains.size(); ++j)
         message.gains[j] = static_cast<std::int16_t>(
             std::clamp(std::nearbyint(gains[j] * limits::board::amplitudeUnit), -32768.0, 32767.0));
-    order([&](Orders& o) { o.gains = message; });
+    changeOrders([&](Orders& o) { o.gains = message; });
 }
 
 void BoardLink::follow(std::function<void()> feed) {
@@ -109,12 +108,12 @@ void BoardLink::follow(std::function<void()> feed) {
 
 std::string BoardLink::awaitReady(const std::function<bool()>& keepGoing) const {
     for (const std::int64_t start = nowNs();; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
-        const BoardLinkStatus now = status();
-        const std::int64_t waited = nowNs() - start;
-        if (now.state == State::ready && now.telemetry.good > 0) return {};
-        const bool isNobodyThere = now.port.empty() && !now.trouble.empty() && waited > 2 * second;
-        if (isNobodyThere || waited > 20 * second || !keepGoing())
-            return now.trouble.empty() ? "no board answers" : now.trouble;
+        const BoardLinkStatus current = status();
+        const std::int64_t waitedNs = nowNs() - start;
+        if (current.state == State::ready && current.telemetry.good > 0) return {};
+        const bool isMissing = current.port.empty() && !current.error.empty() && waitedNs > 2 * secondNs;
+        if (isMissing || waitedNs > 20 * secondNs || !keepGoing())
+            return current.error.empty() ? "no board answers" : current.error;
     }
 }
 
@@ -124,16 +123,16 @@ BoardLinkStatus BoardLink::status() const {
 }
 
 void BoardLink::run() {
-    while (!stop_) {
+    while (!isStopping_) {
         if (!line_)
             search();
         else
             receive();
-        if (line_ && now_.state == State::greeting)
+        if (line_ && status_.state == State::greeting)
             greet();
         else if (line_) {
-            obey();
-            if (line_) keepInTouch();
+            executeOrders();
+            if (line_) sendPeriodicMessages();
         }
         {
             const std::scoped_lock lock{feedMutex_};
@@ -142,32 +141,32 @@ void BoardLink::run() {
         sendStrikes();
         publish();
     }
-    if (line_ && now_.state != State::greeting) send(wire::StopAll{});
+    if (line_ && status_.state != State::greeting) send(wire::StopAll{});
 }
 
 // Opens the next port; the handshake follows.
 void BoardLink::search() {
-    now_.state = State::searching;
+    status_.state = State::searching;
     if (nowNs() < nextSearchNs_) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         return;
     }
-    nextSearchNs_ = nowNs() + searchEvery;
-    std::string path = wanted_;
+    nextSearchNs_ = nowNs() + searchIntervalNs;
+    std::string path = port_;
     if (path.empty()) {
         auto ports = listSerialPorts();
         std::stable_partition(ports.begin(), ports.end(), [](const auto& p) { return p.isLikelyBoard; });
         if (ports.empty()) {
-            now_.trouble = "no serial port";
+            status_.error = "no serial port";
             return;
         }
-        path = ports[searched_++ % ports.size()].path;
+        path = ports[portsTried_++ % ports.size()].path;
     }
-    line_ = openSerialLine(path, now_.trouble);
+    line_ = openSerialLine(path, status_.error);
     if (!line_) return;
-    now_.port = path;
-    now_.state = State::greeting;
-    heardNs_ = nowNs();
+    status_.port = path;
+    status_.state = State::greeting;
+    lastReceivedNs_ = nowNs();
     nextHelloNs_ = lineFreeNs_ = 0;
     decoder_ = {};
 }
@@ -175,80 +174,81 @@ void BoardLink::search() {
 void BoardLink::disconnect(const std::string& why) {
     line_.reset();
     clock_.clear();
-    now_.trouble = why;
-    now_.outputLatencyMs = 0.0;
-    now_.state = State::searching;
+    status_.error = why;
+    status_.outputLatencyMs = 0.0;
+    status_.state = State::searching;
 }
 
 void BoardLink::receive() {
     std::array<std::uint8_t, 256> bytes;
     const int n = line_->read(bytes, 1);
-    if (n < 0) return disconnect(now_.port + ": the line is gone");
+    if (n < 0) return disconnect(status_.port + ": the line is gone");
     for (int i = 0; i < n; ++i)
         if (const auto payload = decoder_.feed(bytes[static_cast<std::size_t>(i)]); !payload.empty())
             handle(payload);
-    if (nowNs() - heardNs_ > givenUpAfter) disconnect(now_.port + ": no answer");
+    if (nowNs() - lastReceivedNs_ > answerTimeOutNs) disconnect(status_.port + ": no answer");
 }
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
-    heardNs_ = nowNs();
+    lastReceivedNs_ = nowNs();
     // of several replies only the first counts
-    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting)
-        return meet(hello);
-    if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
-    if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
-    if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;
+    if (wire::HelloReply hello; wire::decode(payload, hello) && status_.state == State::greeting)
+        return handleHello(hello);
+    if (wire::Pong pong; wire::decode(payload, pong) && status_.state >= State::synchronising)
+        return handlePong(pong);
+    if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) status_.telemetry = telemetry;
+    if (wire::SelfTestReply reply; wire::decode(payload, reply)) status_.selfTest = reply;
 }
 
-void BoardLink::meet(const wire::HelloReply& board) {
-    if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
-    now_.board = board;
-    now_.trouble.clear();
-    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // the board may have lost its gains when off
-    now_.state = State::synchronising;
+void BoardLink::handleHello(const wire::HelloReply& board) {
+    if (auto error = boardError(board); !error.empty()) return disconnect(status_.port + ": " + error);
+    status_.board = board;
+    status_.error.clear();
+    nextGainsNs_ = 0, gainsRepeatNs_ = firstGainsRepeatNs; // the board may have lost its gains when off
+    status_.state = State::synchronising;
     sequence_ = 0xFF;
     segmentEnds_.clear();
     pingSentNs_.fill(0);
-    ++now_.connections;
+    ++status_.connections;
 }
 
 // Adds the pong to the clock, unless its ping is unknown or was answered already.
-void BoardLink::take(const wire::Pong& pong) {
+void BoardLink::handlePong(const wire::Pong& pong) {
     const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
-    if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;
-    const double frames = clock_.unwrapped(pong.frame, pong.fraction);
-    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(heardNs_)) > restartFrames)
-        return disconnect(now_.port + ": the board has started anew");
-    clock_.add(sentNs, frames, heardNs_);
-    if (clock_.isReady()) now_.state = State::ready;
+    if (sentNs == 0 || lastReceivedNs_ - sentNs > maxAnswerNs) return;
+    const double frames = clock_.unwrappedFrame(pong.frame, pong.fraction);
+    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(lastReceivedNs_)) > minRestartJumpFrames)
+        return disconnect(status_.port + ": the board has started anew");
+    clock_.add(sentNs, frames, lastReceivedNs_);
+    if (clock_.isReady()) status_.state = State::ready;
 }
 
 void BoardLink::greet() {
     if (nowNs() < nextHelloNs_) return;
-    nextHelloNs_ = nowNs() + helloEvery;
+    nextHelloNs_ = nowNs() + helloIntervalNs;
     line_->write(std::array<std::uint8_t, 1>{0}); // ends a frame that an earlier connection left
     send(wire::Hello{});
 }
 
-void BoardLink::keepInTouch() {
+void BoardLink::sendPeriodicMessages() {
     const std::int64_t now = nowNs();
     if (now >= nextPingNs_) {
-        nextPingNs_ = now + second / (clock_.isReady() ? wire::pingsPerSecond : wire::firstPingsPerSecond);
+        nextPingNs_ = now + secondNs / (clock_.isReady() ? wire::pingsPerSecond : wire::firstPingsPerSecond);
         pingSentNs_[++pingId_] = now;
         send(wire::Ping{pingId_});
     }
     if (line_ && now >= nextTelemetryNs_) {
-        nextTelemetryNs_ = now + telemetryEvery;
+        nextTelemetryNs_ = now + telemetryIntervalNs;
         send(wire::TelemetryRequest{});
     }
     if (line_ && gains_ && now >= nextGainsNs_) {
-        nextGainsNs_ = now + gainsPauseNs_;
-        gainsPauseNs_ = std::min(2 * gainsPauseNs_, gainsEvery);
+        nextGainsNs_ = now + gainsRepeatNs_;
+        gainsRepeatNs_ = std::min(2 * gainsRepeatNs_, gainsIntervalNs);
         send(*gains_);
     }
 }
 
-void BoardLink::obey() {
+void BoardLink::executeOrders() {
     Orders orders;
     {
         const std::scoped_lock lock{mutex_};
@@ -261,23 +261,23 @@ void BoardLink::obey() {
         segmentEnds_.clear();
         if (line_) send(wire::StopAll{});
     }
-    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain;
+    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsRepeatNs_ = firstGainsRepeatNs;
     if (orders.selfTest && line_) {
-        now_.selfTest.reset();
+        status_.selfTest.reset();
         send(wire::SelfTest{});
     }
 }
 
-bool BoardLink::isLineFree(std::int64_t now) const { return lineFreeNs_ - now < lineAhead; }
+bool BoardLink::isLineFree(std::int64_t now) const { return lineFreeNs_ - now < maxLineAheadNs; }
 
-bool BoardLink::takesSegment(std::int64_t dueNs) {
+bool BoardLink::canSendSegment(std::int64_t dueNs) {
     const std::int64_t now = nowNs();
-    if (!line_ || now_.state != State::ready || !playsSegments() || !isLineFree(now)) return false;
-    const std::uint32_t played = wrapped(clock_.frameAt(now));
+    if (!line_ || status_.state != State::ready || !supportsSegments() || !isLineFree(now)) return false;
+    const std::uint32_t played = wrappedFrame(clock_.frameAt(now));
     std::erase_if(segmentEnds_,
                   [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
-    const std::size_t kept = dueNs - now > earlySegment ? 2 : 0; // reserved for tones that begin meanwhile
-    if (segmentEnds_.size() + kept >= limits::board::maxSegments) return false;
+    const std::size_t reserved = dueNs - now > earlySegmentNs ? 2 : 0; // for tones that begin meanwhile
+    if (segmentEnds_.size() + reserved >= limits::board::maxSegments) return false;
     const std::scoped_lock lock{mutex_};
     return !orders_.stopAll; // the pending stop would delete it at once
 }
@@ -289,12 +289,12 @@ std::int64_t BoardLink::segmentReadyNs() const {
 
 void BoardLink::sendSegment(const BoardSegment& segment, bool isCoarse) {
     const std::uint32_t end = segment.frame + segment.frames,
-                        ready = wrapped(clock_.frameAt(segmentReadyNs()));
+                        ready = wrappedFrame(clock_.frameAt(segmentReadyNs()));
     if (!isPlayable(segment) || static_cast<std::int32_t>(end - ready) <= 0) return refuseSegment();
     segmentEnds_.push_back(end);
     send(wire::Segment{++sequence_, segment});
-    ++now_.segments;
-    now_.coarseSegments += isCoarse ? 1 : 0;
+    ++status_.segments;
+    status_.coarseSegments += isCoarse ? 1 : 0;
 }
 
 void BoardLink::sendStrikes() {
@@ -302,41 +302,41 @@ void BoardLink::sendStrikes() {
         if (isPlayable(strike.event))
             backlog_.push(strike);
         else
-            ++now_.refused;
+            ++status_.refused;
     }
     const std::int64_t now = nowNs();
-    while (!backlog_.empty() && backlog_.first().onsetNs < now - tooOld) {
+    while (!backlog_.empty() && backlog_.first().onsetNs < now - maxAgeNs) {
         backlog_.pop();
-        ++now_.refused;
+        ++status_.refused;
     }
-    const bool isReady = line_ && now_.state == State::ready;
+    const bool isReady = line_ && status_.state == State::ready;
     if (isReady)
-        backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes),
-                         static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
+        backlog_.dropLate({std::max(now, lineFreeNs_), lineNs(compactBytes),
+                           static_cast<std::int64_t>(1e6 * (transitMs() + overheadMs))});
     while (line_ && isReady && !backlog_.empty() && isLineFree(now) &&
-           backlog_.first().onsetNs < now + sendAheadMs * ms) {
+           backlog_.first().onsetNs < now + sendAheadMs * msNs) {
         wire::Strike strike{++sequence_, backlog_.first().event};
-        strike.event.frame = wrapped(clock_.frameAt(backlog_.first().onsetNs));
-        if (backlog_.size() > crowded && wire::fitsCompact(strike.event))
+        strike.event.frame = wrappedFrame(clock_.frameAt(backlog_.first().onsetNs));
+        if (backlog_.size() > maxLongFormCount && wire::fitsCompact(strike.event))
             send(wire::compact(strike));
         else
             send(strike);
         backlog_.pop();
-        ++now_.sent;
+        ++status_.sent;
     }
 }
 
 double BoardLink::transitMs() const {
-    return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
+    return 1e3 * clock_.worstDelaySeconds() + status_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
 }
 
 void BoardLink::publish() {
-    if (clock_.isReady()) now_.outputLatencyMs = transitMs() + marginMs;
-    now_.driftPpm = clock_.drift() * 1e6;
-    now_.thinned = backlog_.thinned() + strikes_.overflows();
-    now_.badFrames = decoder_.bad();
+    if (clock_.isReady()) status_.outputLatencyMs = transitMs() + marginMs;
+    status_.driftPpm = clock_.drift() * 1e6;
+    status_.thinned = backlog_.thinned() + strikes_.overflows();
+    status_.badFrames = decoder_.badFrames();
     const std::scoped_lock lock{mutex_};
-    published_ = now_;
+    published_ = status_;
 }
 
 template <class Message>
@@ -344,7 +344,7 @@ void BoardLink::send(const Message& message) {
     std::array<std::uint8_t, wire::maxFrame> frame;
     const std::size_t size = wire::encode(message, frame);
     lineFreeNs_ = std::max(lineFreeNs_, nowNs()) + lineNs(size);
-    if (!line_->write({frame.data(), size})) disconnect(now_.port + ": the line is gone");
+    if (!line_->write({frame.data(), size})) disconnect(status_.port + ": the line is gone");
 }
 
 // Serial ports by libserialport.

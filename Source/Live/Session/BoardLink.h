@@ -35,7 +35,7 @@ struct SerialPortName {
 /// Message thread (M) or link thread.
 std::vector<SerialPortName> listSerialPorts();
 
-/// One thread at a time.
+/// An open serial line. One thread at a time.
 class SerialLine {
 public:
     virtual ~SerialLine() = default;
@@ -51,11 +51,11 @@ public:
 /// The opened line, or nullptr with a one-line reason in `error`.
 std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error);
 
-/// Whether it is the line of a simulated board; never on Windows. Resolves symbolic links. Any thread but the
-/// render thread (R).
+/// Whether the path, after symbolic links, is a pseudo-terminal (a simulated board); never on Windows. Any
+/// thread but the render thread (R).
 bool isPseudoTerminal(const std::string& path);
 
-/// See openSerialLine().
+/// As openSerialLine(), for a pseudo-terminal.
 std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::string& error);
 
 /// Port name: the first port on which a board answers.
@@ -65,14 +65,14 @@ inline constexpr const char* anyBoard = "auto";
 struct BoardLinkStatus {
     enum class State { searching, greeting, synchronising, ready };
     State state = State::searching;
-    std::string port, trouble;                   ///< trouble: why there is no connection
+    std::string port, error;                     ///< error: why there is no connection
     wire::HelloReply board;                      ///< its latest reply
     wire::Telemetry telemetry;                   ///< the newest
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
-    double outputLatencyMs = 0.0; ///< how long before it is felt an event must be known; 0: not known yet
+    double outputLatencyMs = 0.0; ///< time before its onset at which an event must be known; 0: not known yet
     double driftPpm = 0.0;        ///< the board's clock relative to this computer's
-    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; dropped for lack of bandwidth;
-                                                      ///< refused as unplayable or too old, segments included
+    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; thinned (dropped for lack
+                                                      ///< of bandwidth); unplayable or too old, or segments
     std::uint64_t segments = 0, coarseSegments = 0; ///< segments of moving tones: sent; sent in longer pieces
                                                     ///< than planned for lack of bandwidth
     std::uint64_t connections = 0, badFrames = 0;
@@ -80,7 +80,7 @@ struct BoardLinkStatus {
 
 class BoardLink {
 public:
-    static constexpr std::int64_t sendAheadMs = 80; // the board stores 64 events, 58 are sent in this
+    static constexpr std::int64_t sendAheadMs = 80; // in it 58 events are sent; the board stores 64
 
     /// `port`: a path, or anyBoard. Message thread (M).
     explicit BoardLink(std::string port);
@@ -100,34 +100,34 @@ public:
 
     /// True if the connected board plays segments; otherwise moving tones are sent as series of events. Link
     /// thread, as the next five.
-    bool playsSegments() const noexcept { return now_.board.version >= wire::segmentsSince; }
+    bool supportsSegments() const noexcept { return status_.board.version >= wire::firstVersionWithSegments; }
     /// True if a segment that is due then can be sent now: the clock is known, and line and board have room.
-    bool takesSegment(std::int64_t dueNs);
-    /// The board's frame at that time, usually fractional; only while the clock is known.
+    bool canSendSegment(std::int64_t dueNs);
+    /// The board's frame at that time, with its fraction; only while the clock is known.
     double frameAt(std::int64_t steadyNs) const noexcept { return clock_.frameAt(steadyNs); }
     /// The earliest time at which a segment that is sent now can be played.
     std::int64_t segmentReadyNs() const;
-    /// Sends a segment; one that is over by segmentReadyNs() is counted as refused. Only if takesSegment().
+    /// Sends a segment; one that is over by segmentReadyNs() is counted as refused. Only if canSendSegment().
     void sendSegment(const BoardSegment& segment, bool isCoarse);
-    void refuseSegment() noexcept { ++now_.refused; }
+    void refuseSegment() noexcept { ++status_.refused; }
 
-    /// Sets what the link thread calls about once a millisecond for events and orders, or nothing (empty).
-    /// Only that may push, order and send segments, and it must be quick. On return the link thread is not
-    /// inside the previous one. M.
+    /// Sets the function that the link thread calls about every millisecond; empty: none. Only that may push
+    /// events, give orders and send segments, and it must be quick. When this returns, the link thread has
+    /// left the previous function. M.
     void follow(std::function<void()> feed);
 
     void stopAll() {
-        order([](Orders& o) { o.stopAll = true; });
+        changeOrders([](Orders& o) { o.stopAll = true; });
     }
     void requestSelfTest() {
-        order([](Orders& o) { o.selfTest = true; });
+        changeOrders([](Orders& o) { o.selfTest = true; });
     }
     /// Negative gains invert the polarity; -8 to 8. Sent repeatedly, at first at short intervals, because the
     /// line may lose them and the board may be switched off.
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
-    bool hasMet() const { ///< whether a board has ever answered
+    bool hasConnected() const { ///< whether a board has ever answered
         const std::scoped_lock lock{mutex_};
         return published_.connections > 0;
     }
@@ -139,7 +139,7 @@ private:
         std::optional<wire::Gains> gains;
     };
     template <class Change>
-    void order(Change change) {
+    void changeOrders(Change change) {
         const std::scoped_lock lock{mutex_};
         change(orders_);
     }
@@ -148,39 +148,39 @@ private:
     void disconnect(const std::string& why);
     void receive();
     void handle(std::span<const std::uint8_t> payload);
-    void meet(const wire::HelloReply& board);
-    void take(const wire::Pong& pong);
-    void greet();       // repeats Hello until the board answers
-    void keepInTouch(); // sends pings, requests for telemetry and gains when they are due
-    void obey();        // executes pending orders
+    void handleHello(const wire::HelloReply& board);
+    void handlePong(const wire::Pong& pong);
+    void greet();                // repeats Hello until the board answers
+    void sendPeriodicMessages(); // sends pings, requests for telemetry and gains when they are due
+    void executeOrders();        // executes pending orders
     void sendStrikes();
     void publish();
-    double transitMs() const; // longest time from sending until the board can play
+    double transitMs() const; // longest time from sending to playing
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);
 
-    const std::string wanted_;
+    const std::string port_;
     EventQueue<BoardStrike, 1024> strikes_;
-    std::mutex feedMutex_; // guards feed_, locked first
+    std::mutex feedMutex_; // guards feed_; locked before mutex_
     std::function<void()> feed_;
     mutable std::mutex mutex_; // guards orders_ and published_
     Orders orders_;
     BoardLinkStatus published_;
-    std::atomic<bool> stop_{false};
+    std::atomic<bool> isStopping_{false};
 
     // The following members belong to the link thread.
     std::unique_ptr<SerialLine> line_;
     wire::FrameDecoder decoder_;
     LinkClock clock_;
     StrikeBacklog backlog_;
-    BoardLinkStatus now_;
+    BoardLinkStatus status_;
     std::optional<wire::Gains> gains_;
     std::array<std::int64_t, 256> pingSentNs_{}; // 0: no ping with this id is unanswered
-    std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0,
-                 gainsPauseNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
+    std::int64_t lastReceivedNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0,
+                 nextGainsNs_ = 0, gainsRepeatNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
     std::vector<std::uint32_t> segmentEnds_; // end frames of segments in transit or on the board
-    std::size_t searched_ = 0;               // ports tried so far
+    std::size_t portsTried_ = 0;             // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;
 };

@@ -7,27 +7,27 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t secondNs = 1'000'000'000;
-constexpr std::int64_t mostLateNs = 40'000'000; // the length of a segment: one this late has passed entirely
-constexpr std::int64_t spareNs = 2'000'000;     // with less a longer segment is made: the next one is in time
+constexpr std::int64_t oneSecondNs = 1'000'000'000;
+constexpr std::int64_t maxDelayNs = 40'000'000; // the length of a segment: one this late has passed entirely
+constexpr std::int64_t hurryMarginNs = 2'000'000; // with less time, the segment is made longer
 
 using State = BoardLinkStatus::State;
-constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry is sent once a second
+constexpr std::int64_t telemetryWaitNs = 1'500'000'000; // telemetry is sent once a second
 
 std::string count(std::uint64_t n) { return std::to_string(n); }
 
-std::string whereItPlays(const BoardLinkStatus& s) {
+std::string linkText(const BoardLinkStatus& s) {
     if (s.state == State::ready)
         return s.port + ": ready, needs " + fixedNumber(s.outputLatencyMs, 0) + " ms, " + count(s.sent) +
                " sent, " + count(s.thinned) + " thinned";
-    if (!s.trouble.empty()) return s.trouble;
+    if (!s.error.empty()) return s.error;
     return s.state == State::searching ? "looking for a board" : s.port + ": connecting";
 }
 
-std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
+std::vector<SinkState::Detail> detailsOf(const BoardLinkStatus& s) {
     const auto& t = s.telemetry;
-    if (s.state != State::ready) return {{"Board", s.trouble.empty() ? "looking for it" : s.trouble, true}};
-    std::vector<SinkState::Fact> facts{
+    if (s.state != State::ready) return {{"Board", s.error.empty() ? "looking for it" : s.error, true}};
+    std::vector<SinkState::Detail> facts{
         {"Board", "ready, its clock " + fixedNumber(s.driftPpm, 0) + " ppm off"},
         {"Link", count(s.sent) + " sent, " + count(s.thinned) + " thinned, " + count(s.refused) + " refused",
          s.thinned + s.refused > 0}};
@@ -44,7 +44,7 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
 }
 
 // With anyBoard the link tries one port after the other, so the errors of single ports are not shown.
-std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+std::string errorOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
     if (s.state == State::ready) {
         if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
         return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
@@ -55,7 +55,7 @@ std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double 
         return wasReady ? "The board is gone; it is looked for on every serial port"
                         : "No board answers on any serial port";
     return "The board at " + port + (wasReady ? " is gone" : " does not answer") +
-           "; it is looked for twice a second" + (s.trouble.empty() ? "" : " (" + s.trouble + ")");
+           "; it is looked for twice a second" + (s.error.empty() ? "" : " (" + s.error + ")");
 }
 
 } // namespace
@@ -67,12 +67,12 @@ BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double l
     , panner_{panner} {}
 
 std::string BoardOutput::awaitReady(const std::function<bool()>& keepGoing) {
-    std::string fault = link_.awaitReady(keepGoing);
+    std::string error = link_.awaitReady(keepGoing);
     const auto now = link_.status();
     latencySeconds_ = std::max(latencySeconds_, now.outputLatencyMs * 1e-3);
     isAwaited_ = true;
-    before_ = now.telemetry;
-    return fault;
+    telemetryAtStart_ = now.telemetry;
+    return error;
 }
 
 void BoardOutput::follow(OutputClock* device) {
@@ -84,52 +84,52 @@ void BoardOutput::follow(OutputClock* device) {
     link_.follow([this] { feed(); });
 }
 
-void BoardOutput::made(const CollisionEvent& event) noexcept {
+void BoardOutput::onCollision(const CollisionEvent& event) noexcept {
     // the board has no recordings; a full queue counts the events that it drops
     if (!isClip(event.sound)) events_.push(event);
 }
 
 SinkState BoardOutput::state() const {
     SinkState state = sinkStateOf(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds());
-    state.lost += untold();
+    state.lost += droppedInQueues();
     return state;
 }
 
 void BoardOutput::feed() {
-    if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) {
+    if (const OutputMoment felt = device_->latestMoment(); felt.steadyNs != 0) {
         clock_.add(felt);
         rateHz_ = felt.sampleRateHz;
     }
     if (clock_.isReady()) {
-        takeControls();
+        processControls();
         for (CollisionEvent event; events_.pop(event);) {
             const bool isHeld = event.course.travelNs == 0 && outlastsStrike(event);
-            if (isHeld) event.course = {event.x, event.y, event.durationNs, event.course.sinceNs, event.z};
+            if (isHeld) event.course = {event.x, event.y, event.durationNs, event.course.toneAgeNs, event.z};
             if (event.course.travelNs > 0 && isPlayable(event) &&
                 2 * event.frequencyHz < limits::board::sampleRateHz)
-                move(event);
+                startPath(event);
             else
-                strike(event);
+                pushStrike(event);
         }
-        takeSteps();
-        takeSegments();
+        sendSteps();
+        sendSegments();
     }
     setGains();
 }
 
 // A layout is applied with the first event of its time, other controls when their time is felt.
-void BoardOutput::takeControls() {
+void BoardOutput::processControls() {
     for (RenderControl control; controls_.pop(control); controls_.done(control)) {
         if (control.panner != nullptr)
-            layouts_.push_back({control.timeNs, *control.panner});
+            pendingPanners_.push_back({control.timeNs, *control.panner});
         else
-            others_.push_back(control);
+            pendingControls_.push_back(control);
     }
     const std::int64_t now = BoardLink::nowNs();
-    const auto waits = std::find_if(others_.begin(), others_.end(),
-                                    [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
-    std::for_each(others_.begin(), waits, [this](const auto& c) { apply(c); });
-    others_.erase(others_.begin(), waits);
+    const auto firstWaiting = std::find_if(pendingControls_.begin(), pendingControls_.end(),
+                                           [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
+    std::for_each(pendingControls_.begin(), firstWaiting, [this](const auto& c) { apply(c); });
+    pendingControls_.erase(pendingControls_.begin(), firstWaiting);
 }
 
 void BoardOutput::apply(const RenderControl& control) {
@@ -141,21 +141,21 @@ void BoardOutput::apply(const RenderControl& control) {
     }
     if (channel >= gains_.size()) return;
     if (control.kind == RenderControl::Kind::gain) gains_[channel] = control.value;
-    if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
+    if (control.kind == RenderControl::Kind::mute) isMuted_[channel] = control.value != 0.0f;
 }
 
 // Passes steps to the link only when it would send them, so that a path of a minute does not fill its queue.
-void BoardOutput::takeSteps() {
-    const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
+void BoardOutput::sendSteps() {
+    const std::int64_t untilNs = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
     for (BoardSteps& steps : steps_)
-        while (!steps.isOver() && clock_.steadyAt(steps.nextNs()) < until) strike(steps.take());
+        while (!steps.isOver() && clock_.steadyAt(steps.nextNs()) < untilNs) pushStrike(steps.next());
     std::erase_if(steps_, [](const BoardSteps& steps) { return steps.isOver(); });
 }
 
-void BoardOutput::move(const CollisionEvent& event) {
-    const auto atOnce = std::count_if(paths_.begin(), paths_.end(),
-                                      [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
-    if (link_.playsSegments() && atOnce < mostPaths)
+void BoardOutput::startPath(const CollisionEvent& event) {
+    const auto soundingPaths = std::count_if(
+        paths_.begin(), paths_.end(), [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
+    if (link_.supportsSegments() && soundingPaths < maxPaths)
         paths_.emplace_back(event, rateHz_);
     else
         steps_.emplace_back(event);
@@ -163,7 +163,7 @@ void BoardOutput::move(const CollisionEvent& event) {
 
 // Sends segments in order of due time, as many as there is room for, and not earlier than the link would send
 // events of that time.
-void BoardOutput::takeSegments() {
+void BoardOutput::sendSegments() {
     const std::int64_t now = BoardLink::nowNs();
     std::erase_if(
         paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
@@ -173,9 +173,9 @@ void BoardOutput::takeSegments() {
             paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
         if (first == paths_.end() || first->isOver()) return;
         const std::int64_t due = clock_.steadyAt(first->nextNs());
-        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesSegment(due)) sendSegment(*first);
+        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.canSendSegment(due)) sendSegment(*first);
         // the line is gone or busy
-        else if (due < now - mostLateNs)
+        else if (due < now - maxDelayNs)
             first->skip(), link_.refuseSegment();
         else
             return;
@@ -183,38 +183,39 @@ void BoardOutput::takeSegments() {
 }
 
 void BoardOutput::sendSegment(BoardPath& path) {
-    takeLayouts(path.nextNs());
-    for (const BoardPath& before : paths_) path.joinTo(before);
+    applyDueLayouts(path.nextNs());
+    for (const BoardPath& before : paths_) path.continueFrom(before);
     const auto frameAt = [&](std::int64_t sinceNs) {
         return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs));
     };
-    const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
-    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.segmentReadyNs() + spareNs;
+    const BoardTime time{frameAt(0), frameAt(oneSecondNs) - frameAt(0)};
+    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.segmentReadyNs() + hurryMarginNs;
     const auto segment = path.next(
         time, [this](const CollisionEvent& moved) { return gainsAt(moved); }, isHurried);
     if (!segment) return;
     link_.sendSegment(*segment, path.isCoarse());
-    path.take();
+    path.advance();
 }
 
 void BoardOutput::setGains() {
     std::array<double, limits::board::channels> wanted{};
     for (std::size_t j = 0; j < wanted.size(); ++j)
-        if (!device_->isSilent() && !muted_[j]) wanted[j] = device_->level() * gains_[j];
-    if (wanted == sent_) return;
-    sent_ = wanted;
+        if (!device_->isSilent() && !isMuted_[j]) wanted[j] = device_->level() * gains_[j];
+    if (wanted == sentGains_) return;
+    sentGains_ = wanted;
     link_.setGains(wanted);
 }
 
-void BoardOutput::strike(const CollisionEvent& event) {
+void BoardOutput::pushStrike(const CollisionEvent& event) {
     if (!isPlayable(event)) return; // the renderer counts it
-    takeLayouts(event.timeNs);
+    applyDueLayouts(event.timeNs);
     link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event))});
 }
 
-void BoardOutput::takeLayouts(std::int64_t timeNs) {
-    for (; !layouts_.empty() && layouts_.front().timeNs <= timeNs; layouts_.erase(layouts_.begin()))
-        panner_ = layouts_.front().panner;
+void BoardOutput::applyDueLayouts(std::int64_t timeNs) {
+    for (; !pendingPanners_.empty() && pendingPanners_.front().timeNs <= timeNs;
+         pendingPanners_.erase(pendingPanners_.begin()))
+        panner_ = pendingPanners_.front().panner;
 }
 
 PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event) const noexcept {
@@ -229,17 +230,17 @@ SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double 
                     limits::board::channels,
                     s.sent,
                     s.thinned + s.refused,
-                    troubleOf(s, port, latencySeconds),
-                    whereItPlays(s),
-                    factsOf(s)};
+                    errorOf(s, port, latencySeconds),
+                    linkText(s),
+                    detailsOf(s)};
     state.playsClips = false;
     return state;
 }
 
 std::string BoardOutput::summary(const std::function<bool()>& keepGoing) const {
-    const std::int64_t end = BoardLink::nowNs() + newsWithinNs;
-    const auto seen = link_.status().telemetry.frame;
-    while (link_.status().telemetry.frame == seen && keepGoing() && BoardLink::nowNs() <= end)
+    const std::int64_t end = BoardLink::nowNs() + telemetryWaitNs;
+    const auto lastFrame = link_.status().telemetry.frame;
+    while (link_.status().telemetry.frame == lastFrame && keepGoing() && BoardLink::nowNs() <= end)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const auto s = link_.status();
     const auto& t = s.telemetry;
@@ -248,13 +249,13 @@ std::string BoardOutput::summary(const std::function<bool()>& keepGoing) const {
         lines = count(s.segments) + " segments of moving or long strikes, " + count(s.coarseSegments) +
                 " of them longer than their law asks for, as the line was full\n";
     std::string guarded;
-    if (const auto times = static_cast<std::uint16_t>(t.guarded - before_.guarded); times > 0)
+    if (const auto times = static_cast<std::uint16_t>(t.guarded - telemetryAtStart_.guarded); times > 0)
         guarded = ", turned down " + count(times) + " times, as it would have been nearly direct current";
     return lines + "felt " + fixedNumber(s.outputLatencyMs, 1) + " ms after the call; " + count(s.sent) +
-           " strikes sent, " + count(s.thinned + untold()) + " thinned, " + count(s.refused) +
-           " refused; the board played " + count(t.played - before_.played) + ", " +
-           count(t.late - before_.late) + " late, " + count(t.dropped - before_.dropped) + " dropped, " +
-           count(t.lost) + " lost" + guarded + '\n';
+           " strikes sent, " + count(s.thinned + droppedInQueues()) + " thinned, " + count(s.refused) +
+           " refused; the board played " + count(t.played - telemetryAtStart_.played) + ", " +
+           count(t.late - telemetryAtStart_.late) + " late, " + count(t.dropped - telemetryAtStart_.dropped) +
+           " dropped, " + count(t.lost) + " lost" + guarded + '\n';
 }
 
 } // namespace physvib

@@ -22,55 +22,55 @@
 #include <vector>
 
 namespace physvib {
-/// Runs on the link thread while it follows a device.
+/// Its feed() runs on the link thread while it follows a device.
 class BoardOutput final : public Sink {
 public:
-    /// Used if the board is not awaited: the link needs 20 to 40 ms. A board that needs more is reported.
-    static constexpr double usualLatencySeconds = 0.05;
+    /// Latency for a board that is not awaited: a link needs 20 to 40 ms. One that needs more is an error.
+    static constexpr double defaultLatencySeconds = 0.05;
 
     /// `port` may be anyBoard; `panner` is the session's, of at most four actuators. Events must be known at
-    /// least `latencySeconds` ahead: longer if an awaited link requires it, or, once a board has answered,
-    /// for the usual time, so that a missing board delays nothing. Message thread (M).
+    /// least `latencySeconds` ahead, or what an awaited link needs, or defaultLatencySeconds once a board has
+    /// answered: a missing board delays nothing. Message thread (M).
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
     double latencySeconds() const noexcept override {
-        return isAwaited_ || !link_.hasMet() ? latencySeconds_
-                                             : std::max(latencySeconds_, usualLatencySeconds);
+        return isAwaited_ || !link_.hasConnected() ? latencySeconds_
+                                                   : std::max(latencySeconds_, defaultLatencySeconds);
     }
     void follow(OutputClock* device) override;
-    void made(const CollisionEvent& event) noexcept override;
-    void posted(const RenderControl& control) noexcept override { controls_.push(control); }
+    void onCollision(const CollisionEvent& event) noexcept override;
+    void onControl(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
     std::string summary(const std::function<bool()>& keepGoing) const override;
 
     /// Events and controls dropped because a queue to the link was full. Any thread.
-    std::uint64_t untold() const noexcept { return events_.overflows() + controls_.overflows(); }
+    std::uint64_t droppedInQueues() const noexcept { return events_.overflows() + controls_.overflows(); }
     /// Any thread.
     BoardLinkStatus status() const { return link_.status(); }
 
 private:
     void feed();
-    void takeControls();
+    void processControls();
     void apply(const RenderControl& control);
     void setGains();
-    void strike(const CollisionEvent& event);
-    void move(const CollisionEvent& event);
-    void takeLayouts(std::int64_t timeNs);
+    void pushStrike(const CollisionEvent& event);
+    void startPath(const CollisionEvent& event);
+    void applyDueLayouts(std::int64_t timeNs);
     PathGains::Gains gainsAt(const CollisionEvent& event) const noexcept;
-    void takeSteps();
-    void takeSegments();
+    void sendSteps();
+    void sendSegments();
     void sendSegment(BoardPath& path);
 
     // two per moving tone: the sounding segment and the next
-    static constexpr std::ptrdiff_t mostPaths = limits::board::maxSegments / 2;
+    static constexpr std::ptrdiff_t maxPaths = limits::board::maxSegments / 2;
 
     const std::string port_; // as requested
     BoardLink link_;
     double latencySeconds_;
-    bool isAwaited_ = false; // then latencySeconds_ is what the board needs
-    wire::Telemetry before_; // telemetry when it became ready: a board's counters are never reset
+    bool isAwaited_ = false;           // true: latencySeconds_ is what the board needs
+    wire::Telemetry telemetryAtStart_; // telemetry when it became ready: a board's counters are never reset
     EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer's; the link thread reads
     ControlQueue<256> controls_;
     OutputClock* device_ = nullptr; // set by M, while the link thread is not in feed()
@@ -79,13 +79,13 @@ private:
     int rateHz_ = 0; // of the session
     SessionClock clock_;
     PhantomPanner panner_;
-    std::vector<PannerChange> layouts_; // panners and other controls that wait
-    std::vector<RenderControl> others_;
+    std::vector<PannerChange> pendingPanners_; // panners and other controls for later times
+    std::vector<RenderControl> pendingControls_;
     std::vector<BoardPath> paths_;  // moving and long tones, until their end is felt: another may follow
     std::vector<BoardSteps> steps_; // such tones as events: further ones, or for boards without segments
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
-    std::optional<std::array<double, limits::board::channels>> sent_; // gains that the link has
-    std::array<bool, limits::board::channels> muted_{};
+    std::optional<std::array<double, limits::board::channels>> sentGains_; // the last ones that the link got
+    std::array<bool, limits::board::channels> isMuted_{};
 };
 
 /// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt, for

@@ -10,16 +10,16 @@ namespace {
 
 // A panner between left and right with constant power at every place.
 PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
-    const EnchanterLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
+    const ActuatorLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
     return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
 }
 
 // Settings of the renderer. With one channel the place does not matter.
 RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
-    const EnchanterLayout here{1.0, 1.0, 1, {}};
+    const ActuatorLayout single{1.0, 1.0, 1, {}};
     return {.sampleRateHz = sampleRateHz,
             .panner = ears > 1 ? betweenEars(field.fieldWidthMetres(), field.fieldHeightMetres())
-                               : PhantomPanner{here, PanningLaw::linear, 1.0, 1.0, 1.0}};
+                               : PhantomPanner{single, PanningLaw::linear, 1.0, 1.0, 1.0}};
 }
 
 // The controls that also act on the audio: stops, and with two channels changes of the field.
@@ -39,20 +39,20 @@ std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int 
 } // namespace
 
 struct ContactAudio::Source {
-    ContactAudio& heard;
-    bool pop(CollisionEvent& event) noexcept { return heard.events_.pop(event); }
+    ContactAudio& audio;
+    bool pop(CollisionEvent& event) noexcept { return audio.events_.pop(event); }
     bool pop(RenderControl& control) noexcept {
         Change change;
-        if (!heard.fields_.hasRoom() || !heard.changes_.pop(change)) return false;
+        if (!audio.fields_.hasRoom() || !audio.changes_.pop(change)) return false;
         control = {.timeNs = change.timeNs};
         if (change.fieldWidthMetres > 0.0) {
             control.kind = RenderControl::Kind::panner;
             control.panner =
-                heard.fields_.put(betweenEars(change.fieldWidthMetres, change.fieldHeightMetres));
+                audio.fields_.store(betweenEars(change.fieldWidthMetres, change.fieldHeightMetres));
         }
         return true;
     }
-    void done(const RenderControl& control) noexcept { PannerPool<32>::handBack(control.panner); }
+    void done(const RenderControl& control) noexcept { PannerPool<32>::release(control.panner); }
 };
 
 void ContactAudio::prepare(int sampleRateHz) {
@@ -84,28 +84,28 @@ void ContactAudio::discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCK
 void ContactAudio::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
     renderer_->render(source, out, frames);
-    for (PlayedEvent told; renderer_->played().pop(told);) {
+    for (PlayedEvent unused; renderer_->played().pop(unused);) {
     } // discarded: the actuators' renderer has reported them
 }
 
 RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
-                                const ContactAudioRender& heard, const BlockConsumer& consume) {
+                                const ContactAudioRender& settings, const BlockConsumer& consume) {
     std::erase_if(events, [](const CollisionEvent& event) { return isClip(event.sound); });
     std::deque<PhantomPanner> panners;
-    const auto changes = controlsOf(std::move(controls), heard.ears, panners);
-    const auto gain = static_cast<float>(fromDecibels(heard.levelDb));
-    std::vector<std::vector<float>> scaled(static_cast<std::size_t>(heard.ears));
-    std::vector<const float*> at(scaled.size());
+    const auto changes = controlsOf(std::move(controls), settings.ears, panners);
+    const auto gain = static_cast<float>(fromDecibels(settings.levelDb));
+    std::vector<std::vector<float>> scaled(static_cast<std::size_t>(settings.ears));
+    std::vector<const float*> scaledChannels(scaled.size());
     return renderOffline(events,
-                         {settingsAt(heard.sampleRateHz, heard.ears, heard.field), heard.frames,
-                          heard.blockFrames, changes, heard.recordings},
+                         {settingsAt(settings.sampleRateHz, settings.ears, settings.field), settings.frames,
+                          settings.blockFrames, changes, settings.recordings},
                          [&](const float* const* channels, int frames) {
                              for (std::size_t c = 0; c < scaled.size(); ++c) {
                                  scaled[c].assign(channels[c], channels[c] + frames);
                                  for (float& sample : scaled[c]) sample *= gain;
-                                 at[c] = scaled[c].data();
+                                 scaledChannels[c] = scaled[c].data();
                              }
-                             return consume(at.data(), frames);
+                             return consume(scaledChannels.data(), frames);
                          });
 }
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 namespace physvib {
-/// Has its own renderer: panning, actuator settings and mutes do not affect the audio, and its limiter is as
-/// late as theirs. An impact plays its material's recording if there is one, else its mode.
+/// Renders impacts for listeners by a renderer of its own, with a limiter as late as the actuators'. Their
+/// panning, settings and mutes have no effect. An impact plays its material's recording, or else its mode.
 class ContactAudio {
 public:
     /// With one channel the place does not matter; with two, impacts on the left of `field` are louder there.
@@ -65,7 +65,7 @@ private:
     // plays in a block at a time, and all pending controls of a session at once.
     EventQueue<CollisionEvent, 16384> events_;
     EventQueue<Change, 512> changes_;
-    PannerPool<32> fields_; // that the renderer has not come to; more wait in changes_
+    PannerPool<32> fields_; // panners of queued controls; further changes wait in changes_
     std::vector<ContactRecording> recordings_;
     PhantomPanner field_;
     int ears_;
@@ -73,7 +73,7 @@ private:
     std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
 };
 
-/// The audio of a render; see ContactAudio.
+/// Settings of renderContactAudio(); see ContactAudio.
 struct ContactAudioRender {
     int sampleRateHz = 48000;
     std::int64_t frames = 0;
@@ -87,7 +87,7 @@ struct ContactAudioRender {
 /// Renders offline what ContactAudio plays of `events` (without clips) and of the actuators' `controls`.
 /// Message thread (M) only.
 RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
-                                const ContactAudioRender& heard, const BlockConsumer& consume);
+                                const ContactAudioRender& settings, const BlockConsumer& consume);
 
 // The channels that a session renders: those of the actuators, the audio of contacts, the trigger output.
 
@@ -95,12 +95,12 @@ RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<
 class RenderedChannels {
 public:
     /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
-    int heard() const noexcept { return contactAudio_ ? contactAudio_->ears() : 0; }
+    int contactAudioChannels() const noexcept { return contactAudio_ ? contactAudio_->ears() : 0; }
 
     /// Trigger output on the last channel: a pulse per onset, without gains, ceilings and delays. Null: none.
     const OnsetMarks* marks() const noexcept { return marks_.get(); }
 
-    int count() const noexcept { return actuators_ + heard() + (marks_ ? 1 : 0); }
+    int count() const noexcept { return actuators_ + contactAudioChannels() + (marks_ ? 1 : 0); }
 
     /// Highest ceiling that the actuator's channel has had while the limiter is on. Any thread.
     float ceiling(int channel) const noexcept {
@@ -108,7 +108,7 @@ public:
     }
 
     /// Bit j: the actuator's channel j is muted, or its gain is 0, as it was set last. Any thread.
-    std::uint64_t mutedChannels() const noexcept { return muted_.load(std::memory_order_relaxed); }
+    std::uint64_t mutedChannels() const noexcept { return mutedBits_.load(std::memory_order_relaxed); }
 
 private:
     friend class Session;
@@ -123,15 +123,15 @@ private:
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
 
-    /// Notes a control's mute or gain for mutedChannels(). One thread at a time, as the next one.
-    void note(const RenderControl& control) noexcept {
-        last_.take(control);
-        muted_.store(last_.mutedChannels(), std::memory_order_relaxed);
+    /// Updates mutedChannels() for a mute or gain. One thread at a time, as the next one.
+    void noteMute(const RenderControl& control) noexcept {
+        lastChanges_.apply(control);
+        mutedBits_.store(lastChanges_.mutedChannels(), std::memory_order_relaxed);
     }
-    void raiseCeiling(int channel, float to) noexcept {
+    void raiseCeiling(int channel, float ceiling) noexcept {
         if (channel < 0 || channel >= actuators_) return;
-        auto& most = ceilings_[static_cast<std::size_t>(channel)];
-        most = std::max(most.load(), to);
+        auto& highest = ceilings_[static_cast<std::size_t>(channel)];
+        highest = std::max(highest.load(), ceiling);
     }
 
     /// prepare() starts with silence at that frame; moveTo() continues at another rate, at which the
@@ -145,16 +145,16 @@ private:
         if (marks_) marks_->prepare(sampleRateHz, nextFrame);
     }
 
-    /// mirror() passes on what the actuators' renderer was given; struck() marks an event that it plays from
-    /// `frame` on. Render thread (R), wait-free.
+    /// mirror() passes on what the actuators' renderer was given; markOnset() marks an event that it plays
+    /// from `frame` on. Render thread (R), wait-free.
     void mirror(const CollisionEvent& event) noexcept {
         if (contactAudio_ && !isClip(event.sound)) contactAudio_->mirror(event);
     }
     void mirror(const RenderControl& control) noexcept {
         if (contactAudio_) contactAudio_->mirror(control);
     }
-    void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
-        if (marks_) marks_->strike(event, frame);
+    void markOnset(const CollisionEvent& event, std::int64_t frame) noexcept {
+        if (marks_) marks_->addOnset(event, frame);
     }
 
     void discard(const WaitingEvents& which) noexcept {
@@ -172,9 +172,9 @@ private:
     const int actuators_;
     const std::unique_ptr<ContactAudio> contactAudio_;
     const std::unique_ptr<OnsetMarks> marks_;
-    std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
-    LastChanges last_; // the scheduler's thread
-    std::atomic<std::uint64_t> muted_{0};
+    std::array<std::atomic<float>, limits::maxActuators> ceilings_;
+    LastChanges lastChanges_; // the scheduler's thread
+    std::atomic<std::uint64_t> mutedBits_{0};
 };
 
 } // namespace physvib

@@ -9,9 +9,9 @@ namespace {
 
 /// Resamples by `ratio`; empty if there is no memory.
 std::vector<float> converted(const std::vector<float>& in, double ratio) {
-    constexpr double most = 256.0; // limit of the converter per pass; a recording may have 100 Hz
-    if (ratio > most) return converted(converted(in, most), ratio / most);
-    if (1.0 / ratio > most) return converted(converted(in, 1.0 / most), ratio * most);
+    constexpr double maxRatio = 256.0; // limit of the converter per pass; a recording may have 100 Hz
+    if (ratio > maxRatio) return converted(converted(in, maxRatio), ratio / maxRatio);
+    if (1.0 / ratio > maxRatio) return converted(converted(in, 1.0 / maxRatio), ratio * maxRatio);
     std::vector<float> out(
         std::max<std::size_t>(1, static_cast<std::size_t>(ratio * static_cast<double>(in.size()))));
     SRC_DATA data{};
@@ -49,7 +49,7 @@ std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings
 }
 
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
-    for (const auto& one : recordings) samples_.push_back(resampled(one, sampleRateHz));
+    for (const auto& recording : recordings) samples_.push_back(resampled(recording, sampleRateHz));
     for (std::size_t i = 0; i < recordings.size(); ++i)
         contacts_.push_back({recordings[i].frequencyHz, samples_[i], recordings[i].file.sound()});
 }

@@ -14,18 +14,18 @@
 namespace physvib {
 /// A recording from its onset on, with its original level.
 struct ContactRecording {
-    double frequencyHz = 0.0; ///< of the events that play it, unless its file names a material
+    double frequencyHz = 0.0; ///< frequency of the events that play it, unless its file names a material
     int sampleRateHz = 0;
     std::vector<float> samples;
     RecordingFile file{}; ///< its file, with hash
-    std::string note{};   ///< a line for the user on what reading has removed; usually empty
+    std::string note{};   ///< a line for the user on removed content, or empty
     bool operator==(const ContactRecording&) const = default;
 };
 
 /// The files of recordings. Any thread.
 std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings);
 
-/// Their notes, without duplicates. Any thread.
+/// Notes of recordings, without duplicates. Any thread.
 std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings);
 
 /// Recordings at one rate, and the list of them for a renderer. Both are valid as long as this object, which
@@ -52,31 +52,31 @@ public:
     ClipSound(ContactRecording clip)
         : clip_{std::move(clip)} {}
 
-    bool isAt(int sampleRateHz) const {
-        return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end();
+    bool hasRate(int sampleRateHz) const {
+        return std::ranges::find(sounds_, sampleRateHz, &ResampledClip::sampleRateHz) != sounds_.end();
     }
 
-    /// The first call for a rate takes long. Valid as long as this object, even if it is moved.
-    std::span<const float> at(int sampleRateHz) {
-        auto known = std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz);
-        if (known == sounds_.end())
-            known = sounds_.insert(sounds_.end(), AtRate{sampleRateHz, {{clip_}, sampleRateHz}});
-        return known->sounds.contacts().front().samples;
+    /// The samples at that rate. The first call for a rate takes long. Valid as long as this object.
+    std::span<const float> atRate(int sampleRateHz) {
+        auto sound = std::ranges::find(sounds_, sampleRateHz, &ResampledClip::sampleRateHz);
+        if (sound == sounds_.end())
+            sound = sounds_.insert(sounds_.end(), ResampledClip{sampleRateHz, {{clip_}, sampleRateHz}});
+        return sound->sounds.contacts().front().samples;
     }
 
-    /// Its number of samples at the highest of these rates, or at its own rate if that is higher.
-    double samplesAt(const std::vector<int>& rates) const {
-        const double most = rates.empty() ? 0.0 : *std::ranges::max_element(rates);
-        return static_cast<double>(clip_.samples.size()) * std::max(1.0, most / clip_.sampleRateHz);
+    /// Number of samples at the highest of these rates or its own.
+    double maxSampleCount(const std::vector<int>& rates) const {
+        const double maxRateHz = rates.empty() ? 0.0 : *std::ranges::max_element(rates);
+        return static_cast<double>(clip_.samples.size()) * std::max(1.0, maxRateHz / clip_.sampleRateHz);
     }
 
 private:
-    struct AtRate {
+    struct ResampledClip {
         int sampleRateHz;
         ContactSounds sounds;
     };
     ContactRecording clip_;
-    std::vector<AtRate> sounds_;
+    std::vector<ResampledClip> sounds_;
 };
 
 /// Keeps every set for the session's life, because the render thread (R) may still use any. One thread at a
@@ -85,15 +85,15 @@ class RecordingSets {
 public:
     /// The list for a renderer at that rate: these recordings and all clips, including those that are added
     /// later. Valid as long as this object. Without recordings, all but clips play their mode.
-    RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
-        const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
+    RecordedContacts contacts(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
+        const auto existing = std::ranges::find_if(sets_, [&](const Set& set) {
             return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
         });
-        if (known != sets_.end()) return known->played();
+        if (existing != sets_.end()) return existing->played();
         Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
         const auto sounds = set.sounds.contacts();
         set.contacts.assign(sounds.begin(), sounds.end());
-        for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz, {}, soundOfClip(k)});
+        for (int k = 0; k < maxClips; ++k) set.contacts.push_back({clipFrequencyHz, {}, soundOfClip(k)});
         for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
         return set.played();
     }
@@ -107,7 +107,7 @@ public:
 
     const std::deque<ClipSound>& clips() const noexcept { return clips_; }
 
-    /// Adds a clip with the number clips().size(), which must be below mostClips. Fast if it is at all
+    /// Adds a clip with the number clips().size(), which must be below maxClips. Fast if it is at all
     /// rates() already. R may be searching any list meanwhile: it reads the numbers of the clips' entries,
     /// which do not change, and reads this clip's samples only for an event that is sent after this call.
     void add(ClipSound clip) {
@@ -125,7 +125,7 @@ private:
     };
 
     void fill(Set& set, std::size_t number) {
-        set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz);
+        set.contacts[set.recordings.size() + number].samples = clips_[number].atRate(set.sampleRateHz);
     }
 
     std::deque<Set> sets_;

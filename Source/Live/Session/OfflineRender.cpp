@@ -10,10 +10,10 @@ namespace physvib {
 namespace {
 
 template <class T>
-bool popFront(std::span<const T>& rest, T& item) noexcept {
-    if (rest.empty()) return false;
-    item = rest.front();
-    rest = rest.subspan(1);
+bool popFront(std::span<const T>& items, T& item) noexcept {
+    if (items.empty()) return false;
+    item = items.front();
+    items = items.subspan(1);
     return true;
 }
 
@@ -24,7 +24,7 @@ struct ListSource {
     bool pop(CollisionEvent& event) noexcept { return popFront(events, event); }
     bool pop(RenderControl& control) noexcept { return popFront(controls, control); }
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
-        if (marks != nullptr) marks->strike(event, frame);
+        if (marks != nullptr) marks->addOnset(event, frame);
     }
 };
 
@@ -33,7 +33,7 @@ struct ListSource {
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume) {
     const auto renderer = std::make_unique<HapticRenderer>();
-    if (!renderer->prepare(settings.renderer)) throw std::bad_alloc{}; // else what is written is silent
+    if (!renderer->prepare(settings.renderer)) throw std::bad_alloc{}; // otherwise the output is silent
     renderer->setContacts(settings.contacts);
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);

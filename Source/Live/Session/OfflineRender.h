@@ -13,7 +13,7 @@
 #include <string>
 
 namespace physvib {
-/// Length and block size of a render; the block size does not change the samples.
+/// Renderer, length and inputs of a render; the block size does not change the samples.
 struct OfflineSettings {
     RendererSettings renderer;
     std::int64_t frames = 0;
@@ -36,32 +36,32 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
 /// A StepWatch that stops once the simulation has used `seconds` more processor time than the simulated time.
 /// Processor time is used because a busy machine is not a slow scene. It affects only whether a render is
 /// made, not its samples. For the thread that creates it and simulates; must not be moved.
-class Patience {
+class SimulationTimeLimit {
 public:
-    static constexpr double usualSeconds = 4.0; // built-in scenes take a hundredth of real time
+    static constexpr double defaultSeconds = 4.0; // built-in scenes take a hundredth of real time
 
     /// Infinity: no limit.
-    explicit Patience(double seconds)
-        : seconds_{seconds} {}
+    explicit SimulationTimeLimit(double seconds)
+        : allowedSeconds_{seconds} {}
 
     bool operator()(std::int64_t simulatedNs) {
         simulatedSeconds_ = static_cast<double>(simulatedNs) * 1e-9;
-        takenSeconds_ = threadSeconds() - beganSeconds_;
-        return takenSeconds_ <= seconds_ + simulatedSeconds_;
+        cpuSeconds_ = threadCpuSeconds() - startSeconds_;
+        return cpuSeconds_ <= allowedSeconds_ + simulatedSeconds_;
     }
 
     /// Empty, or the error that the limit was exceeded.
-    std::string fault() const {
-        if (takenSeconds_ <= seconds_ + simulatedSeconds_) return {};
+    std::string error() const {
+        if (cpuSeconds_ <= allowedSeconds_ + simulatedSeconds_) return {};
         return "expected a world that is simulated as fast as it lasts, found " +
-               fixedNumber(simulatedSeconds_, 2) + " s of it after " + fixedNumber(takenSeconds_, 1) +
+               fixedNumber(simulatedSeconds_, 2) + " s of it after " + fixedNumber(cpuSeconds_, 1) +
                " s of processor time (--patience waits longer)";
     }
 
 private:
-    double seconds_;
-    double simulatedSeconds_ = 0.0, takenSeconds_ = 0.0;
-    double beganSeconds_ = threadSeconds();
+    double allowedSeconds_;
+    double simulatedSeconds_ = 0.0, cpuSeconds_ = 0.0;
+    double startSeconds_ = threadCpuSeconds();
 };
 
 } // namespace physvib

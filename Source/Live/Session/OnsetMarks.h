@@ -22,14 +22,14 @@ constexpr std::string_view nameOf(MarkedOnsets which) noexcept {
     return markedOnsetsNames[static_cast<std::size_t>(which)];
 }
 
-/// Full scale from the first frame at or after the onset, else 0. A pulse ends early if necessary, so that
-/// each onset has its own rising edge. Only onsets within leastApartSeconds after an edge share its pulse.
+/// Renders pulses: full scale from the first frame at or after an onset, else 0. A pulse ends early if
+/// necessary, so that each onset has its own edge; onsets within minIntervalSeconds of an edge share it.
 class OnsetMarks {
 public:
-    static constexpr double pulseSeconds = 0.002, restSeconds = 0.00025, leastApartSeconds = 0.0005;
+    static constexpr double pulseSeconds = 0.002, restSeconds = 0.00025, minIntervalSeconds = 0.0005;
 
     explicit OnsetMarks(MarkedOnsets which) noexcept
-        : which_{which} {}
+        : marked_{which} {}
 
     /// Starts with the sample of `firstFrame`, which may be below 0, and without onsets. Message thread (M),
     /// not while rendering.
@@ -37,61 +37,61 @@ public:
         const auto framesOf = [=](double seconds) {
             return static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz));
         };
-        pulse_ = framesOf(pulseSeconds);
-        rest_ = framesOf(restSeconds);
-        apart_ = framesOf(leastApartSeconds);
-        position_ = firstFrame;
-        first_ = last_ = 0;
-        lastEdge_ = offFrame_ = INT64_MIN / 2;
+        pulseFrames_ = framesOf(pulseSeconds);
+        restFrames_ = framesOf(restSeconds);
+        minIntervalFrames_ = framesOf(minIntervalSeconds);
+        nextFrame_ = firstFrame;
+        firstEdge_ = endEdge_ = 0;
+        lastEdgeFrame_ = offFrame_ = INT64_MIN / 2;
     }
 
     /// The event is played from `frame` on. That frame must be at least restSeconds after the last rendered
     /// sample, so that an earlier pulse can end. Render thread (R), wait-free.
-    void strike(const CollisionEvent& event, std::int64_t frame) noexcept {
+    void addOnset(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (!isMarked(event)) return;
-        if (frame <= lastEdge_ + apart_) return count(shared_);
+        if (frame <= lastEdgeFrame_ + minIntervalFrames_) return increment(sharedOnsets_);
         // cannot happen with blocks of the permitted length
-        if (last_ - first_ == edges_.size()) return count(shared_);
-        edges_[last_++ % edges_.size()] = lastEdge_ = frame;
-        count(made_);
+        if (endEdge_ - firstEdge_ == edges_.size()) return increment(sharedOnsets_);
+        edges_[endEdge_++ % edges_.size()] = lastEdgeFrame_ = frame;
+        increment(pulses_);
     }
 
     /// R, wait-free.
     void render(float* out, int frames) noexcept {
-        for (int n = 0; n < frames; ++n, ++position_) {
-            if (position_ >= nextEdge()) {
-                offFrame_ = position_ + pulse_;
-                ++first_;
+        for (int n = 0; n < frames; ++n, ++nextFrame_) {
+            if (nextFrame_ >= nextEdge()) {
+                offFrame_ = nextFrame_ + pulseFrames_;
+                ++firstEdge_;
             }
-            out[n] = position_ < std::min(offFrame_, nextEdge() - rest_) ? 1.0f : 0.0f;
+            out[n] = nextFrame_ < std::min(offFrame_, nextEdge() - restFrames_) ? 1.0f : 0.0f;
         }
     }
 
     /// Number of pulses, and of onsets that shared the pulse of another. Any thread.
-    std::uint64_t made() const noexcept { return made_.load(std::memory_order_relaxed); }
-    std::uint64_t shared() const noexcept { return shared_.load(std::memory_order_relaxed); }
+    std::uint64_t pulses() const noexcept { return pulses_.load(std::memory_order_relaxed); }
+    std::uint64_t sharedOnsets() const noexcept { return sharedOnsets_.load(std::memory_order_relaxed); }
 
 private:
     bool isMarked(const CollisionEvent& event) const noexcept {
         const bool isOfWorld = event.source.fixture >= 0;
-        if (event.course.sinceNs > 0) return false;
-        return which_ == MarkedOnsets::all ||
-               (which_ == MarkedOnsets::hits ? isOfWorld && event.source.kind == ContactKind::hit
-                                             : !isOfWorld);
+        if (event.course.toneAgeNs > 0) return false;
+        return marked_ == MarkedOnsets::all ||
+               (marked_ == MarkedOnsets::hits ? isOfWorld && event.source.kind == ContactKind::hit
+                                              : !isOfWorld);
     }
     std::int64_t nextEdge() const noexcept {
-        return first_ == last_ ? INT64_MAX : edges_[first_ % edges_.size()];
+        return firstEdge_ == endEdge_ ? INT64_MAX : edges_[firstEdge_ % edges_.size()];
     }
-    static void count(std::atomic<std::uint64_t>& counter) noexcept {
+    static void increment(std::atomic<std::uint64_t>& counter) noexcept {
         counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     }
 
-    const MarkedOnsets which_;
-    std::int64_t pulse_ = 0, rest_ = 0, apart_ = 0, position_ = 0;
+    const MarkedOnsets marked_;
+    std::int64_t pulseFrames_ = 0, restFrames_ = 0, minIntervalFrames_ = 0, nextFrame_ = 0;
     std::array<std::int64_t, 4096> edges_{}; // a block of 8192 frames at 5 kHz has 2048 of them
-    std::size_t first_ = 0, last_ = 0;
-    std::int64_t lastEdge_ = 0, offFrame_ = 0;
-    std::atomic<std::uint64_t> made_{0}, shared_{0};
+    std::size_t firstEdge_ = 0, endEdge_ = 0;
+    std::int64_t lastEdgeFrame_ = 0, offFrame_ = 0;
+    std::atomic<std::uint64_t> pulses_{0}, sharedOnsets_{0};
 };
 
 } // namespace physvib

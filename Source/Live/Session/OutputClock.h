@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// State of an output device for the sinks that follow it: pauses, mute requests, output time and level; and
-// how a sink follows it: an estimate of when a session time is felt, and restarts.
+// State of an output device for the sinks that follow it (pauses, mute requests, output time, level), and the
+// tools of such sinks: an estimate of when a session time is felt (SessionClock), and restarts.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -31,39 +31,39 @@ steadyNs(std::chrono::steady_clock::time_point at = std::chrono::steady_clock::n
 class DevicePulse {
 public:
     static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-    static constexpr std::int64_t goneNs = 2'000'000'000; ///< a device that pauses longer counts as gone
+    static constexpr std::int64_t goneAfterNs = 2'000'000'000; ///< a device that pauses longer counts as gone
 
     /// The longest pause of a device that runs, in blocks of `blockNs`: three of them, and at least 100 ms.
     static constexpr std::int64_t limitNs(std::int64_t blockNs) noexcept {
         return 3 * blockNs > 100'000'000 ? 3 * blockNs : 100'000'000;
     }
 
-    /// A device starts; a pause of more than `limitNs` counts, with `never` none does. The first device has
-    /// goneNs until its first block. Message thread (M), while the render thread (R) does not run.
+    /// A device starts. Only pauses longer than `limitNs` count; `never`: none. The first device may take
+    /// goneAfterNs until its first block. Message thread (M), while the render thread (R) does not run.
     void begin(std::int64_t limitNs, std::int64_t nowNs) noexcept {
         limitNs_.store(limitNs, std::memory_order_relaxed);
         if (lastNs_.load(std::memory_order_relaxed) == never)
-            lastNs_.store(nowNs + goneNs, std::memory_order_release);
+            lastNs_.store(nowNs + goneAfterNs, std::memory_order_release);
     }
 
     /// Tells which waiting events are dropped when a device returns: those up to a session time, or all after
     /// a pause so long that the device counts as gone.
-    struct Return {
-        std::uint64_t pauses = 0, losses = 0; ///< ended so far; losses: the long ones
-        std::int64_t untilNs = 0;             ///< of the last pause
+    struct PauseHistory {
+        std::uint64_t pauses = 0, losses = 0; ///< pauses that have ended; those after which it counts as gone
+        std::int64_t untilNs = 0;             ///< session time at the end of the last pause
     };
     /// The first block after a pause begins, at session time `sessionNs`. Returns whether the device was
     /// gone. R, wait-free.
-    bool comeBack(std::int64_t nowNs, std::int64_t sessionNs) noexcept {
-        const bool wasGone = nowNs - lastNs_.load(std::memory_order_relaxed) > goneNs;
+    bool endPause(std::int64_t nowNs, std::int64_t sessionNs) noexcept {
+        const bool wasGone = nowNs - lastNs_.load(std::memory_order_relaxed) > goneAfterNs;
         untilNs_.store(sessionNs, std::memory_order_relaxed);
         losses_.fetch_add(wasGone ? 1 : 0, std::memory_order_relaxed);
         pauses_.fetch_add(1, std::memory_order_release);
         return wasGone;
     }
     /// A block that began at `nowNs` has been rendered: from now on the device runs. R, wait-free.
-    void beat(std::int64_t nowNs) noexcept { lastNs_.store(nowNs, std::memory_order_release); }
-    /// Start of the last block, from beat(); a time in the far future before the first. Any thread.
+    void blockRendered(std::int64_t nowNs) noexcept { lastNs_.store(nowNs, std::memory_order_release); }
+    /// Start of the last block, from blockRendered(); a time in the far future before the first. Any thread.
     std::int64_t lastNs() const noexcept {
         return std::min(lastNs_.load(std::memory_order_acquire), never / 2);
     }
@@ -71,14 +71,14 @@ public:
     void end() noexcept { limitNs_.store(0, std::memory_order_relaxed); }
 
     /// Whether the device pauses. False before the first begin(): the session has no device. Any thread.
-    bool isStill(std::int64_t nowNs) const noexcept {
+    bool isPaused(std::int64_t nowNs) const noexcept {
         const std::int64_t last = lastNs_.load(std::memory_order_acquire),
                            limit = limitNs_.load(std::memory_order_relaxed);
         return last != never && limit != never && nowNs - last > limit;
     }
 
-    /// Any thread, wait-free.
-    Return returns() const noexcept {
+    /// The pauses that have ended. Any thread, wait-free.
+    PauseHistory history() const noexcept {
         const std::uint64_t pauses = pauses_.load(std::memory_order_acquire);
         return {pauses, losses_.load(std::memory_order_relaxed), untilNs_.load(std::memory_order_relaxed)};
     }
@@ -86,15 +86,15 @@ public:
     /// Counts events that are not played. Any thread, wait-free, as the next ones.
     void drop(std::uint64_t events) noexcept { dropped_.fetch_add(events, std::memory_order_relaxed); }
     /// True, and these events are counted as dropped, while the device pauses.
-    bool dropsNow(std::uint64_t events) noexcept {
-        if (!isStill(steadyNs())) return false;
+    bool dropIfPaused(std::uint64_t events) noexcept {
+        if (!isPaused(steadyNs())) return false;
         drop(events);
         return true;
     }
     std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
     /// The error of an input that is dropped.
-    static constexpr const char* refusal = "no device runs: dropped";
+    static constexpr const char* droppedError = "no device runs: dropped";
 
 private:
     std::atomic<std::int64_t> lastNs_{never}, limitNs_{never};
@@ -111,47 +111,49 @@ enum class MuteRequester : std::size_t { machine, standardInput, osc };
 /// thread, lock-free.
 class MuteRequests {
 public:
-    /// Requests silence; returns the number of the request: 1 for the first of `holder`.
-    std::uint64_t request(MuteRequester holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
+    /// Requests silence; returns the number of the request: 1 for the first of `requester`.
+    std::uint64_t request(MuteRequester requester) noexcept { return of(requester).asked.fetch_add(1) + 1; }
 
     /// Requests silence with a number that the input gave; repeating it changes nothing.
-    void request(MuteRequester holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
+    void request(MuteRequester requester, std::uint64_t number) noexcept {
+        raise(of(requester).asked, number);
+    }
 
-    /// How many times `holder` has requested silence.
-    std::uint64_t asked(MuteRequester holder) const noexcept { return of(holder).asked.load(); }
+    /// How many times `requester` has requested silence.
+    std::uint64_t requestCount(MuteRequester requester) const noexcept { return of(requester).asked.load(); }
 
-    /// Withdraws the requests of `holder` up to that number.
-    void lift(MuteRequester holder, std::uint64_t number) noexcept {
-        raise(of(holder).lifted, std::min(number, asked(holder)));
+    /// Withdraws the requests of `requester` up to that number.
+    void withdraw(MuteRequester requester, std::uint64_t number) noexcept {
+        raise(of(requester).withdrawn, std::min(number, requestCount(requester)));
     }
 
     /// Withdraws all requests of all inputs: only for the machine.
-    void liftAll() noexcept {
-        for (Requests& all : requests_) raise(all.lifted, all.asked.load());
+    void withdrawAll() noexcept {
+        for (Requests& all : requests_) raise(all.withdrawn, all.asked.load());
     }
 
-    bool isHeldBy(MuteRequester holder) const noexcept { return of(holder).isHeld(); }
+    bool isRequestedBy(MuteRequester requester) const noexcept { return of(requester).isPending(); }
 
     /// Wait-free.
-    bool isSilent() const noexcept { return std::ranges::any_of(requests_, &Requests::isHeld); }
+    bool isSilent() const noexcept { return std::ranges::any_of(requests_, &Requests::isPending); }
 
 private:
     using Number = std::atomic<std::uint64_t>;
     static_assert(Number::is_always_lock_free);
 
     struct Requests {
-        Number asked{0}, lifted{0};
-        bool isHeld() const noexcept {
-            const std::uint64_t until = lifted.load(); // read first, so that it never exceeds `asked`
+        Number asked{0}, withdrawn{0};
+        bool isPending() const noexcept {
+            const std::uint64_t until = withdrawn.load(); // read first, so that it never exceeds `asked`
             return asked.load() > until;
         }
     };
-    Requests& of(MuteRequester holder) noexcept { return requests_[static_cast<std::size_t>(holder)]; }
-    const Requests& of(MuteRequester holder) const noexcept {
-        return requests_[static_cast<std::size_t>(holder)];
+    Requests& of(MuteRequester requester) noexcept { return requests_[static_cast<std::size_t>(requester)]; }
+    const Requests& of(MuteRequester requester) const noexcept {
+        return requests_[static_cast<std::size_t>(requester)];
     }
-    static void raise(Number& number, std::uint64_t least) noexcept {
-        for (std::uint64_t now = number.load(); now < least && !number.compare_exchange_weak(now, least);) {
+    static void raise(Number& number, std::uint64_t bound) noexcept {
+        for (std::uint64_t now = number.load(); now < bound && !number.compare_exchange_weak(now, bound);) {
         }
     }
 
@@ -161,8 +163,8 @@ private:
 /// An event of session time `sessionNs` is felt at `steadyNs` of the steady clock.
 struct OutputMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
-    std::int64_t behindNs = 0; ///< lag of the felt time: output latency plus the device's own
-    int sampleRateHz = 0;      ///< of the block
+    std::int64_t lagNs = 0; ///< output latency plus the device's own latency
+    int sampleRateHz = 0;   ///< of the block
 };
 
 class OutputClock {
@@ -172,12 +174,12 @@ public:
         : isEnded_{isEnded} {}
 
     /// The moment of the newest block; {} before the first. Any thread but the render thread (R).
-    OutputMoment felt() const noexcept {
+    OutputMoment latestMoment() const noexcept {
         for (;;) {
             const auto before = writes_.load(std::memory_order_acquire);
             const OutputMoment moment{
                 sessionNs_.load(std::memory_order_acquire), steadyNs_.load(std::memory_order_acquire),
-                behindNs_.load(std::memory_order_acquire), sampleRateHz_.load(std::memory_order_acquire)};
+                lagNs_.load(std::memory_order_acquire), sampleRateHz_.load(std::memory_order_acquire)};
             if (before % 2 == 0 && writes_.load(std::memory_order_relaxed) == before) return moment;
         }
     }
@@ -197,19 +199,19 @@ public:
     /// The user's choice at this computer: silent within a block, or, regardless of all requests for silence,
     /// sounding again in a ramp.
     void setSilent(bool silent) noexcept {
-        silent ? void(silence_.request(MuteRequester::machine)) : silence_.liftAll();
+        silent ? void(silence_.request(MuteRequester::machine)) : silence_.withdrawAll();
     }
 
 protected:
     ~OutputClock() = default;
 
-    /// Publishes the moment of a block for felt(). R, wait-free.
-    void tell(const OutputMoment& moment) noexcept {
+    /// Publishes the moment of a block for latestMoment(). R, wait-free.
+    void publish(const OutputMoment& moment) noexcept {
         const auto before = writes_.load(std::memory_order_relaxed);
         writes_.store(before + 1, std::memory_order_relaxed);
         sessionNs_.store(moment.sessionNs, std::memory_order_release);
         steadyNs_.store(moment.steadyNs, std::memory_order_release);
-        behindNs_.store(moment.behindNs, std::memory_order_release);
+        lagNs_.store(moment.lagNs, std::memory_order_release);
         sampleRateHz_.store(moment.sampleRateHz, std::memory_order_release);
         writes_.store(before + 2, std::memory_order_release);
     }
@@ -220,7 +222,7 @@ private:
     std::atomic<float> level_{0.0f};
     // A seqlock for any number of readers: the count is odd during a write; a reader repeats if it changed.
     std::atomic<std::uint64_t> writes_{0};
-    std::atomic<std::int64_t> sessionNs_{0}, steadyNs_{0}, behindNs_{0};
+    std::atomic<std::int64_t> sessionNs_{0}, steadyNs_{0}, lagNs_{0};
     std::atomic<int> sampleRateHz_{0};
 };
 
@@ -238,16 +240,17 @@ public:
 
     /// Adds the moments in time order; a repeated moment changes nothing.
     void add(const OutputMoment& moment) noexcept {
-        const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
+        const std::int64_t lag = moment.steadyNs - moment.sessionNs,
+                           age = moment.steadyNs - halfWindowStartNs_;
         // the first, or the first after a pause, in which session time stood still
-        if (!isReady_ || age > 2 * halfWindowNs || lag - std::min(before_, now_) > pauseNs)
-            before_ = now_ = lag;
+        if (!isReady_ || age > 2 * halfWindowNs || lag - std::min(previousLagNs_, currentLagNs_) > pauseNs)
+            previousLagNs_ = currentLagNs_ = lag;
         if (!isReady_ || age > halfWindowNs) {
-            before_ = now_;
-            now_ = lag;
-            halfBeganNs_ = moment.steadyNs;
+            previousLagNs_ = currentLagNs_;
+            currentLagNs_ = lag;
+            halfWindowStartNs_ = moment.steadyNs;
         }
-        now_ = std::min(now_, lag);
+        currentLagNs_ = std::min(currentLagNs_, lag);
         isReady_ = true;
     }
 
@@ -255,12 +258,13 @@ public:
 
     /// Steady time at which `sessionNs` is felt; only if ready.
     std::int64_t steadyAt(std::int64_t sessionNs) const noexcept {
-        return sessionNs + std::min(before_, now_);
+        return sessionNs + std::min(previousLagNs_, currentLagNs_);
     }
 
 private:
-    std::int64_t before_ = 0, now_ = 0; // smallest lag of the last half window and of the current one
-    std::int64_t halfBeganNs_ = 0;
+    std::int64_t previousLagNs_ = 0, currentLagNs_ = 0; // smallest lag of the last half window and of the
+                                                        // current one
+    std::int64_t halfWindowStartNs_ = 0;
     bool isReady_ = false;
 };
 
@@ -278,49 +282,49 @@ public:
         device_ = device;
         clock_ = {};
         change();
-        beginsAnew_ = true;
-        rested_.wait_for(lock, mostRest, [&] { return !beginsAnew_ || isOver(); });
+        needsRestart_ = true;
+        outputStopped_.wait_for(lock, maxStopWait, [&] { return !needsRestart_ || isOver(); });
     }
-    /// Locks. On the sink's thread: if the device has changed, calls `rest()` without the lock to end the
-    /// output, then `begin()` with it.
-    void beginAnew(auto rest, auto begin) {
+    /// Locks. On the sink's thread: if the device has changed, ends the output (`stopOutput()`) without it,
+    /// then calls `begin()` with it.
+    void restartIfChanged(auto stopOutput, auto begin) {
         std::unique_lock lock{mutex};
-        if (!beginsAnew_) return;
+        if (!needsRestart_) return;
         lock.unlock();
-        rest();
+        stopOutput();
         lock.lock();
         begin();
         playedNs_ = 0;
-        beginsAnew_ = false;
-        rested_.notify_all();
+        needsRestart_ = false;
+        outputStopped_.notify_all();
     }
     /// On the sink's thread: the session time felt at `nowNs`, if known; calls `begin()` if it went back.
     std::optional<std::int64_t> sessionNs(std::int64_t nowNs, auto begin) {
-        if (device_ == nullptr || beginsAnew_) return {};
-        if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
+        if (device_ == nullptr || needsRestart_) return {};
+        if (const OutputMoment moment = device_->latestMoment(); moment.steadyNs != 0) clock_.add(moment);
         if (!clock_.isReady()) return {};
-        const std::int64_t now = nowNs - clock_.steadyAt(0);
-        if (now + jumpNs < playedNs_) begin();
-        return playedNs_ = now;
+        const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
+        if (sessionNs + minBackwardJumpNs < playedNs_) begin();
+        return playedNs_ = sessionNs;
     }
     float level() const { return device_->isSilent() ? 0.0f : device_->level(); } ///< where there is a time
-    /// Locks. Waits until `isReady()`, for `patienceNs` at most and while `keepGoing()`; returns `trouble()`.
-    std::string await(std::int64_t patienceNs, const std::function<bool()>& keepGoing, auto isReady,
-                      auto trouble) const {
-        const std::int64_t endNs = steadyNs() + patienceNs;
+    /// Locks. Waits until `isReady()`, for `timeOutNs` at most and while `keepGoing()`; returns `error()`.
+    std::string await(std::int64_t timeOutNs, const std::function<bool()>& keepGoing, auto isReady,
+                      auto error) const {
+        const std::int64_t endNs = steadyNs() + timeOutNs;
         for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
             const std::lock_guard lock{mutex};
-            if (isReady() || !keepGoing() || steadyNs() > endNs) return trouble();
+            if (isReady() || !keepGoing() || steadyNs() > endNs) return error();
         }
     }
 
 private:
-    static constexpr std::int64_t jumpNs = 70'000'000; // backwards: a pause or a restart
-    static constexpr std::chrono::milliseconds mostRest{250};
+    static constexpr std::int64_t minBackwardJumpNs = 70'000'000; // backwards: a pause or a restart
+    static constexpr std::chrono::milliseconds maxStopWait{250};
 
-    std::condition_variable rested_;
+    std::condition_variable outputStopped_;
     OutputClock* device_ = nullptr;
-    bool beginsAnew_ = false;
+    bool needsRestart_ = false;
     SessionClock clock_;
     std::int64_t playedNs_ = 0; // session time
 };

@@ -27,7 +27,7 @@ Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, DevicePuls
     , world_{world}
     , channels_{channels}
     , sinks_{sinks}
-    , played_{setup.recordings} {}
+    , activeSet_{setup.recordings} {}
 
 void Scheduler::prepare() {
     controls_.clear();
@@ -40,7 +40,7 @@ void Scheduler::prepare() {
     followedSceneNs_ = -1;
     followedGains_.fill(std::numeric_limits<float>::quiet_NaN());
     if (!isLogged_) return;
-    if (!played_.empty()) log_.recordings.push_back({0, filesOf(played_)});
+    if (!activeSet_.empty()) log_.recordings.push_back({0, filesOf(activeSet_)});
     log_.clips = clips_;
 }
 
@@ -50,8 +50,8 @@ Result<std::int64_t> Scheduler::submit(Input input) {
         std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
     if (!mayWait && input.timeNs != Input::now)
         return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
-    if (const std::size_t events = eventsOf(input); events > 0 && pulse_.dropsNow(events))
-        return Failure{DevicePulse::refusal};
+    if (const std::size_t events = eventsOf(input); events > 0 && pulse_.dropIfPaused(events))
+        return Failure{DevicePulse::droppedError};
     return std::visit([&](auto& what) { return submit(what, input.timeNs); }, input.what);
 }
 
@@ -59,11 +59,11 @@ Result<std::int64_t> Scheduler::submit(std::span<const Action> actions, std::int
     for (;;) { // repeated if a new scene run began since the check
         std::size_t number = 0;
         const auto scene = world_.scene(number);
-        if (!check_ || checkedTake_ != number)
-            check_.emplace(*scene,
-                           setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
-        checkedTake_ = number;
-        if (std::string fault = check_->take(actions); !fault.empty()) return Failure{std::move(fault)};
+        if (!check_ || checkedRun_ != number)
+            check_.emplace(*scene, setup_.log == LogUse::document ? sceneLimits::maxLiveInputs
+                                                                  : InputCheck::unlimited);
+        checkedRun_ = number;
+        if (std::string error = check_->accept(actions); !error.empty()) return Failure{std::move(error)};
         if (world_.addInputs(number, actions)) return time_.nowNs();
     }
 }
@@ -72,7 +72,7 @@ Result<std::int64_t> Scheduler::submit(RenderControl& control, std::int64_t) {
     if ((control.kind == RenderControl::Kind::panner) != (control.panner != nullptr))
         return Failure{"expected a panner with the control that sets it, and with no other"};
     postDueStops(time_.nowNs());
-    control.timeNs = toldNs();
+    control.timeNs = earliestNs();
     if (!post(control)) return Failure{"too many controls at once"};
     return control.timeNs;
 }
@@ -82,12 +82,12 @@ bool Scheduler::post(RenderControl& control) {
     control.timeNs = std::max(control.timeNs, lastControlNs_); // a later stop may have been posted before
     if (!controls_.push(control)) return false;
     lastControlNs_ = control.timeNs;
-    sinks_.posted(control);
-    channels_.note(control);
+    sinks_.onControl(control);
+    channels_.noteMute(control);
     if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
     if (control.panner != nullptr) panner_ = *control.panner;
     if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&
-        control.channel < limits::maxEnchanters)
+        control.channel < limits::maxActuators)
         followedGains_[static_cast<std::size_t>(control.channel)] = std::numeric_limits<float>::quiet_NaN();
     if (!isLogged_) return true;
     if (control.panner != nullptr)
@@ -97,29 +97,29 @@ bool Scheduler::post(RenderControl& control) {
     return true;
 }
 
-Result<std::int64_t> Scheduler::submit(PlayedRecordings& wanted, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(PlayedRecordings& requested, std::int64_t) {
     RenderControl control;
-    control.timeNs = toldNs();
-    if (wanted.recordings == played_) return control.timeNs;
+    control.timeNs = earliestNs();
+    if (requested.recordings == activeSet_) return control.timeNs;
     control.kind = RenderControl::Kind::recordings;
-    control.recordings = recordings_.at(time_.law().sampleRateHz, wanted.recordings);
+    control.recordings = recordings_.contacts(time_.law().sampleRateHz, requested.recordings);
     if (!controls_.push(control)) return Failure{"too many controls at once"};
-    played_ = std::move(wanted.recordings);
-    if (isLogged_) log_.recordings.push_back({control.timeNs, filesOf(played_)});
+    activeSet_ = std::move(requested.recordings);
+    if (isLogged_) log_.recordings.push_back({control.timeNs, filesOf(activeSet_)});
     return control.timeNs;
 }
 
 Result<std::int64_t> Scheduler::submit(const Strikes& strikes, std::int64_t timeNs) {
-    const auto isFit = [&](const CollisionEvent& e) {
+    const auto isValid = [&](const CollisionEvent& e) {
         return isPlayable(e) && (strikes.canBeStopped || e.timeNs < limits::maxTimeNs / 2);
     };
-    if (!std::ranges::all_of(strikes.events, isFit)) return Failure{"expected strikes that can be played"};
-    const std::int64_t start = timeNs == Input::now ? toldNs() : timeNs;
+    if (!std::ranges::all_of(strikes.events, isValid)) return Failure{"expected strikes that can be played"};
+    const std::int64_t start = timeNs == Input::now ? earliestNs() : timeNs;
     std::vector<CollisionEvent> events{strikes.events.begin(), strikes.events.end()};
     for (CollisionEvent& event : events) event.timeNs += start;
     if (strikes.canBeStopped) {
         if (!world_.schedule(events))
-            return Failure{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+            return Failure{"too many strikes wait: at most " + std::to_string(ScheduledEvents::maxEvents)};
         return start;
     }
     world_.strike(events);
@@ -128,10 +128,10 @@ Result<std::int64_t> Scheduler::submit(const Strikes& strikes, std::int64_t time
 }
 
 Result<std::int64_t> Scheduler::submit(const Stop&, std::int64_t timeNs) {
-    if (stops_.size() == mostStops) return Failure{"too many stops wait"};
+    if (stops_.size() == maxStops) return Failure{"too many stops wait"};
     const std::int64_t now = time_.nowNs();
-    timeNs = std::max(timeNs, toldNs());
-    world_.forgetScheduled(timeNs, now);
+    timeNs = std::max(timeNs, earliestNs());
+    world_.cancelScheduled(timeNs, now);
     stops_.insert(std::ranges::upper_bound(stops_, timeNs), timeNs);
     postDueStops(now);
     return timeNs;
@@ -149,7 +149,7 @@ void Scheduler::postDueStops(std::int64_t untilNs) {
     nextStopNs_ = stops_.empty() ? never : stops_.front();
 }
 
-void Scheduler::takeDueStops() {
+void Scheduler::sendDueStops() {
     const std::int64_t now = time_.nowNs();
     if (nextStopNs_ > now) return;
     const std::lock_guard lock{mutex_};
@@ -157,8 +157,8 @@ void Scheduler::takeDueStops() {
 }
 
 Result<std::int64_t> Scheduler::submit(Lanes& lanes, std::int64_t) {
-    followed_ = std::move(lanes.mix);
-    follows_ = followed_ != nullptr;
+    lanesMix_ = std::move(lanes.mix);
+    hasLanes_ = lanesMix_ != nullptr;
     followedSceneNs_ = -1;
     return time_.nowNs();
 }
@@ -166,60 +166,60 @@ Result<std::int64_t> Scheduler::submit(Lanes& lanes, std::int64_t) {
 // Acts like a fader that is moved at the time of the step. The gains are logged, so that a later render does
 // not depend on the lane.
 void Scheduler::followLanes() {
-    if (!follows_.load(std::memory_order_relaxed)) return;
+    if (!hasLanes_.load(std::memory_order_relaxed)) return;
     const std::lock_guard lock{mutex_};
     const std::int64_t sceneNs = world_.sceneNs(),
                        steppedNs = world_.steppedNs_.load(std::memory_order_acquire);
-    const std::size_t take = world_.take();
-    if (!followed_ || (sceneNs == followedSceneNs_ && take == followedTake_))
+    const std::size_t run = world_.runNumber();
+    if (!lanesMix_ || (sceneNs == followedSceneNs_ && run == followedRun_))
         return; // gains set otherwise hold while the world is paused
     postDueStops(steppedNs);
-    for (std::size_t j = 0; j < followed_->strips.size(); ++j) {
-        if (!hasLane(*followed_, j)) continue;
-        Strip now = followed_->strips[j];
-        now.gainDb = gainDbAt(*followed_, j, static_cast<double>(sceneNs) * 1e-9);
+    for (std::size_t j = 0; j < lanesMix_->strips.size(); ++j) {
+        if (!hasLane(*lanesMix_, j)) continue;
+        Strip strip = lanesMix_->strips[j];
+        strip.gainDb = gainDbAt(*lanesMix_, j, static_cast<double>(sceneNs) * 1e-9);
         RenderControl control{std::max<std::int64_t>(0, steppedNs - time_.leadNs()),
                               RenderControl::Kind::gain,
                               static_cast<int>(j),
-                              channelGain(now),
+                              channelGain(strip),
                               {}};
         if (control.value == followedGains_[j]) continue;
         if (!post(control)) return; // the queue is full: retried with the next call
         followedGains_[j] = control.value;
     }
     followedSceneNs_ = sceneNs;
-    followedTake_ = take;
+    followedRun_ = run;
 }
 
 bool Scheduler::hasRoomFor(std::span<const ClipSound> channels) const {
     const auto rates = recordings_.rates();
     double samples = 0.0;
-    const auto add = [&](const ClipSound& sound) { samples += sound.samplesAt(rates); };
+    const auto add = [&](const ClipSound& sound) { samples += sound.maxSampleCount(rates); };
     std::ranges::for_each(channels, add);
     std::ranges::for_each(recordings_.clips(), add);
-    return samples <= limits::maxRecordingSamples && clips_.size() + channels.size() <= mostClips;
+    return samples <= limits::maxRecordingSamples && clips_.size() + channels.size() <= maxClips;
 }
 
 // Resamples without the mutex, because that takes long.
-std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channels) {
+std::optional<int> Scheduler::addClip(std::span<const ContactRecording> channels) {
     std::vector<ClipSound> sounds(channels.begin(), channels.end());
     for (std::vector<int> rates;;) {
-        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.at(rate); });
+        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.atRate(rate); });
         const std::lock_guard lock{mutex_};
-        const auto isFirst = [&](const ClipFile& kept) {
-            return kept.channel == 0 && kept.file.path == channels[0].file.path &&
-                   kept.file.hash == channels[0].file.hash;
+        const auto isFirst = [&](const ClipFile& clip) {
+            return clip.channel == 0 && clip.file.path == channels[0].file.path &&
+                   clip.file.hash == channels[0].file.hash;
         };
-        const auto known = std::ranges::find_if(clips_, isFirst);
-        if (known != clips_.end()) return static_cast<int>(known - clips_.begin());
+        const auto existing = std::ranges::find_if(clips_, isFirst);
+        if (existing != clips_.end()) return static_cast<int>(existing - clips_.begin());
         if (!hasRoomFor(sounds)) return std::nullopt;
         rates = recordings_.rates();
-        if (!std::ranges::all_of(rates, [&](int rate) { return sounds.back().isAt(rate); })) continue;
+        if (!std::ranges::all_of(rates, [&](int rate) { return sounds.back().hasRate(rate); })) continue;
         for (ClipSound& sound : sounds) recordings_.add(std::move(sound));
         const auto first = static_cast<int>(clips_.size());
         for (int j = 0; j < std::ssize(channels); ++j) {
-            const auto& kept = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
-            if (isLogged_) log_.clips.push_back(kept);
+            const auto& added = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
+            if (isLogged_) log_.clips.push_back(added);
         }
         return first;
     }
@@ -270,30 +270,30 @@ bool CallbackInputs::silence(int frame) noexcept {
     return controls_.push(control);
 }
 
-bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
+bool CallbackInputs::postInput(RenderInput input, int frame) noexcept {
     if (!hasWorld_) return true; // no world would take it from the queue
     input.timeNs = time_.nextNs(frame);
     return inputs_.push(input);
 }
 
-void CallbackInputs::forget() noexcept {
+void CallbackInputs::clear() noexcept {
     for (CollisionEvent unplayed; strikes_.pop(unplayed);) {
     }
     controls_.clear();
     for (RenderInput undone; inputs_.pop(undone);) {
     }
-    spawns_ = 0;
-    names_.fill({});
+    spawnCount_ = 0;
+    bodyNames_.fill({});
 }
 
-void CallbackInputs::handTo(SessionWorld& world) {
+void CallbackInputs::passInputsTo(SessionWorld& world) {
     for (RenderInput input; inputs_.pop(input);) {
-        if (input.group == RenderInput::script) world.pace(input.timeNs, input.scriptSeconds, input.scale);
+        if (input.group == RenderInput::script) world.setPace(input.timeNs, input.scriptSeconds, input.scale);
         if (input.group == RenderInput::device) world.addInput(input.timeNs, input.hold);
         if (input.group < 0 || input.group >= static_cast<int>(groups_.size())) continue;
         for (Action action : groups_[static_cast<std::size_t>(input.group)]) {
             const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };
-            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->newtonSeconds);
+            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->impulseNewtonSeconds);
             if (auto* spawn = std::get_if<SpawnAction>(&action)) {
                 scale(spawn->body.velocityMetresPerSecond);
                 addBody(world, input.timeNs, *spawn);
@@ -306,9 +306,9 @@ void CallbackInputs::handTo(SessionWorld& world) {
 
 // Each spawned body has a new name; the oldest is removed when there are too many.
 void CallbackInputs::addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action) {
-    std::string& name = names_[spawns_ % names_.size()];
+    std::string& name = bodyNames_[spawnCount_ % bodyNames_.size()];
     if (!name.empty()) world.addInput(timeNs, RemoveAction{name});
-    name = action.body.name += " #" + std::to_string(++spawns_);
+    name = action.body.name += " #" + std::to_string(++spawnCount_);
     world.addInput(timeNs, std::move(action));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs to a session. CallbackInputs take those of the render call; Scheduler checks, times and logs all
-// others and passes them to the world or the renderer; InputQueue connects an input's reader to its consumer.
+// Inputs to a session. CallbackInputs takes those of the render call (R is the render thread, M the message
+// thread); Scheduler checks, times, logs and passes on all others; InputQueue connects two threads.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/ControlQueue.h"
@@ -42,35 +42,35 @@ class SessionWorld;
 // Interface of a source of samples, such as incoming audio, that a session mixes with the rendered events.
 
 /// Mixed before the actuators' own stages: level, equaliser, delay and limiter act on all samples alike.
-class AddedSamples {
+class SampleSource {
 public:
     /// The renderer's frames from `frame` on (session time in frames), at most limits::tileFrames. One
     /// pointer per channel of the session; null: silence. Valid until the next call. R, wait-free.
     virtual const float* const* at(std::int64_t frame, int frames) noexcept = 0;
 
 protected:
-    ~AddedSamples() = default;
+    ~SampleSource() = default;
 };
 
-/// Part of a session.
+/// The part of a session that queues inputs of the render call.
 class CallbackInputs {
 public:
     /// `frame`: frames into the block that is rendered next. The event is felt at an exact frame: the
     /// output latency later, or the renderer's latency later if the session is direct. False, and counted,
     /// if the queue is full. Render thread (R), wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
-    /// The same `afterNs` after that frame, which may be in the past.
+    /// The same, for a time `afterNs` after that frame, which may be in the past.
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
     /// Copies the control's panner; at most 16 panners can wait.
     bool control(RenderControl control, int frame) noexcept;
-    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
+    bool postInput(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
 
     /// Acts at once, without the output latency: sounding modes fade, and earlier events are no longer
     /// played. R, wait-free.
     bool silence(int frame) noexcept;
 
     /// Mixes in these samples from now on; they must outlive the session. M, not while rendering.
-    void add(AddedSamples& samples) noexcept { added_ = &samples; }
+    void add(SampleSource& samples) noexcept { samples_ = &samples; }
 
 private:
     friend class Session;
@@ -84,14 +84,14 @@ private:
         , groups_{setup.groups} {}
 
     /// Discards everything queued and spawned. M, not while rendering, with the world mutex held.
-    void forget() noexcept;
+    void clear() noexcept;
 
     /// The next item for the renderer; false: none. R, wait-free.
     bool popStrike(CollisionEvent& strike) noexcept { return strikes_.pop(strike); }
     bool popControl(RenderControl& control) noexcept { return controls_.pop(control); }
 
     /// Passes R's actions to the world. On the thread that holds the world mutex.
-    void handTo(SessionWorld& world);
+    void passInputsTo(SessionWorld& world);
 
     /// Items that did not fit the queues. Any thread, wait-free.
     std::uint64_t refused() const noexcept {
@@ -107,9 +107,9 @@ private:
     EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: a dense chord in 8192 frames
     ControlQueue<128, 16> controls_;           // senders limit their rate
     EventQueue<RenderInput, 1024> inputs_;     // from R to the thread that steps the world
-    AddedSamples* added_ = nullptr;
-    std::uint64_t spawns_ = 0;          // this and the next are guarded by the world mutex
-    std::array<std::string, 64> names_; // of the newest bodies that R spawned; no scene needs more at once
+    SampleSource* samples_ = nullptr;
+    std::uint64_t spawnCount_ = 0;          // this and the next are guarded by the world mutex
+    std::array<std::string, 64> bodyNames_; // of the newest bodies that R spawned
 };
 
 // The inputs to a session from outside: by mouse, text line, message, program or sequencer.
@@ -136,7 +136,7 @@ struct Lanes {
     std::shared_ptr<const Mix> mix; ///< null: no lanes
 };
 
-/// One input of any kind.
+/// One input of any kind, and its time.
 struct Input {
     static constexpr std::int64_t now = std::numeric_limits<std::int64_t>::min();
 
@@ -155,26 +155,26 @@ struct Input {
 template <class Item>
 class InputQueue {
 public:
-    static constexpr std::size_t mostBytes = 16 << 20; ///< limit for pending items
-    static constexpr std::size_t itemBytes = 256;      ///< counted per item beside its text
+    static constexpr std::size_t maxBytes = 16 << 20; ///< limit for pending items
+    static constexpr std::size_t itemBytes = 256;     ///< counted per item beside its text
 
     /// False, and nothing changes, while the queue is full.
     bool push(Item&& item, std::size_t textBytes) {
         const std::size_t bytes = textBytes + itemBytes;
         {
             const std::lock_guard lock{mutex_};
-            if (bytes_ + bytes > mostBytes) return false;
+            if (bytes_ + bytes > maxBytes) return false;
             items_.emplace_back(std::move(item), bytes);
             bytes_ += bytes;
         }
-        came_.notify_one();
+        itemAdded_.notify_one();
         return true;
     }
 
     /// Waits for an item; false after the time-out.
-    bool wait(std::chrono::milliseconds patience) {
+    bool wait(std::chrono::milliseconds timeOut) {
         std::unique_lock lock{mutex_};
-        return came_.wait_for(lock, patience, [this] { return !items_.empty(); });
+        return itemAdded_.wait_for(lock, timeOut, [this] { return !items_.empty(); });
     }
 
     /// The first item, if any.
@@ -189,7 +189,7 @@ public:
 
 private:
     std::mutex mutex_; // guards the following members
-    std::condition_variable came_;
+    std::condition_variable itemAdded_;
     std::deque<std::pair<Item, std::size_t>> items_; // with their sizes in bytes
     std::size_t bytes_ = 0;
 };
@@ -202,7 +202,7 @@ public:
               RenderedChannels& channels, SinkSet& sinks);
 
     Result<std::int64_t> submit(Input input);
-    std::optional<int> keepClip(std::span<const ContactRecording> channels);
+    std::optional<int> addClip(std::span<const ContactRecording> channels);
     PhantomPanner panner() const;
     std::int64_t readLog(SessionLog& log);
 
@@ -210,7 +210,7 @@ public:
     void followLanes();
 
     /// Sends the stops that are due to the renderer. Any thread but R in a realtime block.
-    void takeDueStops();
+    void sendDueStops();
 
     /// The next control for the renderer; false: none. R, wait-free.
     bool pop(RenderControl& control) noexcept { return controls_.pop(control); }
@@ -218,11 +218,11 @@ public:
 private:
     friend class Session;
     static constexpr std::int64_t never = INT64_MAX;
-    static constexpr std::size_t mostStops = 256;
+    static constexpr std::size_t maxStops = 256;
 
     // The mutex must be held.
     void prepare();
-    RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
+    RecordedContacts contactsAt(int sampleRateHz) { return recordings_.contacts(sampleRateHz, activeSet_); }
     Result<std::int64_t> submit(const Action& action, std::int64_t timeNs) {
         return submit(std::span{&action, 1}, timeNs);
     }
@@ -232,7 +232,9 @@ private:
     Result<std::int64_t> submit(const Strikes& strikes, std::int64_t timeNs);
     Result<std::int64_t> submit(const Stop&, std::int64_t timeNs);
     Result<std::int64_t> submit(Lanes& lanes, std::int64_t timeNs);
-    std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs()); }
+    std::int64_t earliestNs() const noexcept {
+        return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs());
+    }
     bool post(RenderControl& control);
     void postDueStops(std::int64_t untilNs);
     bool hasRoomFor(std::span<const ClipSound> channels) const;
@@ -246,22 +248,22 @@ private:
     SinkSet& sinks_;
     ControlQueue<256> controls_;
     std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; readable without the mutex
-    std::atomic<bool> follows_{false};            // there are lanes; readable without the mutex
+    std::atomic<bool> hasLanes_{false};           // there are lanes; readable without the mutex
 
     mutable std::mutex mutex_; // guards the following members, and the producer's side of controls_
     std::optional<InputCheck> check_;
-    std::size_t checkedTake_ = 0;
+    std::size_t checkedRun_ = 0;
     RecordingSets recordings_;
-    std::vector<ContactRecording> played_; // the recordings in use
-    std::vector<ClipFile> clips_;          // in the order of recordings_
-    SessionLog log_;                       // without scene runs; entries that have not been read
+    std::vector<ContactRecording> activeSet_; // the recordings in use
+    std::vector<ClipFile> clips_;             // in the order of recordings_
+    SessionLog log_;                          // without scene runs; entries that have not been read
     PhantomPanner panner_;
     std::int64_t lastControlNs_ = 0;
-    std::vector<std::int64_t> stops_; // in the future, in time order
-    std::shared_ptr<const Mix> followed_;
-    std::array<float, limits::maxEnchanters> followedGains_{}; // last value sent; NaN: set otherwise
+    std::vector<std::int64_t> stops_; // times of future stops, in order
+    std::shared_ptr<const Mix> lanesMix_;
+    std::array<float, limits::maxActuators> followedGains_{}; // last value sent; NaN: set otherwise
     std::int64_t followedSceneNs_ = -1; // scene time up to which lanes have been followed
-    std::size_t followedTake_ = 0;
+    std::size_t followedRun_ = 0;
 };
 
 } // namespace physvib

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Start and resumption of a session, and rendering with the output latency.
+// Starts, resumes and renders a session with its output latency.
 #include "Live/Session/Session.h"
 #include <new>
 
 namespace physvib {
 
-// The renderer's event source. Realtime: queued events. Non-realtime: this thread holds the world and steps
-// it until `endNs`.
+// The renderer's source of events and controls. In real time they are queued; offline, this thread holds the
+// world and steps it until `endNs`.
 struct Session::Source {
     Session& session;
     RenderMode mode;
     FrameClock clock;
     std::int64_t nextFrame, endNs; // nextFrame: of the renderer; endNs: of the block
     bool pop(CollisionEvent& event) noexcept {
-        if (!session.callback_.popStrike(event) && !popOfWorld(event)) return false;
+        if (!session.callback_.popStrike(event) && !popFromWorld(event)) return false;
         session.channels_.mirror(event);
         return true;
     }
-    bool popOfWorld(CollisionEvent& event) noexcept {
+    bool popFromWorld(CollisionEvent& event) noexcept {
         if (mode == RenderMode::offline) return session.world_.popOrStep(event, endNs);
         if (!session.world_.pop(event)) return false;
-        session.leastMarginFrames_ =
-            std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        session.minMarginFrames_ =
+            std::min(session.minMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
         return true;
     }
     bool pop(RenderControl& control) noexcept {
@@ -31,20 +31,20 @@ struct Session::Source {
     }
     void done(const RenderControl& control) noexcept { ControlQueue<1>::done(control); }
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
-        session.channels_.struck(event, frame);
+        session.channels_.markOnset(event, frame);
     }
     const float* const* added(std::int64_t frame, int frames) noexcept {
-        return session.callback_.added_ ? session.callback_.added_->at(frame, frames) : nullptr;
+        return session.callback_.samples_ ? session.callback_.samples_->at(frame, frames) : nullptr;
     }
 };
 
 Session::Session(std::shared_ptr<const SessionSetup> setup)
-    : order_{std::move(setup)}
-    , setup_{*order_}
+    : setupOwner_{std::move(setup)}
+    , setup_{*setupOwner_}
     , renderer_{std::make_unique<HapticRenderer>()}
     , channels_{setup_}
     , callback_{time_, setup_}
-    , world_{order_, time_, pulse_, callback_, sinks_}
+    , world_{setupOwner_, time_, pulse_, callback_, sinks_}
     , scheduler_{setup_, time_, pulse_, world_, channels_, sinks_} {}
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
@@ -64,9 +64,9 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     // the renderer starts with the first block in which something can be felt
     setTime(law, setup_.direct == Direct::fromStart ? law.outputLatencyFrames() - law.limiterFrames : 0);
     world_.prepare();
-    callback_.forget();
+    callback_.clear();
     scheduler_.prepare();
-    leastMarginFrames_ = noMargin;
+    minMarginFrames_ = noMargin;
 }
 
 ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
@@ -91,69 +91,72 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 }
 
 int Session::advance(const StepWatch& keepGoing) {
-    scheduler_.takeDueStops();
+    scheduler_.sendDueStops();
     const int steps = setup_.hasWorld ? world_.advance(keepGoing) : 0;
     scheduler_.followLanes();
     return steps;
 }
 
-void Session::comeBack(std::int64_t nowNs) noexcept {
-    const std::int64_t present = time_.nowNs();
-    const bool wasGone = pulse_.comeBack(nowNs, present);
+void Session::endPause(std::int64_t nowNs) noexcept {
+    const std::int64_t presentNs = time_.nowNs();
+    const bool wasGone = pulse_.endPause(nowNs, presentNs);
     // Sounding modes continue, since a held note is state.
-    const WaitingEvents late{wasGone ? INT64_MAX : present, setup_.areEventsOfCaller()};
-    Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, present};
+    const WaitingEvents late{wasGone ? INT64_MAX : presentNs, setup_.areEventsOfCaller()};
+    Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, presentNs};
     pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, late)));
     channels_.discard(late);
 }
 
-void Session::wait(int frames) noexcept {
+void Session::lengthenLatency(int frames) noexcept {
     world_.beginBlock(RenderMode::realtime);
-    time_.waitFrames(frames);
+    time_.lengthenByBlock(frames);
 }
 
-void Session::wait(float* const* unfelt, int frames) noexcept {
-    const std::int64_t start = time_.outputLatencyFrames() - renderer_->latencyFrames(),
-                       next = time_.framesRendered() - start;
+void Session::shortenLatency(float* const* discarded, int frames) noexcept {
+    const std::int64_t startFrame = time_.outputLatencyFrames() - renderer_->latencyFrames(),
+                       next = time_.framesRendered() - startFrame;
     // the renderer may not have started, or start within these frames
     if (const int rendered = static_cast<int>(std::clamp<std::int64_t>(next + frames, 0, frames));
         rendered > 0) {
         Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz},
                       std::max<std::int64_t>(0, next), time_.nowNs()};
-        renderer_->render(source, unfelt, rendered);
-        channels_.render(unfelt, rendered);
+        renderer_->render(source, discarded, rendered);
+        channels_.render(discarded, rendered);
     }
     time_.lengthen(-frames);
 }
 
-// The renderer's output lags by the limiter's frames, which are part of the output latency, so it starts
-// that much earlier.
+// Renders a block: silence until the output latency has passed, then the renderer's frames. The limiter's
+// delay is part of that latency, so the renderer starts that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (!setup_.hasWorld) mode = RenderMode::realtime;
-    const bool begins = world_.beginBlock(mode);
-    const std::int64_t done = begins ? time_.tellFrames(frames) : 0,
-                       start = time_.outputLatencyFrames() - renderer_->latencyFrames();
-    const int silent = begins ? static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames)) : frames;
-    std::array<float*, limits::maxEnchanters + 3> rest{};
+    const bool hasWorldStarted = world_.beginBlock(mode);
+    const std::int64_t framesBefore = hasWorldStarted ? time_.advanceFrames(frames) : 0,
+                       startFrame = time_.outputLatencyFrames() - renderer_->latencyFrames();
+    const int silentFrames =
+        hasWorldStarted ? static_cast<int>(std::clamp<std::int64_t>(startFrame - framesBefore, 0, frames))
+                        : frames;
+    std::array<float*, limits::maxActuators + 3> remaining{};
     for (int j = 0; j < channels_.count(); ++j) {
-        std::fill_n(out[j], silent, 0.0f);
-        rest[static_cast<std::size_t>(j)] = out[j] + silent;
+        std::fill_n(out[j], silentFrames, 0.0f);
+        remaining[static_cast<std::size_t>(j)] = out[j] + silentFrames;
     }
-    if (!begins) return;
-    const int left = frames - silent;
-    const std::int64_t endNs = time_.sessionNs(done + frames);
-    Source source{*this, mode, FrameClock{time_.law().sampleRateHz}, done + silent - start, endNs};
-    const auto renderRest = [&] {
-        if (left > 0) renderer_->render(source, rest.data(), left);
+    if (!hasWorldStarted) return;
+    const int remainingFrames = frames - silentFrames;
+    const std::int64_t endNs = time_.sessionNs(framesBefore + frames);
+    Source source{*this, mode, FrameClock{time_.law().sampleRateHz}, framesBefore + silentFrames - startFrame,
+                  endNs};
+    const auto renderRemaining = [&] {
+        if (remainingFrames > 0) renderer_->render(source, remaining.data(), remainingFrames);
     };
     if (mode == RenderMode::offline) {
-        scheduler_.takeDueStops();
-        world_.runOffline(endNs, renderRest);
+        scheduler_.sendDueStops();
+        world_.runOffline(endNs, renderRemaining);
     } else {
-        renderRest();
+        renderRemaining();
     }
-    if (left > 0) channels_.render(rest.data(), left);
-    status_.write({renderer_->status(), endNs, leastMarginFrames_, callback_.refused() + channels_.lost()});
+    if (remainingFrames > 0) channels_.render(remaining.data(), remainingFrames);
+    status_.write({renderer_->status(), endNs, minMarginFrames_, callback_.refused() + channels_.lost()});
 }
 
 } // namespace physvib

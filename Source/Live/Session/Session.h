@@ -30,8 +30,8 @@
 
 namespace physvib {
 
-/// Its parts document themselves: Timeline (time), WorldRunner (world), CallbackInputs (inputs in the render
-/// call). Threads: message thread (M), render thread (R), world driver (D).
+/// A live session. Its parts document themselves: Timeline (time), WorldRunner (world), CallbackInputs
+/// (inputs in the render call).
 class Session {
 public:
     /// M. Throws std::invalid_argument if the scene is not valid.
@@ -65,8 +65,8 @@ public:
     /// Writes out[0..rendered().count())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
-    /// By how many frames the output latency is too short for the next `frames` to be in time, given how
-    /// far the world has been stepped; 0 or less: spare frames. R, wait-free.
+    /// Number of frames by which the output latency is too short for the next `frames` to be in time, given
+    /// the world's time; negative or 0: spare frames. R, wait-free.
     std::int64_t framesMissing(int frames) const noexcept {
         if (!setup_.hasWorld) return 0;
         return time_.framesMissing(frames, world_.steppedNs_);
@@ -75,20 +75,20 @@ public:
     /// Call before the first render after a pause of the device; `nowNs` is steady time. Drops events that
     /// were due at once, or all waiting events if the device was gone. Sounding modes, the world and its
     /// collisions continue. R, wait-free.
-    void comeBack(std::int64_t nowNs) noexcept;
+    void endPause(std::int64_t nowNs) noexcept;
 
     /// Replaces render: session time advances by `frames` and the output latency grows by as much, so
     /// nothing is lost. The caller supplies the samples meanwhile. R, wait-free.
-    void wait(int frames) noexcept;
+    void lengthenLatency(int frames) noexcept;
 
-    /// The opposite, in addition to render: the next `frames` of the renderer are rendered to `unfelt` and
+    /// The opposite, in addition to render: the next `frames` of the renderer are rendered to `discarded` and
     /// not played, which shortens the output latency by as much. Only after it has grown, or if the world
     /// is far enough ahead. R, wait-free.
-    void wait(float* const* unfelt, int frames) noexcept;
+    void shortenLatency(float* const* discarded, int frames) noexcept;
 
     /// Executes an input. Its effect is felt the output latency after its time, is logged, and is the same
     /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, too
-    /// many pending, or, of events and pushes, DevicePulse::refusal: no device runs), and nothing is done.
+    /// many pending, or, of events and pushes, DevicePulse::droppedError), and nothing is done.
     /// Any thread but R; recordings: M.
     Result<std::int64_t> submit(Input input) { return scheduler_.submit(std::move(input)); }
 
@@ -96,8 +96,8 @@ public:
     /// and returns the number of the first. Events whose sound is soundOfClip() of it and of the following
     /// numbers play them; other sounds are not disturbed. nullopt if there is no room for all, in numbers or
     /// samples. A clip that is kept already keeps its number. Logged. Any thread but R.
-    std::optional<int> keepClip(std::span<const ContactRecording> channels) {
-        return scheduler_.keepClip(channels);
+    std::optional<int> addClip(std::span<const ContactRecording> channels) {
+        return scheduler_.addClip(channels);
     }
 
     /// The panner of later events, as last set. Any thread but R.
@@ -129,7 +129,7 @@ private:
         time_.set(law, setup_.direct != Direct::no, setup_.direct == Direct::fromStart, frames);
     }
 
-    const std::shared_ptr<const SessionSetup> order_;
+    const std::shared_ptr<const SessionSetup> setupOwner_;
     const SessionSetup& setup_;
     const std::unique_ptr<HapticRenderer> renderer_;
     SinkSet sinks_;
@@ -140,7 +140,7 @@ private:
     WorldRunner world_;
     Scheduler scheduler_;
     LatestValue<SessionStatus> status_;
-    std::int64_t leastMarginFrames_ = noMargin; // R
+    std::int64_t minMarginFrames_ = noMargin; // R
 };
 
 /// Whether the output latency suffices for all sinks; if not, Session::resume() lengthens it. M.

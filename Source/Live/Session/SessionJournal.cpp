@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Writes the two growing files of a session's journal, and converts the first to a session file at the end.
+// Writes a journal's two files with GrowingFile, and converts the first to a session file at the end.
 #include "Live/Session/SessionJournal.h"
 #include "Io/Disk/ReadFile.h"
 
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds period{500}; // at most half of what a killed process may lose
+constexpr std::chrono::milliseconds writePeriod{500}; // half of the second that a killed process may lose
 
-SavedSession headOf(const SessionSetup& setup) {
+SavedSession sessionHead(const SessionSetup& setup) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
             {},          {},           setup.equalised, setup.shaping,        setup.layout};
 }
@@ -16,7 +16,7 @@ SavedSession headOf(const SessionSetup& setup) {
 // Chooses the columns before any event is known: depths and parts if the layout has them.
 OptionalColumns columnsFor(const SessionSetup& setup) {
     const ActuatorLayout& layout = setup.panner.layout();
-    return {isAnyRough(setup.scene.materials), true, !isFlat(layout), hasParts(layout)};
+    return {hasRoughMaterial(setup.scene.materials), true, !isFlat(layout), hasParts(layout)};
 }
 
 } // namespace
@@ -27,8 +27,8 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
     , columns_{columnsFor(setup)}
-    , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
-    begin(fieldOf(setup.panner), provenance);
+    , lines_{sessionHead(setup), std::filesystem::absolute(path_).parent_path()} {
+    createFiles(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;
     write({});
     thread_ = std::thread{[this] { run(); }};
@@ -40,8 +40,8 @@ SessionJournal::~SessionJournal() {
     if (thread_.joinable()) end(session_.status().sessionNs);
 }
 
-// Creates both files before it replaces either.
-void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
+// Creates both files before it replaces an old one.
+void SessionJournal::createFiles(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(lines_.head());
     events.write(eventsCsvHead(provenance, field, columns_));
@@ -52,24 +52,24 @@ void SessionJournal::begin(FieldSize field, const Provenance& provenance) {
     if (!error_.empty()) return;
     file_.open(path_);
     events_.open(eventsPath_);
-    whole_.emplace(path_);
-    for (const std::string& error : {file_.error(), events_.error(), whole_->error()})
+    finalFile_.emplace(path_);
+    for (const std::string& error : {file_.error(), events_.error(), finalFile_->error()})
         if (error_.empty()) error_ = error;
 }
 
-void SessionJournal::played(const PlayedEvent& played, int) {
+void SessionJournal::onPlayed(const PlayedEvent& played, int) {
     const std::lock_guard lock{mutex_};
     played_.push_back(played.event);
 }
 
-std::string SessionJournal::news() const {
+std::string SessionJournal::currentError() const {
     const std::lock_guard lock{mutex_};
-    return news_;
+    return currentError_;
 }
 
 void SessionJournal::run() {
     std::unique_lock lock{mutex_};
-    while (!ends_.wait_for(lock, period, [this] { return isEnding_; })) {
+    while (!endSignal_.wait_for(lock, writePeriod, [this] { return isEnding_; })) {
         lock.unlock();
         write({});
         lock.lock();
@@ -82,37 +82,37 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
         const std::lock_guard lock{mutex_};
         played.swap(played_);
     }
-    const std::int64_t toldNs = session_.readLog(log_);
-    for (const SceneRun& take : log_.takes)
-        if (take.scene) names_.addScene(*take.scene);
-    file_.append(lines_.take(log_, endNs.value_or(toldNs)));
+    const std::int64_t completeNs = session_.readLog(log_);
+    for (const SceneRun& run : log_.runs)
+        if (run.scene) names_.addScene(*run.scene);
+    file_.append(lines_.nextLines(log_, endNs.value_or(completeNs)));
     std::string rows;
     for (CollisionEvent event : played) {
-        if (rows_++ >= limits::maxEventRows) break;
+        if (rowCount_++ >= limits::maxEventRows) break;
         // a late event was played after others, but rows must be in time order
-        event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs);
+        event.timeNs = lastRowNs_ = std::max(lastRowNs_, event.timeNs);
         appendEventRow(rows, event, columns_, names_);
     }
     events_.append(rows);
-    tell();
+    publishError();
 }
 
-void SessionJournal::tell() {
-    std::string news;
+void SessionJournal::publishError() {
+    std::string line;
     for (const GrowingFile* file : {&file_, &events_})
-        if (news.empty()) news = file->error();
-    const bool isHeldUp = !news.empty();
-    if (news.empty() && wasHeldUp_) news = path_.string() + ": can be written again, and nothing is missing";
-    wasHeldUp_ = isHeldUp;
-    if (news.empty() && !lines_.full().empty())
-        news = path_.string() + ": is full (" + lines_.full() + "): the session is kept up to " +
-               std::to_string(lines_.toldNs() / 1'000'000'000) + " s, and plays on";
-    if (news.empty() && rows_ > limits::maxEventRows)
-        news = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) +
+        if (line.empty()) line = file->error();
+    const bool isDelayed = !line.empty();
+    if (line.empty() && wasDelayed_) line = path_.string() + ": can be written again, and nothing is missing";
+    wasDelayed_ = isDelayed;
+    if (line.empty() && !lines_.limitError().empty())
+        line = path_.string() + ": is full (" + lines_.limitError() + "): the session is kept up to " +
+               std::to_string(lines_.completeNs() / 1'000'000'000) + " s, and plays on";
+    if (line.empty() && rowCount_ > limits::maxEventRows)
+        line = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) +
                " rows), and the session plays on";
-    if (news.empty()) return;
+    if (line.empty()) return;
     const std::lock_guard lock{mutex_};
-    news_ = std::move(news);
+    currentError_ = std::move(line);
 }
 
 void SessionJournal::end(std::int64_t sessionNs) {
@@ -121,31 +121,31 @@ void SessionJournal::end(std::int64_t sessionNs) {
         const std::lock_guard lock{mutex_};
         isEnding_ = true;
     }
-    ends_.notify_one();
+    endSignal_.notify_one();
     thread_.join();
     write(sessionNs);
 }
 
-std::string SessionJournal::finish(std::size_t mostBytes) {
+std::string SessionJournal::finish(std::size_t maxBytes) {
     events_.sync();
-    std::error_code gone;
-    if (!file_.sync() || std::filesystem::file_size(path_, gone) > mostBytes) return fault();
+    std::error_code ignored;
+    if (!file_.sync() || std::filesystem::file_size(path_, ignored) > maxBytes) return fileError();
     const auto text = readFile(path_, limits::maxSessionFileBytes);
     if (!text) return text.error;
     const auto session = readSession(text.value, path_.string());
     if (!session) return session.error;
-    whole_->write(sessionJson(session.value));
-    if (const std::string& error = whole_->commit(); !error.empty())
+    finalFile_->write(sessionJson(session.value));
+    if (const std::string& error = finalFile_->commit(); !error.empty())
         return error + "; the session is there as it was kept while it played, and renders";
-    return fault();
+    return fileError();
 }
 
 void GrowingFile::open(const std::filesystem::path& path) {
     path_ = path;
-    file_ = SystemFile::grow(path);
+    file_ = SystemFile::openForAppending(path);
     if (file_.error() != 0)
         fail(file_.reason());
-    else if (file_.lock() == SystemFile::Lock::others)
+    else if (file_.lock() == SystemFile::Lock::heldByOthers)
         fail("it is being written already");
     bytes_ = file_.size();
 }
@@ -153,24 +153,24 @@ void GrowingFile::open(const std::filesystem::path& path) {
 bool GrowingFile::sync() {
     if (!error_.empty()) return true;
     if (!file_.sync()) fail(file_.reason());
-    const auto change = file_.changeByOthers(path_, bytes_);
+    const auto change = file_.externalChange(path_, bytes_);
     if (!change.empty()) fail(change);
     return change.empty();
 }
 
 void GrowingFile::append(std::string_view lines) {
-    if (isOver_) return;
-    if (waiting_.size() + lines.size() > maxWaitingBytes) {
-        isOver_ = true;
-        waiting_ = {};
+    if (isFull_) return;
+    if (pending_.size() + lines.size() > maxPendingBytes) {
+        isFull_ = true;
+        pending_ = {};
         error_ += "; too much would have to wait, so it ends here";
         return;
     }
-    waiting_ += lines;
-    file_.forgetError();
-    if (!file_.append(waiting_)) return fail(file_.reason());
-    bytes_ += static_cast<std::int64_t>(waiting_.size());
-    waiting_.clear();
+    pending_ += lines;
+    file_.clearError();
+    if (!file_.append(pending_)) return fail(file_.reason());
+    bytes_ += static_cast<std::int64_t>(pending_.size());
+    pending_.clear();
     error_.clear();
 }
 

@@ -25,8 +25,8 @@ namespace physvib {
 
 // A log file that grows by whole lines while a session plays, and tolerates temporary disk errors.
 
-/// Lines that cannot be written stay pending, so that the file never ends inside a line; the next call
-/// retries. One thread at a time.
+/// Lines that cannot be written stay pending, so that the file never ends inside a line; the next append()
+/// writes them. One thread at a time.
 class GrowingFile {
 public:
     /// Continues at the end of the file, and locks it against other writers.
@@ -38,23 +38,23 @@ public:
     /// Flushes to disk; a failure sets error(). False if others have removed, replaced or cut the file.
     bool sync();
 
-    /// Empty, or one line: why lines are pending, or that maxWaitingBytes were exceeded; after that the file
+    /// Empty, or one line: why lines are pending, or that maxPendingBytes were exceeded; after that the file
     /// grows no more.
     const std::string& error() const noexcept { return error_; }
 
-    static constexpr std::size_t maxWaitingBytes = 32'000'000; // twenty minutes of a lively session
+    static constexpr std::size_t maxPendingBytes = 32'000'000; // twenty minutes of a lively session
 
 private:
     void fail(const std::string& reason) { error_ = path_.string() + ": cannot be written: " + reason; }
 
     std::filesystem::path path_;
     SystemFile file_;
-    std::string waiting_, error_;
-    std::int64_t bytes_ = 0; // of the file, as it was left
-    bool isOver_ = false;
+    std::string pending_, error_;
+    std::int64_t bytes_ = 0; // of the file after the last append()
+    bool isFull_ = false;
 };
 
-/// All methods: message thread (M) only.
+/// The journal of a session, and its event list. All methods: message thread (M) only.
 class SessionJournal final : public Sink {
 public:
     /// Saves `session` as `path` (.json), and the events played beside it as .events.csv. The session must
@@ -67,51 +67,53 @@ public:
     /// Empty, or why a file cannot be created; then neither has been changed.
     const std::string& error() const noexcept { return error_; }
 
-    void played(const PlayedEvent& played, int sampleRateHz) override;
-    SinkState state() const override { return {.name = "session file", .isReady = true, .trouble = news()}; }
+    void onPlayed(const PlayedEvent& played, int sampleRateHz) override;
+    SinkState state() const override {
+        return {.name = "session file", .isReady = true, .error = currentError()};
+    }
 
     /// The latest message: empty, or one line why a file cannot grow at present or has stopped growing.
-    std::string news() const;
+    std::string currentError() const;
 
     /// Adds everything up to now, session time `sessionNs`, and stops the journal.
     void end(std::int64_t sessionNs);
 
-    /// Converts the ended journal to an ordinary session file, which takes time in proportion to the session.
-    /// A journal of more than `mostBytes` is left as it is, which is readable too. Empty, or why not
-    /// everything is on disk.
-    std::string finish(std::size_t mostBytes = limits::maxSessionFileBytes);
+    /// After end(): converts the journal to an ordinary session file, in a time that grows with the session.
+    /// A journal of more than `maxBytes` is not converted, but is readable too. Empty, or why not everything
+    /// is on disk.
+    std::string finish(std::size_t maxBytes = limits::maxSessionFileBytes);
 
-    static constexpr std::size_t quickBytes = 1'000'000; ///< for callers that must not block: 0.1 s
+    static constexpr std::size_t maxQuickBytes = 1'000'000; ///< for callers that must not block: 0.1 s
 
     const std::filesystem::path& eventsPath() const noexcept { return eventsPath_; }
 
 private:
-    void begin(FieldSize field, const Provenance& provenance);
+    void createFiles(FieldSize field, const Provenance& provenance);
     void run();
     void write(std::optional<std::int64_t> endNs);
-    void tell();
-    const std::string& fault() const { return file_.error().empty() ? events_.error() : file_.error(); }
+    void publishError();
+    const std::string& fileError() const { return file_.error().empty() ? events_.error() : file_.error(); }
 
     std::filesystem::path path_, eventsPath_;
     Session& session_;
     std::string error_;
-    const OptionalColumns columns_;   // of the event list
-    std::optional<AtomicFile> whole_; // the final session file; keeps the name from other writers
+    const OptionalColumns columns_;       // of the event list
+    std::optional<AtomicFile> finalFile_; // the final session file; keeps the name from other writers
 
     // Used by the journal's thread; by M after that has ended.
     JournalLines lines_;
     SessionLog log_;
     GrowingFile file_, events_;
-    std::int64_t lastNs_ = 0;
-    std::size_t rows_ = 0;
+    std::int64_t lastRowNs_ = 0;
+    std::size_t rowCount_ = 0;
     SoundNames names_;
-    bool wasHeldUp_ = false;
+    bool wasDelayed_ = false;
 
     mutable std::mutex mutex_; // guards the following members
-    std::condition_variable ends_;
+    std::condition_variable endSignal_;
     bool isEnding_ = false;
     std::vector<CollisionEvent> played_;
-    std::string news_;
+    std::string currentError_;
 
     std::thread thread_;
 };

@@ -6,7 +6,7 @@
 namespace physvib {
 
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing) {
-    SceneEvents all = runTakes(session.log.takes, session.run, endNs, keepGoing);
+    SceneEvents all = simulateRuns(session.log.runs, session.run, endNs, keepGoing);
     for (const CollisionEvent& strike : session.log.strikes)
         if (strike.timeNs < endNs) all.events.push_back(strike);
     std::ranges::stable_sort(all.events, {}, &CollisionEvent::timeNs);
@@ -25,7 +25,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                   }).events;
     if (!keepGoing) return false;
     EventShaper{session.shaping}.shape(events);
-    const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
+    const auto controls = recordings.mergedWith(controlsOf(session.log, true, session.channels));
     const std::int64_t frames = std::llround(extent.seconds * extent.sampleRateHz);
     std::int64_t done = 0;
     const RendererSettings renderer{.sampleRateHz = extent.sampleRateHz,
@@ -34,7 +34,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                                     .limiterEnabled = session.limiterEnabled,
                                     .ceilings = session.ceilings,
                                     .equalised = session.equalised};
-    renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({})},
+    renderOffline(events, {renderer, frames, 1024, controls, recordings.withClips({})},
                   [&](const float* const* block, int n) {
                       done += n;
                       return keepGoing =
@@ -55,15 +55,15 @@ std::vector<std::string> notesOf(const LoadedRecordings& loaded) {
 SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
     : sampleRateHz_{sampleRateHz} {
     for (const ContactRecording& clip : loaded.clips) sets_.add(clip);
-    for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setOfChange.size(); ++i) {
+    for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setIndices.size(); ++i) {
         RenderControl& control = changes_.emplace_back();
         control.timeNs = log.recordings[i].timeNs;
         control.kind = RenderControl::Kind::recordings;
-        control.recordings = sets_.at(sampleRateHz, loaded.sets[loaded.setOfChange[i]]);
+        control.recordings = sets_.contacts(sampleRateHz, loaded.sets[loaded.setIndices[i]]);
     }
 }
 
-std::vector<RenderControl> SessionRecordings::with(std::vector<RenderControl> controls) const {
+std::vector<RenderControl> SessionRecordings::mergedWith(std::vector<RenderControl> controls) const {
     controls.insert(controls.end(), changes_.begin(), changes_.end());
     std::ranges::stable_sort(controls, {}, &RenderControl::timeNs);
     return controls;
@@ -77,10 +77,10 @@ double peakOf(const std::vector<float>& samples) {
     return peak;
 }
 
-/// Scales samples in g to shares of full scale. Or the error of the channel that is too strong.
-Result<StimulusSound> scaledToEnchanters(StimulusSound sound, const LayoutDescription& layout) {
+/// Scales samples in g to shares of each actuator's full scale, or returns an error if they exceed it.
+Result<StimulusSound> scaledToFullScale(StimulusSound sound, const LayoutDescription& layout) {
     for (std::size_t j = 0; j < sound.channels.size(); ++j) {
-        const auto& enchanter = layout.enchanters[j];
+        const auto& enchanter = layout.actuators[j];
         const double peakG = peakOf(sound.channels[j]);
         if (!std::isfinite(peakG) || peakG > enchanter.fullScaleG * (1.0 + fullScaleSlack))
             return Failure{"actuator " + enchanter.label + ": expected at most its full scale of " +
@@ -114,7 +114,7 @@ Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescr
             sound.channels[j].insert(sound.channels[j].end(), blocks[j], blocks[j] + frames);
         return true;
     });
-    return scaledToEnchanters(std::move(sound), layout);
+    return scaledToFullScale(std::move(sound), layout);
 }
 
 Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
@@ -128,10 +128,10 @@ Result<StimulusSound> placeRecording(const StimulusSound& recording, const Field
     panner.gainsAt(place.x * geometry.extentWidthMetres, (1.0 - place.y) * geometry.extentHeightMetres,
                    gains);
     StimulusSound sound{recording.sampleRateHz,
-                        std::vector<std::vector<float>>(layout.enchanters.size(), samples)};
+                        std::vector<std::vector<float>>(layout.actuators.size(), samples)};
     for (std::size_t j = 0; j < sound.channels.size(); ++j)
         for (float& s : sound.channels[j]) s = static_cast<float>(s * (levelG / peak * gains[j]));
-    return scaledToEnchanters(std::move(sound), layout);
+    return scaledToFullScale(std::move(sound), layout);
 }
 
 } // namespace physvib

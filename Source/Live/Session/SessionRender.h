@@ -23,11 +23,11 @@ namespace physvib {
 /// The recordings that a session plays. A study switches between the same few sets many times.
 struct LoadedRecordings {
     std::vector<std::vector<ContactRecording>> sets; ///< without duplicates
-    std::vector<std::size_t> setOfChange;  ///< index into `sets` per change in SessionLog::recordings
+    std::vector<std::size_t> setIndices;   ///< index into `sets` per change in SessionLog::recordings
     std::vector<ContactRecording> clips{}; ///< in the order of SessionLog::clips
 };
 
-/// All their notes. Any thread.
+/// Notes of all recordings and clips, without duplicates. Any thread.
 std::vector<std::string> notesOf(const LoadedRecordings& loaded);
 
 /// The recordings at one sample rate, and the controls that change between them. Must outlive the render.
@@ -37,11 +37,11 @@ public:
     SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz);
 
     /// Merges `controls`, in time order, with the changes of recordings.
-    std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
+    std::vector<RenderControl> mergedWith(std::vector<RenderControl> controls) const;
 
     /// These recordings plus the session's clips: what is in use from the start.
-    RecordedContacts beside(const std::vector<ContactRecording>& recordings) {
-        return sets_.at(sampleRateHz_, recordings);
+    RecordedContacts withClips(const std::vector<ContactRecording>& recordings) {
+        return sets_.contacts(sampleRateHz_, recordings);
     }
 
 private:

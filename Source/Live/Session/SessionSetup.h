@@ -33,7 +33,7 @@ struct RenderInput {
 /// always have the output latency.
 enum class Direct {
     no,       ///< the output latency for all
-    told,     ///< inputs are felt ClockLaw::directFrames() after they arrive
+    inputs,   ///< inputs are felt ClockLaw::directFrames() after they arrive
     fromStart ///< in addition, events of the render call are felt the renderer's latency after their frame,
               ///< from the first frame on; only for a session without a log
 };
@@ -61,7 +61,7 @@ struct SessionSetup {
     bool limiterEnabled = true;
     bool normalisesBlocks = false; ///< see RendererSettings
     /// drive ceiling per channel, > 0
-    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
+    std::array<float, limits::maxActuators> ceilings = RendererSettings::fullScale();
     EqualisedActuators equalised{};
     EventShaping shaping;                     ///< of all collisions, and of events of the render call
     std::vector<ContactRecording> recordings; ///< played instead of modes; empty: modes
@@ -106,7 +106,7 @@ constexpr std::int64_t noMargin = std::numeric_limits<std::int64_t>::max();
 struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
-    std::int64_t leastMarginFrames = noMargin; ///< smallest margin of an event in realtime blocks; < 0: late
+    std::int64_t minMarginFrames = noMargin; ///< smallest margin of an event in realtime blocks; < 0: late
     std::uint64_t refused = 0; ///< events, controls and inputs of the render call, and contact sounds, that
                                ///< did not fit their queues
 };

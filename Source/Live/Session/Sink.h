@@ -26,18 +26,18 @@ struct RenderedBlock {
 
 /// Status of a sink, for display.
 struct SinkState {
-    struct Fact {
+    struct Detail {
         std::string name, value;
         bool isWrong = false;
     };
     std::string name{};               ///< e.g. "board"; empty: nothing to display
-    bool isReady = false;             ///< it can play new events now
+    bool isReady = false;             ///< true: the sink can play events now
     int channels = 0;                 ///< number of actuators that it plays, from the first on; 0: all
     std::uint64_t sent = 0, lost = 0; ///< events
-    std::string trouble{};            ///< one-line error; empty: none
+    std::string error{};              ///< one-line error; empty: none
     std::string where{};              ///< one line: the port or device, or the progress of connecting
-    std::vector<Fact> facts{};
-    bool playsClips = true; ///< and recordings
+    std::vector<Detail> details{};
+    bool playsClips = true; ///< plays clips and recordings
 };
 
 class Sink {
@@ -58,16 +58,16 @@ public:
 
     /// Collisions of the world, at once and in time order; not events of the render call. On the thread that
     /// holds the world mutex, wait-free.
-    virtual void made(const CollisionEvent&) noexcept {}
+    virtual void onCollision(const CollisionEvent&) noexcept {}
     /// Posted controls, in order; their panners stay only during the call. On the thread that holds the input
     /// mutex; it may allocate.
-    virtual void posted(const RenderControl&) noexcept {}
+    virtual void onControl(const RenderControl&) noexcept {}
     /// An event that was played, of a session at this sample rate. M.
-    virtual void played(const PlayedEvent&, int) {}
+    virtual void onPlayed(const PlayedEvent&, int) {}
     /// Render thread (R), wait-free.
-    virtual void rendered(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
+    virtual void onBlock(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
 
-    /// M.
+    /// The status for display. M.
     virtual SinkState state() const { return {}; }
     /// Lines on what it has done, after playing. May wait a second for data while `keepGoing` is true. M.
     virtual std::string summary(const std::function<bool()>&) const { return {}; }
@@ -83,60 +83,60 @@ public:
     /// the session is prepared. Message thread (M), as the next ones.
     void attach(Sink& sink) {
         const std::lock_guard lock{mutex_};
-        if (const auto place = std::ranges::find(sinks_, nullptr, at); place != sinks_.end())
-            place->store(&sink, std::memory_order_release);
+        if (const auto slot = std::ranges::find(sinks_, nullptr, load); slot != sinks_.end())
+            slot->store(&sink, std::memory_order_release);
     }
-    /// On return only the render thread (R) may still be inside the sink, until the next block, or while the
-    /// output does not run.
+    /// When this returns, no thread but the render thread (R) is inside the sink; R leaves it before its next
+    /// block.
     void detach(Sink& sink) {
         const std::lock_guard lock{mutex_};
-        if (const auto place = std::ranges::find(sinks_, &sink, at); place != sinks_.end())
-            place->store(nullptr, std::memory_order_release);
+        if (const auto slot = std::ranges::find(sinks_, &sink, load); slot != sinks_.end())
+            slot->store(nullptr, std::memory_order_release);
     }
     double latencySeconds() const noexcept {
-        double largest = 0.0;
-        each([&](const Sink& sink) { largest = std::max(largest, sink.latencySeconds()); });
-        return largest;
+        double maxSeconds = 0.0;
+        forEach([&](const Sink& sink) { maxSeconds = std::max(maxSeconds, sink.latencySeconds()); });
+        return maxSeconds;
     }
     void follow(OutputClock* device) {
-        each([=](Sink& sink) { sink.follow(device); });
+        forEach([=](Sink& sink) { sink.follow(device); });
     }
-    void played(const PlayedEvent& event, int sampleRateHz) {
-        each([&](Sink& sink) { sink.played(event, sampleRateHz); });
+    void onPlayed(const PlayedEvent& event, int sampleRateHz) {
+        forEach([&](Sink& sink) { sink.onPlayed(event, sampleRateHz); });
     }
     /// States of all sinks that have something to display.
     std::vector<SinkState> states() const {
         std::vector<SinkState> all;
-        each([&](const Sink& sink) {
+        forEach([&](const Sink& sink) {
             if (auto state = sink.state(); !state.name.empty()) all.push_back(std::move(state));
         });
         return all;
     }
 
     /// Any thread but R, unless its block is non-realtime.
-    void made(const CollisionEvent& event) noexcept {
+    void onCollision(const CollisionEvent& event) noexcept {
         const std::lock_guard lock{mutex_};
-        each([&](Sink& sink) { sink.made(event); });
+        forEach([&](Sink& sink) { sink.onCollision(event); });
     }
-    void posted(const RenderControl& control) noexcept {
+    void onControl(const RenderControl& control) noexcept {
         const std::lock_guard lock{mutex_};
-        each([&](Sink& sink) { sink.posted(control); });
+        forEach([&](Sink& sink) { sink.onControl(control); });
     }
 
     /// R, wait-free.
-    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
-        for (const auto& place : sinks_)
-            if (Sink* sink = at(place)) sink->rendered(block);
+    void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
+        for (const auto& slot : sinks_)
+            if (Sink* sink = load(slot)) sink->onBlock(block);
     }
 
 private:
-    static Sink* at(const std::atomic<Sink*>& place) noexcept {
-        return place.load(std::memory_order_acquire);
+    static Sink* load(const std::atomic<Sink*>& slot) noexcept {
+        return slot.load(std::memory_order_acquire);
     }
     template <class Use>
-    void each(Use use) const {
-        for (const auto& place : sinks_)
-            if (Sink* sink = at(place)) use(*sink);
+    void forEach(Use use) const {
+        for (const auto& slot : sinks_)
+            if (Sink* sink = load(slot)) use(*sink);
     }
 
     std::mutex mutex_; // held by all callers of sinks except M and R
@@ -144,15 +144,15 @@ private:
 };
 
 /// Makes the sinks follow the device, which must outlive this object, until its destruction. M.
-class Following {
+class ScopedFollow {
 public:
-    Following(SinkSet& sinks, OutputClock& device)
+    ScopedFollow(SinkSet& sinks, OutputClock& device)
         : sinks_{sinks} {
         sinks_.follow(&device);
     }
-    ~Following() { sinks_.follow(nullptr); }
-    Following(const Following&) = delete;
-    Following& operator=(const Following&) = delete;
+    ~ScopedFollow() { sinks_.follow(nullptr); }
+    ScopedFollow(const ScopedFollow&) = delete;
+    ScopedFollow& operator=(const ScopedFollow&) = delete;
 
 private:
     SinkSet& sinks_;

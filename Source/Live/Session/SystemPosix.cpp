@@ -25,15 +25,15 @@ void raiseThreadPriority(bool isAudio) noexcept {
     pthread_setschedparam(pthread_self(), SCHED_RR, &wanted); // fails without the privilege
 }
 
-bool areDriversBoundToTheirThread() noexcept { return false; }
+bool needsOneThreadPerDriver() noexcept { return false; }
 
-double threadSeconds() noexcept {
+double threadCpuSeconds() noexcept {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-int thisProcess() noexcept { return getpid(); }
+int currentProcessId() noexcept { return getpid(); }
 
 namespace {
 
@@ -78,7 +78,7 @@ std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::str
 }
 
 void* openLibrary(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
-void* functionIn(void* library, const char* name) { return dlsym(library, name); }
+void* findFunction(void* library, const char* name) { return dlsym(library, name); }
 
 } // namespace physvib
 #endif

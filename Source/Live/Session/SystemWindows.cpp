@@ -13,9 +13,9 @@ void raiseThreadPriority(bool isAudio) noexcept {
 }
 
 // they need the COM apartment of that thread
-bool areDriversBoundToTheirThread() noexcept { return true; }
+bool needsOneThreadPerDriver() noexcept { return true; }
 
-double threadSeconds() noexcept {
+double threadCpuSeconds() noexcept {
     const auto secondsOf = [](const FILETIME& time) {
         return 1e-7 * (4294967296.0 * time.dwHighDateTime + time.dwLowDateTime);
     };
@@ -24,7 +24,7 @@ double threadSeconds() noexcept {
     return secondsOf(inKernel) + secondsOf(inUser);
 }
 
-int thisProcess() noexcept { return static_cast<int>(GetCurrentProcessId()); }
+int currentProcessId() noexcept { return static_cast<int>(GetCurrentProcessId()); }
 
 // There are no pseudo-terminals that a program can open by name: all lines are serial ports.
 
@@ -36,7 +36,7 @@ std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::str
 }
 
 void* openLibrary(const char* name) { return reinterpret_cast<void*>(LoadLibraryA(name)); }
-void* functionIn(void* library, const char* name) {
+void* findFunction(void* library, const char* name) {
     return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name));
 }
 

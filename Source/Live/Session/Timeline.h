@@ -44,7 +44,7 @@ public:
         const std::lock_guard lock{mutex_};
         return static_cast<double>(law_.directFrames()) / law_.sampleRateHz;
     }
-    std::int64_t toldAheadNs() const {
+    std::int64_t inputLeadNs() const {
         const std::lock_guard lock{mutex_};
         return leadNs();
     }
@@ -56,15 +56,17 @@ public:
 
     /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
     /// message thread (M) while no thread renders.
-    bool isDirectFromStart() const noexcept { return isBornDirect_; } ///< Direct::fromStart; R or M
+    bool isDirectFromStart() const noexcept { return isDirectFromStart_; } ///< Direct::fromStart; R or M
     std::int64_t inputLatencyFrames() const noexcept {
-        return isBornDirect_ ? law_.limiterFrames : outputLatencyFrames();
+        return isDirectFromStart_ ? law_.limiterFrames : outputLatencyFrames();
     }
 
     /// Change of the output latency since prepare. Any thread.
-    std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
+    std::int64_t latencyGrowthFrames() const noexcept {
+        return latencyGrowthFrames_.load(std::memory_order_acquire);
+    }
 
-    /// Session time in frames, including the block that is being rendered. Any thread.
+    /// Session time in frames, at the end of the block that is being rendered. Any thread.
     std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
 
     /// Session time of a frame of the next block; negative `frame`: of an earlier one. At least 0. R.
@@ -73,9 +75,9 @@ public:
     /// Session time of an event that the render call creates at a frame of the next block. R.
     std::int64_t nextInputNs(std::int64_t frame) const noexcept { return sessionNs(nextInputFrame(frame)); }
 
-    /// That time in the renderer's frames; and the renderer's frame that leaves it at `frame`. R.
+    /// The same in frames; and the frame of session time that leaves the renderer at `frame`. R.
     std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
-        return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame);
+        return isDirectFromStart_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }
     std::int64_t nextRenderedFrame(std::int64_t frame) const noexcept {
         return nextFrame(frame - outputLatencyFrames() + law_.limiterFrames);
@@ -88,7 +90,7 @@ public:
     }
 
     /// Session time that is felt when the first frame of the next block leaves the device. R.
-    std::int64_t nextFeltNs() const noexcept { return sessionNs(framesRendered() - outputLatencyFrames()); }
+    std::int64_t nextOutputNs() const noexcept { return sessionNs(framesRendered() - outputLatencyFrames()); }
 
 private:
     friend class Session;
@@ -97,13 +99,13 @@ private:
 
     /// Sets session time to `frames` at the law's rate, and the output latency to the law's. M, while no
     /// thread renders.
-    void set(const ClockLaw& law, bool isToldDirect, bool isDirectFromStart, std::int64_t frames) {
+    void set(const ClockLaw& law, bool isDirect, bool isDirectFromStart, std::int64_t frames) {
         const std::lock_guard lock{mutex_};
         law_ = law;
-        isToldDirect_ = isToldDirect;
-        isBornDirect_ = isDirectFromStart;
+        isDirect_ = isDirect;
+        isDirectFromStart_ = isDirectFromStart;
         outputLatencyFrames_ = law_.outputLatencyFrames();
-        grownFrames_ = 0;
+        latencyGrowthFrames_ = 0;
         sessionFrames_ = frames;
     }
     const ClockLaw& law() const noexcept { return law_; }
@@ -111,11 +113,11 @@ private:
     /// Changes the output latency. R, if the renderer's time changes by as much.
     void lengthen(std::int64_t frames) noexcept {
         outputLatencyFrames_.fetch_add(frames, std::memory_order_relaxed);
-        grownFrames_.fetch_add(frames, std::memory_order_release);
+        latencyGrowthFrames_.fetch_add(frames, std::memory_order_release);
     }
 
     /// Begins a block; returns the session time before it. R, wait-free.
-    std::int64_t tellFrames(int frames) noexcept {
+    std::int64_t advanceFrames(int frames) noexcept {
         const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
         sessionFrames_.store(done + frames, std::memory_order_release);
         return done;
@@ -123,7 +125,7 @@ private:
 
     /// A block by which the output latency grows. The latency is changed first: the driver (D), which reads
     /// both in the opposite order, must not take the difference for a stall. R, wait-free.
-    void waitFrames(int frames) noexcept {
+    void lengthenByBlock(int frames) noexcept {
         lengthen(frames);
         sessionFrames_.fetch_add(frames, std::memory_order_release);
     }
@@ -143,25 +145,27 @@ private:
         return std::max<std::int64_t>(0, framesRendered() + frame);
     }
 
-    /// At the law's rate. R, or a thread that holds one of the mutexes.
+    /// Session time of a number of frames. R, or a thread that holds one of the mutexes.
     std::int64_t sessionNs(std::int64_t frames) const noexcept {
         return frames / law_.sampleRateHz * 1'000'000'000 +
                frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
     }
     /// Lead time, in ns, applied to external inputs in low-latency mode. With one of the mutexes.
     std::int64_t leadNs() const noexcept {
-        return isToldDirect_ ? sessionNs(outputLatencyFrames() - law_.directFrames()) : 0;
+        return isDirect_ ? sessionNs(outputLatencyFrames() - law_.directFrames()) : 0;
     }
     std::int64_t nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
 
     /// Largest lag of the world behind session time that a driver in time can see, with the latency's growth.
-    std::int64_t longestLagNs() const noexcept { return law_.longestLagNs() + sessionNs(framesGrown()); }
+    std::int64_t longestLagNs() const noexcept {
+        return law_.longestLagNs() + sessionNs(latencyGrowthFrames());
+    }
 
     mutable std::mutex mutex_; // locked last; guards the law for threads that hold no other mutex
     ClockLaw law_;
-    bool isToldDirect_ = false, isBornDirect_ = false;
-    // output latency, and what R has added to that of the law
-    std::atomic<std::int64_t> outputLatencyFrames_{0}, grownFrames_{0};
+    bool isDirect_ = false, isDirectFromStart_ = false;
+    // output latency, and its growth since prepare
+    std::atomic<std::int64_t> outputLatencyFrames_{0}, latencyGrowthFrames_{0};
     std::atomic<std::int64_t> sessionFrames_{0};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The physics world of a session and its scheduled events, stepped up to session time for the renderer.
+// The physics world of a session, its scheduled events, and WorldRunner, which steps it up to session time.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EventQueue.h"
@@ -41,7 +41,7 @@ public:
     void start(std::int64_t sessionNs, std::shared_ptr<const Scene> scene, std::uint32_t seed);
 
     /// Restarts the current scene as the first run, at that session time, with an empty log.
-    void forget(std::int64_t sessionNs = 0);
+    void reset(std::int64_t sessionNs = 0);
 
     /// Session time up to which the world has been stepped.
     std::int64_t timeNs() const noexcept { return originNs_ + world_->timeNs(); }
@@ -50,20 +50,20 @@ public:
     std::int64_t sceneNs() const noexcept { return world_->timeNs(); }
 
     /// One step; appends its events, shaped and in session time.
-    void step(std::vector<CollisionEvent>& made);
+    void step(std::vector<CollisionEvent>& events);
 
     /// Delays the world by `lengthNs` of session time.
-    void standStill(std::int64_t lengthNs);
+    void addStall(std::int64_t lengthNs);
 
     /// Adds a valid input that acts at `sessionNs`, or in the next step if that is past.
     void addInput(std::int64_t sessionNs, Action action);
 
     /// Sets the script's position at that time, and its rate (ScriptPace). Not logged.
-    void pace(std::int64_t sessionNs, double scriptSeconds, double rate);
+    void setPace(std::int64_t sessionNs, double scriptSeconds, double rate);
 
     /// The current run, with the inputs and stalls that have not been read.
-    const SceneRun& take() const noexcept { return take_; }
-    std::size_t takeCount() const noexcept { return takeCount_; }
+    const SceneRun& currentRun() const noexcept { return currentRun_; }
+    std::size_t runCount() const noexcept { return runCount_; }
     /// Bodies in Box2D's world; inputs that are pending or have not been read.
     SessionSize size() const noexcept;
     void readPoses(std::vector<BodyPose>& poses) const; ///< see WorldRunner
@@ -76,10 +76,10 @@ private:
     RunSettings run_;
     EventShaper shaper_;
     bool isLogged_;
-    std::vector<SceneRun> ended_; // not completely read
-    SceneRun take_;               // its last stall stays after reading, because it may grow
-    bool isBegun_ = false;        // the reader has the beginning of the oldest run
-    std::size_t takeCount_ = 0;
+    std::vector<SceneRun> endedRuns_; // runs that are not completely read
+    SceneRun currentRun_;             // its last stall stays after reading, because it may grow
+    bool hasStart_ = false;           // the reader has got the start of the oldest run
+    std::size_t runCount_ = 0;
     std::unique_ptr<Simulation> world_;
     std::int64_t originNs_ = 0;                 // session time - world time
     std::int64_t steps_ = 0, stalledStep_ = -1; // steps of the run; step after which it was last stalled
@@ -89,13 +89,13 @@ private:
 // Events that were scheduled for a later time and can still be cancelled.
 
 /// In session time. One thread at a time: Session guards it by its world mutex.
-class WaitingStrikes {
+class ScheduledEvents {
 public:
-    static constexpr std::size_t most = 65'536; ///< an hour of one every 50 ms
+    static constexpr std::size_t maxEvents = 65'536; ///< an hour of one every 50 ms
 
     /// False, and nothing has changed, if there would be too many.
     bool add(std::span<const CollisionEvent> strikes) {
-        if (waiting_.size() + strikes.size() > most) return false;
+        if (waiting_.size() + strikes.size() > maxEvents) return false;
         for (const CollisionEvent& strike : strikes)
             waiting_.insert(std::ranges::upper_bound(waiting_, strike.timeNs, {}, &CollisionEvent::timeNs),
                             strike);
@@ -103,7 +103,7 @@ public:
     }
 
     /// Moves the events up to `untilNs` to the end of `due`.
-    void take(std::int64_t untilNs, std::vector<CollisionEvent>& due) {
+    void moveDue(std::int64_t untilNs, std::vector<CollisionEvent>& due) {
         if (waiting_.empty() || waiting_.front().timeNs > untilNs) return;
         const auto end = std::ranges::upper_bound(waiting_, untilNs, {}, &CollisionEvent::timeNs);
         due.insert(due.end(), waiting_.begin(), end);
@@ -111,7 +111,7 @@ public:
     }
 
     /// Cancels the events from `fromNs` on.
-    void forget(std::int64_t fromNs) {
+    void cancelFrom(std::int64_t fromNs) {
         waiting_.erase(std::ranges::lower_bound(waiting_, fromNs, {}, &CollisionEvent::timeNs),
                        waiting_.end());
     }
@@ -122,7 +122,7 @@ private:
     std::deque<CollisionEvent> waiting_; // in time order; most come at the end, all go at the front
 };
 
-/// Part of a session. Its mutex is the world mutex.
+/// The part of a session that steps the world and queues its events. Its mutex is the world mutex.
 class WorldRunner {
 public:
     /// Plays another scene as a new scene run from the next step on; a state equal to state() changes
@@ -145,24 +145,24 @@ public:
     }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
     /// Whether the world is paused and no single step is requested. Any thread.
-    bool isStill() const noexcept {
-        return slowness() == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
+    bool isPaused() const noexcept {
+        return slowness() == 0 && requestedSteps_.load(std::memory_order_relaxed) == 0;
     }
 
     /// Requests one step of a paused world. Any thread, wait-free.
-    void stepOnce() noexcept { stepsWanted_.fetch_add(1, std::memory_order_relaxed); }
+    void stepOnce() noexcept { requestedSteps_.fetch_add(1, std::memory_order_relaxed); }
 
     /// Time lost in stalls. Any thread.
-    std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
+    std::int64_t stalledNs() const noexcept { return stalledNs_.load(std::memory_order_relaxed); }
 
     /// Time of the current scene run, and its number, from 1. Any thread, wait-free.
     std::int64_t sceneNs() const noexcept { return sceneNs_.load(std::memory_order_relaxed); }
-    std::size_t take() const noexcept { return take_.load(std::memory_order_relaxed); }
+    std::size_t runNumber() const noexcept { return runNumber_.load(std::memory_order_relaxed); }
 
     /// Numbers of live inputs and bodies, to watch that neither grows without bound. Any thread but R.
     SessionSize size() const;
 
-    /// Poses of the bodies of sceneCast() in the last step; returns their session time, which is felt the
+    /// Poses of the bodies of allBodies() in the last step; returns their session time, which is felt the
     /// output latency later. Without a log, bodies that inputs spawned are not identified, and removed ones
     /// are left out. Does not wait for a long step; then the poses are those before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
@@ -194,60 +194,60 @@ private:
         const std::lock_guard lock{mutex_};
         beginOffline(endNs);
         render();
-        while (world_.timeNs() < endNs) moveWorld(endNs);
-        handOver();
+        while (world_.timeNs() < endNs) stepWorld(endNs);
+        queueEvents();
     }
 
     // For Scheduler, with the input mutex held:
-    std::shared_ptr<const Scene> scene(std::size_t& take); // the current scene run's, with its number
-    bool addInputs(std::size_t take, std::span<const Action> actions); // false: another run is current
+    std::shared_ptr<const Scene> scene(std::size_t& number); // the current scene run's, with its number
+    bool addInputs(std::size_t number, std::span<const Action> actions); // false: another run is current
     void strike(std::span<const CollisionEvent> events);
     bool schedule(std::span<const CollisionEvent> events); // false: too many
-    void forgetScheduled(std::int64_t fromNs, std::int64_t nowNs);
+    void cancelScheduled(std::int64_t fromNs, std::int64_t nowNs);
     std::int64_t moveLog(SessionLog& log); // returns the session time up to which the world has been stepped
 
     // With the world mutex held:
     int catchUp(std::int64_t nowNs, const StepWatch& keepGoing = {});
     void beginOffline(std::int64_t endNs);
-    void moveWorld(std::int64_t untilNs);
+    void stepWorld(std::int64_t untilNs);
     void startRequestedRun();
     void publishScene() noexcept;
-    void dropWaiting();
-    void takeDue(std::int64_t untilNs);
-    bool handOver();
-    void showPoses() const; // to readers that do not wait for a step
+    void dropScheduled();
+    void moveDueEvents(std::int64_t untilNs);
+    bool queueEvents();
+    void publishPoses() const; // to readers that do not wait for a step
 
     const SessionSetup& setup_;
     const Timeline& time_;
     DevicePulse& pulse_;
     CallbackInputs& callback_;
     SinkSet& sinks_;
-    GrowingQueue<CollisionEvent, 48, 90> queue_; // from the thread that holds the world mutex; made_ keeps
-                                                 // what does not fit
+    GrowingQueue<CollisionEvent, 48, 90> queue_; // from the thread that holds the world mutex; unqueued_
+                                                 // keeps what does not fit
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all events are queued
     std::atomic<std::int64_t> sceneNs_{0};   // of the current scene run
-    std::atomic<std::size_t> take_{0};
-    std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
-    std::atomic<int> slowness_{1}, stepsWanted_{0};
-    std::atomic<bool> offline_{false}, isDriven_{false}; // isDriven_: the world has been stepped
+    std::atomic<std::size_t> runNumber_{0};
+    std::atomic<std::int64_t> stalledNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
+    std::atomic<int> slowness_{1}, requestedSteps_{0};
+    std::atomic<bool> isOffline_{false}, isDriven_{false}; // isDriven_: the world has been stepped
     std::atomic<std::uint64_t> drops_{0};
 
     mutable std::mutex mutex_; // guards the following members
     SessionWorld world_;
-    std::vector<CollisionEvent> made_; // events that did not fit the queue yet, from handed_ on
-    std::size_t handed_ = 0;
-    WaitingStrikes waiting_;
-    DevicePulse::Return returns_;       // the last return of the device that was handled
-    std::vector<CollisionEvent> begun_; // scheduled events that have begun, for the log
+    std::vector<CollisionEvent> unqueued_; // events that did not fit the queue yet, from firstUnqueued_ on
+    std::size_t firstUnqueued_ = 0;
+    ScheduledEvents waiting_;
+    DevicePulse::PauseHistory seenPauses_;      // the pauses whose events were dropped
+    std::vector<CollisionEvent> startedEvents_; // scheduled events that have begun, for the log
 
     mutable std::mutex stateMutex_; // locked after all others; guards the following members
     SessionState state_;
-    bool isNew_ = false;
+    bool isStateNew_ = false;
 
-    mutable std::atomic<bool> isShown_{false}; // a reader did not get the mutex: each step copies the poses
-    mutable std::mutex shownMutex_;            // held while copying; guards the following members
-    mutable std::vector<BodyPose> shown_;
-    mutable std::int64_t shownNs_ = 0;
+    mutable std::atomic<bool> publishesPoses_{false}; // a reader did not get mutex_: each step copies poses
+    mutable std::mutex publishedMutex_;               // held while copying; guards the following members
+    mutable std::vector<BodyPose> publishedPoses_;
+    mutable std::int64_t publishedNs_ = 0;
 };
 
 } // namespace physvib

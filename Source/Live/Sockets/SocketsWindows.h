@@ -18,8 +18,8 @@ constexpr int sendFlags = 0;
 
 inline void begin() noexcept {
     static const int begun = [] {
-        WSADATA told;
-        return WSAStartup(MAKEWORD(2, 2), &told);
+        WSADATA data;
+        return WSAStartup(MAKEWORD(2, 2), &data);
     }();
     static_cast<void>(begun);
 }
@@ -35,15 +35,15 @@ inline Handle open(int family) noexcept {
 }
 
 /// Binds that port exclusively, or returns false. By default, Windows lets another program bind it too.
-inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
+inline bool bindExclusively(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, reinterpret_cast<const char*>(&on), sizeof on);
     return bind(socket, address, size) == 0;
 }
 
 /// Error text of the last call, and whether another program has the port.
-inline std::string fault() { return std::system_category().message(WSAGetLastError()); }
-inline bool isTaken() noexcept {
+inline std::string lastError() { return std::system_category().message(WSAGetLastError()); }
+inline bool isPortInUse() noexcept {
     return WSAGetLastError() == WSAEADDRINUSE || WSAGetLastError() == WSAEACCES;
 }
 

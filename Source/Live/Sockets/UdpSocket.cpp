@@ -16,7 +16,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t longestPacket = 65'536;
+constexpr std::size_t maxPacketBytes = 65'536;
 
 Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int flags) {
     sockets::begin();
@@ -24,13 +24,13 @@ Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int 
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = flags | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    if (const int fault = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
-        return Failure{inQuotes(host) + ": " + gai_strerror(fault)};
+    if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
+        return Failure{inQuotes(host) + ": " + gai_strerror(error)};
     return std::shared_ptr<addrinfo>(found, freeaddrinfo);
 }
 
-/// A broadcast or multicast address, to which a packet is for many computers.
-bool isOfMany(const addrinfo& found) {
+/// True for a multicast or broadcast address, whose packets go to many computers.
+bool hasManyReceivers(const addrinfo& found) {
     if (found.ai_family == AF_INET6)
         return reinterpret_cast<const sockaddr_in6*>(found.ai_addr)->sin6_addr.s6_addr[0] == 0xff;
     return ntohl(reinterpret_cast<const sockaddr_in*>(found.ai_addr)->sin_addr.s_addr) >= 0xe0000000;
@@ -42,9 +42,9 @@ int portOf(const sockaddr_storage& address) {
     return ntohs(port);
 }
 
-sockets::Handle systems(std::intptr_t handle) noexcept { return static_cast<sockets::Handle>(handle); }
+sockets::Handle native(std::intptr_t handle) noexcept { return static_cast<sockets::Handle>(handle); }
 
-std::intptr_t openedFor(const addrinfo& address) noexcept {
+std::intptr_t openFor(const addrinfo& address) noexcept {
     return static_cast<std::intptr_t>(sockets::open(address.ai_family));
 }
 
@@ -61,39 +61,39 @@ UdpSocket::UdpSocket(UdpSocket&& other) noexcept { *this = std::move(other); }
 UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
     std::swap(handle_, other.handle_);
     std::swap(port_, other.port_);
-    bytes_.swap(other.bytes_);
+    packet_.swap(other.packet_);
     return *this;
 }
 
 UdpSocket::~UdpSocket() {
-    if (isOpen()) sockets::close(systems(handle_));
+    if (isOpen()) sockets::close(native(handle_));
 }
 
-Result<UdpSocket> UdpSocket::listening(const std::string& address, int port) {
-    for (int tried = port; tried < port + triedPorts && tried <= 65'535; ++tried) {
+Result<UdpSocket> UdpSocket::listenAt(const std::string& address, int port) {
+    for (int candidate = port; candidate < port + maxPortAttempts && candidate <= 65'535; ++candidate) {
         const auto found =
-            lookUp(address == "localhost" ? "127.0.0.1" : address, tried, AI_PASSIVE | AI_NUMERICHOST);
+            lookUp(address == "localhost" ? "127.0.0.1" : address, candidate, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
-        if (isOfMany(*found.value))
+        if (hasManyReceivers(*found.value))
             return Failure{address + ": expected an address of this computer alone, or 0.0.0.0"};
-        UdpSocket own{openedFor(*found.value)};
-        if (own.isOpen() &&
-            sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {
-            setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF,
+        UdpSocket udp{openFor(*found.value)};
+        if (udp.isOpen() &&
+            sockets::bindExclusively(native(udp.handle_), found.value->ai_addr, lengthOf(*found.value))) {
+            setsockopt(native(udp.handle_), SOL_SOCKET, SO_RCVBUF,
                        reinterpret_cast<const char*>(&wantedBufferBytes), sizeof wantedBufferBytes);
             sockaddr_storage bound{};
             socklen_t size = sizeof bound;
-            getsockname(systems(own.handle_), reinterpret_cast<sockaddr*>(&bound), &size);
-            own.port_ = portOf(bound);
-            own.bytes_.resize(longestPacket);
-            return own;
+            getsockname(native(udp.handle_), reinterpret_cast<sockaddr*>(&bound), &size);
+            udp.port_ = portOf(bound);
+            udp.packet_.resize(maxPacketBytes);
+            return udp;
         }
-        if (!sockets::isTaken()) return Failure{address + ": " + sockets::fault()};
+        if (!sockets::isPortInUse()) return Failure{address + ": " + sockets::lastError()};
     }
     return Failure{address + ": expected a free port from " + std::to_string(port) + " on, found none"};
 }
 
-Result<UdpSocket> UdpSocket::connected(const std::string& receiver) {
+Result<UdpSocket> UdpSocket::connectTo(const std::string& receiver) {
     const auto colon = receiver.rfind(':');
     const auto port = colon == std::string::npos
                           ? std::nullopt
@@ -104,22 +104,22 @@ Result<UdpSocket> UdpSocket::connected(const std::string& receiver) {
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     const auto found = lookUp(host, *port, 0);
     if (!found) return Failure{found.error};
-    UdpSocket own{openedFor(*found.value)};
-    own.bytes_.resize(longestPacket);
-    if (!own.isOpen() || connect(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0)
-        return Failure{receiver + ": " + sockets::fault()};
-    return own;
+    UdpSocket udp{openFor(*found.value)};
+    udp.packet_.resize(maxPacketBytes);
+    if (!udp.isOpen() || connect(native(udp.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0)
+        return Failure{receiver + ": " + sockets::lastError()};
+    return udp;
 }
 
 int UdpSocket::bufferBytes() const {
     int bytes = 0;
     socklen_t size = sizeof bytes;
-    getsockopt(systems(handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<char*>(&bytes), &size);
+    getsockopt(native(handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<char*>(&bytes), &size);
     return bytes;
 }
 
 bool UdpSocket::wait(int milliseconds) const noexcept {
-    if (isOpen()) return sockets::wait(systems(handle_), milliseconds);
+    if (isOpen()) return sockets::wait(native(handle_), milliseconds);
     std::this_thread::sleep_for(std::chrono::milliseconds{milliseconds});
     return false;
 }
@@ -127,12 +127,12 @@ bool UdpSocket::wait(int milliseconds) const noexcept {
 std::optional<std::span<const char>> UdpSocket::receive() {
     sockaddr_storage sender{};
     socklen_t senderSize = 0;
-    const auto size = sockets::receive(systems(handle_), bytes_, sender, senderSize, lost_);
+    const auto size = sockets::receive(native(handle_), packet_, sender, senderSize, dropped_);
     if (size < 0) return std::nullopt;
     static_assert(sizeof sender <= sizeof sender_.address);
     std::memcpy(sender_.address.data(), &sender, sizeof sender);
     sender_.size = static_cast<std::size_t>(senderSize);
-    return std::span<const char>{bytes_.data(), static_cast<std::size_t>(size)};
+    return std::span<const char>{packet_.data(), static_cast<std::size_t>(size)};
 }
 
 std::string UdpSender::text() const {
@@ -143,17 +143,17 @@ std::string UdpSender::text() const {
     return std::string(host) + ":" + port;
 }
 
-std::uint32_t UdpSocket::takeLost() noexcept { return lost_ - std::exchange(toldLost_, lost_); }
+std::uint32_t UdpSocket::resetDroppedCount() noexcept { return dropped_ - std::exchange(seen_, dropped_); }
 
 bool UdpSocket::answer(std::span<const char> bytes, const UdpSender& to) noexcept {
     const auto* address = reinterpret_cast<const sockaddr*>(to.address.data());
-    return std::cmp_equal(sendto(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, address,
+    return std::cmp_equal(sendto(native(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, address,
                                  static_cast<socklen_t>(to.size)),
                           bytes.size());
 }
 
 bool UdpSocket::send(std::span<const char> bytes) noexcept {
-    return std::cmp_equal(::send(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags),
+    return std::cmp_equal(::send(native(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags),
                           bytes.size());
 }
 

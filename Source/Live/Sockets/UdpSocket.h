@@ -18,10 +18,10 @@ struct UdpSender {
     std::string text() const; ///< HOST:PORT
 };
 
-/// One thread per direction.
+/// A non-blocking socket. One thread per direction.
 class UdpSocket {
 public:
-    static constexpr int triedPorts = 100;
+    static constexpr int maxPortAttempts = 100;
     static constexpr int wantedBufferBytes = 4 << 20; ///< the system may give less (net.core.rmem_max)
 
     UdpSocket() = default;
@@ -31,10 +31,10 @@ public:
 
     /// Binds to that local address and port, or to the next port that is free; 0: any. The port is never
     /// shared. Returns the error in one line otherwise.
-    static Result<UdpSocket> listening(const std::string& address, int port);
+    static Result<UdpSocket> listenAt(const std::string& address, int port);
 
     /// Connects to `HOST:PORT` or `[ADDRESS]:PORT`, or returns the error in one line.
-    static Result<UdpSocket> connected(const std::string& receiver);
+    static Result<UdpSocket> connectTo(const std::string& receiver);
 
     bool isOpen() const noexcept { return handle_ != none; }
     int port() const noexcept { return port_; }
@@ -47,7 +47,7 @@ public:
     /// Sender of that packet.
     const UdpSender& sender() const noexcept { return sender_; }
     /// Packets dropped by the system for lack of buffer space, since the last call.
-    std::uint32_t takeLost() noexcept;
+    std::uint32_t resetDroppedCount() noexcept;
     /// answer() sends to a sender, send() to the connected receiver; false: not sent.
     bool answer(std::span<const char> bytes, const UdpSender& to) noexcept;
     bool send(std::span<const char> bytes) noexcept;
@@ -59,9 +59,9 @@ private:
         : handle_{handle} {}
     Handle handle_ = none;
     int port_ = 0;
-    std::string bytes_;
+    std::string packet_;
     UdpSender sender_;
-    std::uint32_t lost_ = 0, toldLost_ = 0;
+    std::uint32_t dropped_ = 0, seen_ = 0;
 };
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Editor operations on bodies with their joints: move, remove, copy, paste; and new empty scenes.
+// Editor operations on bodies with their joints: move, remove, copy, paste, scale; density, haptic sources
+// and body types; and new empty scenes.
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
@@ -13,25 +14,26 @@ using detail::placeOf;
 
 namespace {
 
-auto isIn(const std::vector<std::string>& names) {
+auto isOneOf(const std::vector<std::string>& names) {
     return [&names](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
 }
 
 } // namespace
 
-Action changed(BodyDescription body) { return ChangeAction{std::move(body), true}; }
+Action changeAction(BodyDescription body) { return ChangeAction{std::move(body), true}; }
 
-std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::string, BodyPlace>& places) {
-    std::vector<Action> before, changes, after;
-    std::set<std::string> put;
-    const auto putAt = [&](const std::string& name, const BodyPlace* place) {
+// A moved body takes its joints' anchors along: a joint is removed, its bodies restart, then it is joined.
+std::vector<Action> moveActions(const SceneDrawing& drawing, const std::map<std::string, BodyPlace>& places) {
+    std::vector<Action> actions, changes, joins;
+    std::set<std::string> restarted;
+    const auto restartAt = [&](const std::string& name, const BodyPlace* place) {
         const BodyDescription* body = drawing.find(name);
-        if (body == nullptr || !put.insert(name).second) return;
+        if (body == nullptr || !restarted.insert(name).second) return;
         BodyDescription next = *body;
         if (place != nullptr) next.positionMetres = place->metres, next.angleRadians = place->angleRadians;
         changes.push_back(ChangeAction{std::move(next), false});
     };
-    for (const auto& [name, place] : places) putAt(name, &place);
+    for (const auto& [name, place] : places) restartAt(name, &place);
     for (const JointDescription& joint : drawing.drawn().joints) {
         const auto motionOf = [&](const std::string& name) -> std::optional<Motion> {
             const auto place = places.find(name);
@@ -43,58 +45,58 @@ std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::str
         const auto a = motionOf(joint.bodyA), b = motionOf(joint.bodyB);
         if (!a && !b) continue;
         JointDescription next = joint;
-        const Motion& any = a ? *a : *b;
+        const Motion& motion = a ? *a : *b;
         std::visit(
             [&](auto& kind) {
                 if constexpr (requires { kind.anchorMetres; })
-                    kind.anchorMetres = any(kind.anchorMetres);
+                    kind.anchorMetres = motion(kind.anchorMetres);
                 else {
                     if (a) kind.anchorAMetres = (*a)(kind.anchorAMetres);
                     if (b) kind.anchorBMetres = (*b)(kind.anchorBMetres);
                 }
                 if constexpr (requires { kind.axis; })
-                    if (a) kind.axis = a->way(kind.axis);
+                    if (a) kind.axis = a->rotate(kind.axis);
             },
             next.joint);
-        for (const std::string& other : {joint.bodyA, joint.bodyB})
-            if (const BodyDescription* body = drawing.find(other);
+        for (const std::string& bodyName : {joint.bodyA, joint.bodyB})
+            if (const BodyDescription* body = drawing.find(bodyName);
                 body != nullptr && body->type != BodyType::staticBody)
-                putAt(other, nullptr);
-        before.push_back(UnjoinAction{joint.name});
-        after.push_back(JoinAction{std::move(next)});
+                restartAt(bodyName, nullptr);
+        actions.push_back(UnjoinAction{joint.name});
+        joins.push_back(JoinAction{std::move(next)});
     }
-    before.insert(before.end(), changes.begin(), changes.end());
-    before.insert(before.end(), after.begin(), after.end());
-    return before;
+    actions.insert(actions.end(), changes.begin(), changes.end());
+    actions.insert(actions.end(), joins.begin(), joins.end());
+    return actions;
 }
 
-std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::string>& names) {
+std::vector<Action> removeActions(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     std::vector<Action> actions;
-    const auto isMeant = isIn(names);
+    const auto isSelected = isOneOf(names);
     for (const JointDescription& joint : drawing.drawn().joints)
-        if (isMeant(joint.name) || isMeant(joint.bodyA) || isMeant(joint.bodyB))
+        if (isSelected(joint.name) || isSelected(joint.bodyA) || isSelected(joint.bodyB))
             actions.push_back(UnjoinAction{joint.name});
     for (const std::string& name : names)
         if (drawing.find(name) != nullptr) actions.push_back(RemoveAction{name});
     return actions;
 }
 
-Scene without(Scene scene, const std::vector<std::string>& names) {
-    auto gone = names;
-    const auto isGone = isIn(gone);
+Scene sceneWithout(Scene scene, const std::vector<std::string>& names) {
+    auto removedNames = names;
+    const auto isRemoved = isOneOf(removedNames);
     std::erase_if(scene.joints, [&](const JointDescription& joint) {
-        const bool goes = isGone(joint.name) || isGone(joint.bodyA) || isGone(joint.bodyB);
-        if (goes) gone.push_back(joint.name);
-        return goes;
+        const bool isAffected = isRemoved(joint.name) || isRemoved(joint.bodyA) || isRemoved(joint.bodyB);
+        if (isAffected) removedNames.push_back(joint.name);
+        return isAffected;
     });
-    std::erase_if(scene.bodies, [&](const BodyDescription& body) { return isGone(body.name); });
+    std::erase_if(scene.bodies, [&](const BodyDescription& body) { return isRemoved(body.name); });
     std::erase_if(scene.script, [&](const ScriptInput& input) {
         return std::visit(
             [&](const auto& action) {
-                if constexpr (requires { isGone(action.body); })
-                    return isGone(action.body);
-                else if constexpr (requires { isGone(action.joint); })
-                    return isGone(action.joint);
+                if constexpr (requires { isRemoved(action.body); })
+                    return isRemoved(action.body);
+                else if constexpr (requires { isRemoved(action.joint); })
+                    return isRemoved(action.joint);
                 else
                     return false;
             },
@@ -103,43 +105,43 @@ Scene without(Scene scene, const std::vector<std::string>& names) {
     return scene;
 }
 
-Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names) {
-    Copied copy;
-    const auto isMeant = isIn(names);
+CopiedBodies copyBodies(const SceneDrawing& drawing, const std::vector<std::string>& names) {
+    CopiedBodies copy;
+    const auto isSelected = isOneOf(names);
     for (const BodyDescription& body : drawing.drawn().bodies)
-        if (isMeant(body.name)) copy.bodies.push_back(body);
+        if (isSelected(body.name)) copy.bodies.push_back(body);
     for (const JointDescription& joint : drawing.drawn().joints)
-        if (isMeant(joint.bodyA) && isMeant(joint.bodyB)) copy.joints.push_back(joint);
+        if (isSelected(joint.bodyA) && isSelected(joint.bodyB)) copy.joints.push_back(joint);
     return copy;
 }
 
-std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, const Vector& beside,
-                           std::vector<std::string>& names) {
+std::vector<Action> pasteActions(const SceneDrawing& drawing, const CopiedBodies& copy, const Vector& shift,
+                                 std::vector<std::string>& names) {
     SceneDrawing trial = drawing;
     std::vector<Action> actions;
-    std::map<std::string, std::string> renamed;
-    const auto add = [&](Action action) { trial.take(action), actions.push_back(std::move(action)); };
+    std::map<std::string, std::string> newNames;
+    const auto add = [&](Action action) { trial.apply(action), actions.push_back(std::move(action)); };
     const auto stemOf = [](const std::string& name) {
         return name.substr(0, std::min(name.find_last_not_of("0123456789 ") + 1, name.size()));
     };
-    const auto shifted = [&](Vector& place) { place = {place.x + beside.x, place.y + beside.y}; };
+    const auto shiftPlace = [&](Vector& place) { place = {place.x + shift.x, place.y + shift.y}; };
     for (BodyDescription body : copy.bodies) {
-        const std::string stem = stemOf(body.name), name = trial.freeName(stem.empty() ? "body" : stem);
-        renamed[body.name] = body.name = name;
+        const std::string stem = stemOf(body.name), name = trial.unusedName(stem.empty() ? "body" : stem);
+        newNames[body.name] = body.name = name;
         names.push_back(name);
-        shifted(body.positionMetres);
+        shiftPlace(body.positionMetres);
         add(SpawnAction{std::move(body), {}});
     }
     for (JointDescription joint : copy.joints) {
-        joint.name = trial.freeName("joint");
-        joint.bodyA = renamed[joint.bodyA];
-        joint.bodyB = renamed[joint.bodyB];
+        joint.name = trial.unusedName("joint");
+        joint.bodyA = newNames[joint.bodyA];
+        joint.bodyB = newNames[joint.bodyB];
         std::visit(
             [&](auto& kind) {
                 if constexpr (requires { kind.anchorMetres; })
-                    shifted(kind.anchorMetres);
+                    shiftPlace(kind.anchorMetres);
                 else
-                    shifted(kind.anchorAMetres), shifted(kind.anchorBMetres);
+                    shiftPlace(kind.anchorAMetres), shiftPlace(kind.anchorBMetres);
             },
             joint.joint);
         add(JoinAction{std::move(joint)});
@@ -147,7 +149,7 @@ std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, cons
     return actions;
 }
 
-Scene emptied(Scene scene) {
+Scene sceneWithoutBodies(Scene scene) {
     scene.bodies.clear();
     scene.joints.clear();
     scene.script.clear();
@@ -157,49 +159,50 @@ Scene emptied(Scene scene) {
     return scene;
 }
 
-Scene newScene(const Scene& like, SceneGround ground) {
-    Scene scene = emptied(like);
+Scene newScene(const Scene& original, SceneGround ground) {
+    Scene scene = sceneWithoutBodies(original);
     scene.name = "new scene";
     scene.description.clear();
     if (ground == SceneGround::empty || scene.materials.empty()) return scene;
     const double w = scene.fieldWidthMetres, h = scene.fieldHeightMetres,
-                 thick = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));
-    const auto felt =
+                 wallMetres = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));
+    const auto vibrating =
         std::ranges::find_if(scene.materials, [](const Material& m) { return m.frequencyHz > 0.0; });
-    const bool isFelt = felt != scene.materials.end();
-    const auto wall = [&](const char* name, double x, double y, double width, double height) {
+    const bool canVibrate = vibrating != scene.materials.end();
+    const auto addWall = [&](const char* name, double x, double y, double width, double height) {
         BodyDescription body{name, BodyType::staticBody, {{BoxShape{width, height}, {}}}, {x, y}, 0.0, {}};
-        if (isFelt) {
-            body.fixtures[0].material = static_cast<int>(felt - scene.materials.begin());
+        if (canVibrate) {
+            body.fixtures[0].material = static_cast<int>(vibrating - scene.materials.begin());
             setSource(scene, body, true);
         }
         scene.bodies.push_back(std::move(body));
     };
-    wall("floor", 0.5 * w, -0.5 * thick, w + 2.0 * thick, thick);
+    addWall("floor", 0.5 * w, -0.5 * wallMetres, w + 2.0 * wallMetres, wallMetres);
     if (ground == SceneGround::floor) return scene;
-    wall("ceiling", 0.5 * w, h + 0.5 * thick, w + 2.0 * thick, thick);
-    wall("left wall", -0.5 * thick, 0.5 * h, thick, h);
-    wall("right wall", w + 0.5 * thick, 0.5 * h, thick, h);
+    addWall("ceiling", 0.5 * w, h + 0.5 * wallMetres, w + 2.0 * wallMetres, wallMetres);
+    addWall("left wall", -0.5 * wallMetres, 0.5 * h, wallMetres, h);
+    addWall("right wall", w + 0.5 * wallMetres, 0.5 * h, wallMetres, h);
     return scene;
 }
 
 namespace {
 
-double sized(double metres, double factor) {
+double clampedSize(double metres, double factor) {
     return std::clamp(metres * factor, 2.0 * sceneLimits::minSizeMetres, sceneLimits::maxSizeMetres);
 }
 
+/// Visitor that scales a shape by a factor along x and y.
 class Scale {
 public:
     Scale(double x, double y)
         : x_{x}
         , y_{y} {}
     void operator()(CircleShape& circle) const {
-        circle.radiusMetres = sized(circle.radiusMetres, std::max(x_, y_));
+        circle.radiusMetres = clampedSize(circle.radiusMetres, std::max(x_, y_));
     }
     void operator()(BoxShape& box) const {
-        box.widthMetres = sized(box.widthMetres, x_);
-        box.heightMetres = sized(box.heightMetres, y_);
+        box.widthMetres = clampedSize(box.widthMetres, x_);
+        box.heightMetres = clampedSize(box.heightMetres, y_);
     }
     template <class Outline>
     void operator()(Outline& outline) const {
@@ -236,18 +239,18 @@ double areaOf(const BodyDescription& body) {
 
 } // namespace
 
-Reach reachOf(const BodyDescription& body) {
-    constexpr double far = std::numeric_limits<double>::max();
-    Reach reach{{far, far}, {-far, -far}};
+LocalBounds localBounds(const BodyDescription& body) {
+    constexpr double unbounded = std::numeric_limits<double>::max();
+    LocalBounds bounds{{unbounded, unbounded}, {-unbounded, -unbounded}};
     for (const FixtureDescription& fixture : body.fixtures)
         for (const Vector& corner : cornersOf(fixture.shape)) {
-            const Vector at = detail::turned(
+            const Vector turned = detail::rotated(
                 corner, std::holds_alternative<CircleShape>(fixture.shape) ? 0.0 : fixture.angleRadians);
-            const Vector p{fixture.offsetMetres.x + at.x, fixture.offsetMetres.y + at.y};
-            reach = {{std::min(reach.least.x, p.x), std::min(reach.least.y, p.y)},
-                     {std::max(reach.most.x, p.x), std::max(reach.most.y, p.y)}};
+            const Vector p{fixture.offsetMetres.x + turned.x, fixture.offsetMetres.y + turned.y};
+            bounds = {{std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y)},
+                      {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y)}};
         }
-    return reach;
+    return bounds;
 }
 
 BodyDescription scaledBody(BodyDescription body, double factorX, double factorY) {
@@ -271,7 +274,7 @@ void setDensity(BodyDescription& body, double kgPerSquareMetre) {
 
 void setSource(const Scene& scene, BodyDescription& body, bool isSource) {
     for (FixtureDescription& fixture : body.fixtures) fixture.isCamera = isSource;
-    if (isSource && massKg(body, scene) <= 0.0) body.massKg = 1.0; // a line has no mass of its own
+    if (isSource && massKg(body, scene) <= 0.0) body.massKg = 1.0; // because a line has no mass
 }
 
 bool isSource(const BodyDescription& body) {
@@ -281,7 +284,7 @@ bool isSource(const BodyDescription& body) {
 void setMoving(BodyDescription& body, bool moves) {
     if (isLine(body)) return;
     body.type = moves ? BodyType::dynamicBody : BodyType::staticBody;
-    if (!moves) body.velocityMetresPerSecond = {}; // or it would be a belt
+    if (!moves) body.velocityMetresPerSecond = {}; // a static body with a velocity would be a belt
 }
 
 } // namespace physvib

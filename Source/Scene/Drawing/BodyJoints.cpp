@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creates joints, and adjusts joints to bodies that have moved.
+// Editor operations on joints: creates them, changes motors and springs, and adjusts joints to moved bodies.
 #include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
@@ -14,10 +14,10 @@ using detail::Motion;
 using detail::placeOf;
 
 /// True if the places differ by no more than a seed's jitter.
-bool isNear(const BodyPlace& a, const BodyPlace& b) {
-    constexpr double near = 2.0e-3;
-    return portable::hypot(a.metres.x - b.metres.x, a.metres.y - b.metres.y) < near &&
-           std::abs(a.angleRadians - b.angleRadians) < near;
+bool isSamePlace(const BodyPlace& a, const BodyPlace& b) {
+    constexpr double tolerance = 2.0e-3;
+    return portable::hypot(a.metres.x - b.metres.x, a.metres.y - b.metres.y) < tolerance &&
+           std::abs(a.angleRadians - b.angleRadians) < tolerance;
 }
 
 Action atRest(BodyDescription body) {
@@ -28,36 +28,36 @@ Action atRest(BodyDescription body) {
 
 } // namespace
 
-Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
-                                   const std::pair<std::string, BodyPlace>& a,
-                                   const std::pair<std::string, BodyPlace>& b, const Vector& from,
-                                   const Vector& to) {
+Result<std::vector<Action>> joinActions(const SceneDrawing& drawing, JointKind kind,
+                                        const std::pair<std::string, BodyPlace>& a,
+                                        const std::pair<std::string, BodyPlace>& b, const Vector& from,
+                                        const Vector& to) {
     constexpr double motorRadiansPerSecond = 3.0, motorGravities = 3.0;
     std::vector<Action> actions;
-    double heaviest = 0.0;
+    double maxMassTimesLength = 0.0;
     for (const auto& [name, place] : {a, b}) {
         const BodyDescription* body = drawing.find(name);
         if (body == nullptr) return Failure{"a joint: expected two bodies"};
         if (body->type == BodyType::dynamicBody)
-            heaviest =
-                std::max(heaviest, massKg(*body, drawing.drawn()) * lengthMetres(body->fixtures[0].shape));
-        if (isNear(place, placeOf(*body))) continue;
+            maxMassTimesLength = std::max(maxMassTimesLength, massKg(*body, drawing.drawn()) *
+                                                                  lengthMetres(body->fixtures[0].shape));
+        if (isSamePlace(place, placeOf(*body))) continue;
         BodyDescription here = *body;
         here.positionMetres = place.metres;
         here.angleRadians = place.angleRadians;
         actions.push_back(atRest(std::move(here)));
     }
     if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
-    if (heaviest <= 0.0) return Failure{"a joint: expected a body that moves"};
+    if (maxMassTimesLength <= 0.0) return Failure{"a joint: expected a body that moves"};
     const double length = portable::hypot(to.x - from.x, to.y - from.y);
     if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
         return Failure{"a rope, spring or slider: expected two places"};
-    JointDescription joint{drawing.freeName("joint"), a.first, b.first, {}};
+    JointDescription joint{drawing.unusedName("joint"), a.first, b.first, {}};
     joint.collide = kind == JointKind::rope || kind == JointKind::spring;
     if (kind == JointKind::rope) {
         joint.joint = DistanceJoint{from, to, 0.0, 0.0, true};
     } else if (kind == JointKind::spring) {
-        constexpr double hz = 2.0, dampingRatio = 0.1; // swings some five times
+        constexpr double hz = 2.0, dampingRatio = 0.1; // about five swings until it rests
         joint.joint = DistanceJoint{from, to, hz, dampingRatio, false};
     } else if (kind == JointKind::slider) {
         const Vector axis{(to.x - from.x) / length, (to.y - from.y) / length};
@@ -70,7 +70,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
             pin.motorRadiansPerSecond = motorRadiansPerSecond,
             pin.maxTorqueNewtonMetres =
                 std::min(sceneLimits::maxTorqueNewtonMetres,
-                         motorGravities * std::max(1.0, portable::hypot(g.x, g.y)) * heaviest);
+                         motorGravities * std::max(1.0, portable::hypot(g.x, g.y)) * maxMassTimesLength);
         joint.joint = pin;
     }
     actions.push_back(JoinAction{std::move(joint)});
@@ -79,7 +79,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
 
 namespace {
 
-/// Calls `use` with a hinge or a wheel; false for other joints.
+/// Calls `use` with the joint if it is a hinge or wheel, which may have a motor; false for other joints.
 bool withMotor(auto& joint, const auto& use) {
     return std::visit(
         [&](auto& kind) {
@@ -91,10 +91,10 @@ bool withMotor(auto& joint, const auto& use) {
 }
 
 /// The last joint of that kind that joins the body. Null: none.
-const JointDescription* lastOf(const Scene& scene, const std::string& body, const auto& isWanted) {
+const JointDescription* lastJointOf(const Scene& scene, const std::string& body, const auto& isKind) {
     const auto found =
         std::find_if(scene.joints.rbegin(), scene.joints.rend(), [&](const JointDescription& joint) {
-            return (joint.bodyA == body || joint.bodyB == body) && isWanted(joint);
+            return (joint.bodyA == body || joint.bodyB == body) && isKind(joint);
         });
     return found == scene.joints.rend() ? nullptr : &*found;
 }
@@ -102,7 +102,7 @@ const JointDescription* lastOf(const Scene& scene, const std::string& body, cons
 } // namespace
 
 const JointDescription* motorOf(const Scene& scene, const std::string& body) {
-    return lastOf(scene, body, [](const auto& joint) { return withMotor(joint, [](const auto&) {}); });
+    return lastJointOf(scene, body, [](const auto& joint) { return withMotor(joint, [](const auto&) {}); });
 }
 
 MotorDrive driveOf(const JointDescription& motor) {
@@ -113,8 +113,8 @@ MotorDrive driveOf(const JointDescription& motor) {
     return drive;
 }
 
-Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::string& joint,
-                                   const MotorDrive& drive, const PoseNow& now) {
+Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
+                                         const MotorDrive& drive, const CurrentPose& now) {
     const auto anchorOf = [](const JointDescription& description) {
         Vector anchor;
         withMotor(description, [&](const auto& kind) { anchor = kind.anchorMetres; });
@@ -122,20 +122,21 @@ Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::strin
     };
     Scene here = sceneNow(drawing.drawn(), now);
     const auto* drawn = findNamed(drawing.drawn().joints, joint);
-    auto* next = findNamed(here.joints, joint);
-    if (!drawn || !withMotor(*next, [&](auto& kind) {
-            kind.motorRadiansPerSecond = drive.radiansPerSecond;
+    auto* changed = findNamed(here.joints, joint);
+    if (!drawn || !withMotor(*changed, [&](auto& kind) {
+            kind.motorRadiansPerSecond = drive.speedRadiansPerSecond;
             kind.maxTorqueNewtonMetres = drive.maxTorqueNewtonMetres;
         }))
         return Failure{"a motor: expected a pin or a wheel, found " + joint};
     std::vector<Action> actions{UnjoinAction{joint}};
-    constexpr double near = 1e-6;
-    const Vector before = anchorOf(*drawn), after = anchorOf(*next);
-    if (portable::hypot(after.x - before.x, after.y - before.y) > near)
+    constexpr double tolerance = 1e-6;
+    const Vector before = anchorOf(*drawn), after = anchorOf(*changed);
+    if (portable::hypot(after.x - before.x, after.y - before.y) > tolerance)
         for (const BodyDescription& body : here.bodies)
-            if (body.type == BodyType::dynamicBody && (body.name == next->bodyA || body.name == next->bodyB))
+            if (body.type == BodyType::dynamicBody &&
+                (body.name == changed->bodyA || body.name == changed->bodyB))
                 actions.push_back(atRest(body));
-    actions.push_back(JoinAction{std::move(*next)});
+    actions.push_back(JoinAction{std::move(*changed)});
     return actions;
 }
 
@@ -145,24 +146,25 @@ double springHzOf(const JointDescription& spring) {
 }
 
 const JointDescription* springOf(const Scene& scene, const std::string& body) {
-    return lastOf(scene, body, [](const auto& joint) { return springHzOf(joint) > 0.0; });
+    return lastJointOf(scene, body, [](const auto& joint) { return springHzOf(joint) > 0.0; });
 }
 
-Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::string& joint, double hz) {
+Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std::string& joint,
+                                          double springHz) {
     const auto* found = findNamed(drawing.drawn().joints, joint);
     if (found == nullptr || springHzOf(*found) <= 0.0)
         return Failure{"a spring: expected one, found " + joint};
-    JointDescription next = *found;
-    std::get<DistanceJoint>(next.joint).springHz = hz;
+    JointDescription changed = *found;
+    std::get<DistanceJoint>(changed.joint).springHz = springHz;
     std::vector<Action> actions{UnjoinAction{joint}};
-    for (const std::string& name : {next.bodyA, next.bodyB})
+    for (const std::string& name : {changed.bodyA, changed.bodyB})
         if (const auto* body = drawing.find(name); body && body->type == BodyType::dynamicBody)
             actions.push_back(ChangeAction{*body, false});
-    actions.push_back(JoinAction{std::move(next)});
+    actions.push_back(JoinAction{std::move(changed)});
     return actions;
 }
 
-Scene sceneNow(const Scene& drawn, const PoseNow& now) {
+Scene sceneNow(const Scene& drawn, const CurrentPose& now) {
     Scene scene = drawn;
     std::map<std::string, Motion> motions;
     for (BodyDescription& body : scene.bodies) {
@@ -184,21 +186,22 @@ Scene sceneNow(const Scene& drawn, const PoseNow& now) {
                     return;
                 } else {
                     const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
-                    const double angle = b->second.angle() - a->second.angle();
+                    const double turnRadians = b->second.angleRadians() - a->second.angleRadians();
                     kind.anchorMetres = onA;
                     if constexpr (requires { kind.axis; }) {
-                        kind.axis = a->second.way(kind.axis);
+                        kind.axis = a->second.rotate(kind.axis);
                         const double length = portable::hypot(kind.axis.x, kind.axis.y),
-                                     way = ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) /
-                                           length;
+                                     slidMetres =
+                                         ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) /
+                                         length;
                         if (kind.travelMetres)
-                            kind.travelMetres =
-                                Interval{kind.travelMetres->lower - way, kind.travelMetres->upper - way};
+                            kind.travelMetres = Interval{kind.travelMetres->lower - slidMetres,
+                                                         kind.travelMetres->upper - slidMetres};
                     }
                     if constexpr (requires { kind.limitsRadians; })
                         if (kind.limitsRadians)
-                            kind.limitsRadians = Interval{kind.limitsRadians->lower - angle,
-                                                          kind.limitsRadians->upper - angle};
+                            kind.limitsRadians = Interval{kind.limitsRadians->lower - turnRadians,
+                                                          kind.limitsRadians->upper - turnRadians};
                 }
             },
             joint.joint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mass, centre and inertia of bodies; area, centroid, inertia, extents and insets of their shapes.
+// Mass, centre and inertia of bodies; moments, widths and insets of shapes.
 #pragma once
 #include "Scene/Scene.h"
 #include <vector>
@@ -11,11 +11,11 @@ struct BodyMoments {
     double inertiaKgSquareMetres = 0.0; ///< about the centre
 };
 
-/// Moments by density and area of the fixtures, not the rounded masses of Table 5.1, scaled to the body's own
-/// mass where it states one. Any thread.
+/// Moments by density and area of the fixtures (not the rounded masses of Table 5.1), scaled to the body's
+/// own massKg if it is above 0. Any thread.
 BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcept;
 
-/// Mass for Eq. 5.4, kg: the one it states, else by density and area. Any thread.
+/// Mass for Eq. 5.4 in kg: the body's own if above 0, else by density and area. Any thread.
 double massKg(const BodyDescription& body, const Scene& scene) noexcept;
 
 /// Moments of a shape of constant thickness, in its own coordinates. Area 0: it has no mass (chains).
@@ -25,17 +25,17 @@ struct ShapeMoments {
     double inertiaPerKg = 0.0; ///< about the centroid, m^2
 };
 
-/// Any thread. A polygon must be convex and counter-clockwise.
+/// Moments of a shape. A polygon must be convex and counter-clockwise. Any thread.
 ShapeMoments momentsOf(const Shape& shape) noexcept;
 
-/// Smallest and largest width over all directions.
+/// Smallest and largest width of a shape over all directions (a box: its sides), in m. Any thread.
 double thicknessMetres(const Shape& shape) noexcept;
 double lengthMetres(const Shape& shape) noexcept;
 
-/// True if the vertices go round a strictly convex outline once, counter-clockwise.
+/// True if the vertices are a strictly convex outline, counter-clockwise, once around. Any thread.
 bool isConvexCounterClockwise(const std::vector<Vector>& vertices) noexcept;
 
-/// The part of a convex, counter-clockwise outline that is at least `margin` m inside; empty if nothing is.
-std::vector<Vector> inset(const std::vector<Vector>& outline, double margin);
+/// A convex, counter-clockwise outline moved inwards by `marginMetres`; empty if nothing is left. Any thread.
+std::vector<Vector> inset(const std::vector<Vector>& outline, double marginMetres);
 
 } // namespace physvib

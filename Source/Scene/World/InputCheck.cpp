@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Checks a live input by validating the scene with that input added.
+// Checks live inputs by validating the scene with them added, and keeps those that affect later ones.
 #include "Scene/World/InputCheck.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/SceneValidation.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -12,49 +12,50 @@ namespace physvib {
 
 namespace {
 
-constexpr auto isRemoval = isAnyOf<RemoveAction>;
+constexpr auto isRemoveAction = isAnyOf<RemoveAction>;
 
-/// The body that one of those actions refers to.
+/// The name of the body that a spawn, change, remove, camera or material action refers to; others: empty.
 const std::string& bodyOf(const Action& action) {
     static const std::string none;
-    if (const BodyDescription* body = bodyPutBy(action)) return body->name;
+    if (const BodyDescription* body = bodyAddedBy(action)) return body->name;
     if (const auto* removal = std::get_if<RemoveAction>(&action)) return removal->body;
     if (const auto* camera = std::get_if<CameraAction>(&action)) return camera->body;
     if (const auto* material = std::get_if<MaterialAction>(&action)) return material->body;
     return none;
 }
 
-/// True if later inputs must be checked against this one. Pushes and tilts, most of a long list, change
-/// nothing that others depend on; nor does a repetition.
-bool matters(const std::vector<LiveInput>& before, const Action& action) {
+/// True if later inputs must be checked against this one. Pushes and tilts, the majority in a long list, and
+/// repetitions change nothing that other inputs depend on.
+bool affectsLaterInputs(const std::vector<LiveInput>& earlier, const Action& action) {
     if (isAnyOf<SpawnAction, ChangeAction, JoinAction, UnjoinAction>(action)) return true;
     const bool isSwitch = isAnyOf<CameraAction, MaterialAction>(action);
-    if (!isSwitch && !isRemoval(action)) return false;
-    for (auto input = before.rbegin(); input != before.rend(); ++input) {
+    if (!isSwitch && !isRemoveAction(action)) return false;
+    for (auto input = earlier.rbegin(); input != earlier.rend(); ++input) {
         if (input->action == action) return false;
-        if (bodyPutBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
+        if (bodyAddedBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
     }
-    return isSwitch; // on the scene's own bodies, which are never removed permanently
+    return isSwitch; // of the scene's own bodies, which are never removed permanently
 }
 
 } // namespace
 
-InputCheck::InputCheck(const Scene& scene, std::size_t most)
+InputCheck::InputCheck(const Scene& scene, std::size_t maxInputs)
     : scene_(scene)
-    , taken_(scene.inputs.size())
-    , most_(most) {
-    for (LiveInput& input : std::exchange(scene_.inputs, {})) keep(std::move(input));
+    , accepted_(scene.inputs.size())
+    , maxInputs_(maxInputs) {
+    for (LiveInput& input : std::exchange(scene_.inputs, {})) addIfNeeded(std::move(input));
 }
 
-// An editor changes the same bodies and joints repeatedly: only the last change of each is kept.
-bool InputCheck::fold(const Action& action) {
+// Replaces an earlier input by `action` if possible; returns true if so. An editor changes the same bodies
+// and joints repeatedly, and only the last change of each matters.
+bool InputCheck::mergeInput(const Action& action) {
     auto& inputs = scene_.inputs;
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
-        const auto isOf = [&](const LiveInput& input) {
+        const auto concernsIt = [&](const LiveInput& input) {
             const auto* join = std::get_if<JoinAction>(&input.action);
             return join != nullptr && join->joint.name == unjoin->joint;
         };
-        return std::erase_if(inputs, isOf) > 0;
+        return std::erase_if(inputs, concernsIt) > 0;
     }
     const auto* change = std::get_if<ChangeAction>(&action);
     if (change == nullptr) return false;
@@ -62,10 +63,10 @@ bool InputCheck::fold(const Action& action) {
         return bodyOf(input.action) == change->body.name;
     });
     if (last == inputs.rend()) return false;
-    const BodyDescription* const put = bodyPutBy(last->action);
-    if (put != nullptr && put->fixtures.size() <= change->body.fixtures.size()) {
-        if (auto* before = std::get_if<SpawnAction>(&last->action))
-            before->body = change->body;
+    const BodyDescription* const added = bodyAddedBy(last->action);
+    if (added != nullptr && added->fixtures.size() <= change->body.fixtures.size()) {
+        if (auto* spawn = std::get_if<SpawnAction>(&last->action))
+            spawn->body = change->body;
         else
             last->action = *change;
         return true;
@@ -73,31 +74,31 @@ bool InputCheck::fold(const Action& action) {
     const auto isSpawned = [&](const LiveInput& input) {
         return isAnyOf<SpawnAction>(input.action) && bodyOf(input.action) == change->body.name;
     };
-    if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
-    // earlier inputs may have been forgotten
+    if (!isRemoveAction(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
+    // the spawn may have been dropped as one of the oldest
     inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}});
     return true;
 }
 
-void InputCheck::keep(LiveInput input) {
-    if (fold(input.action) || !matters(scene_.inputs, input.action)) return;
+void InputCheck::addIfNeeded(LiveInput input) {
+    if (mergeInput(input.action) || !affectsLaterInputs(scene_.inputs, input.action)) return;
     scene_.inputs.push_back(std::move(input));
-    if (most_ == endless) forgetOldest();
+    if (maxInputs_ == unlimited) dropOldestRemovals();
 }
 
-void InputCheck::forgetOldest() {
+void InputCheck::dropOldestRemovals() {
     auto& inputs = scene_.inputs;
-    while (static_cast<std::size_t>(std::ranges::count_if(inputs, isRemoval, &LiveInput::action)) >
-           remembered) {
-        const auto oldest = std::ranges::find_if(inputs, isRemoval, &LiveInput::action);
+    while (static_cast<std::size_t>(std::ranges::count_if(inputs, isRemoveAction, &LiveInput::action)) >
+           maxRemembered) {
+        const auto oldest = std::ranges::find_if(inputs, isRemoveAction, &LiveInput::action);
         const std::string body = bodyOf(oldest->action);
-        const auto isOf = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
+        const auto concernsIt = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) {
-            return isAnyOf<SpawnAction>(input.action) && isOf(input);
+            return isAnyOf<SpawnAction>(input.action) && concernsIt(input);
         });
-        // later inputs refer to another body of that name
-        inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
-        if (const auto cast = scriptedCast(scene_); findNamed(cast, body) == nullptr)
+        // inputs from the next spawn on refer to another body of that name
+        inputs.erase(std::remove_if(inputs.begin(), next, concernsIt), next);
+        if (const auto scripted = scriptedBodies(scene_); findNamed(scripted, body) == nullptr)
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);
                 return join != nullptr && (join->joint.bodyA == body || join->joint.bodyB == body);
@@ -105,22 +106,23 @@ void InputCheck::forgetOldest() {
     }
 }
 
-std::string InputCheck::take(std::span<const Action> actions) {
-    if (actions.size() > most_ - taken_) return "expected at most " + std::to_string(most_) + " inputs";
+std::string InputCheck::accept(std::span<const Action> actions) {
+    if (actions.size() > maxInputs_ - accepted_)
+        return "expected at most " + std::to_string(maxInputs_) + " inputs";
     auto& inputs = scene_.inputs;
-    const double now = inputs.empty() ? 0.0 : inputs.back().timeSeconds;
-    const std::size_t known = inputs.size();
-    for (const Action& action : actions) inputs.push_back({now, action});
-    const std::string fault = validate(scene_);
+    const double lastSeconds = inputs.empty() ? 0.0 : inputs.back().timeSeconds;
+    const std::size_t oldCount = inputs.size();
+    for (const Action& action : actions) inputs.push_back({lastSeconds, action});
+    const std::string error = validate(scene_);
     const auto first = inputs.end() - std::ssize(actions);
-    std::vector<LiveInput> taken{std::move_iterator{first}, std::move_iterator{inputs.end()}};
+    std::vector<LiveInput> newInputs{std::move_iterator{first}, std::move_iterator{inputs.end()}};
     inputs.erase(first, inputs.end());
-    for (std::size_t i = known; !fault.empty() && i < known + actions.size(); ++i)
-        if (const auto place = detail::itemPath("inputs", i) + "."; fault.starts_with(place))
-            return fault.substr(place.size());
-    if (!fault.empty()) return fault;
-    taken_ += actions.size();
-    for (LiveInput& input : taken) keep(std::move(input));
+    for (std::size_t i = oldCount; !error.empty() && i < oldCount + actions.size(); ++i)
+        if (const auto prefix = detail::itemPath("inputs", i) + "."; error.starts_with(prefix))
+            return error.substr(prefix.size());
+    if (!error.empty()) return error;
+    accepted_ += actions.size();
+    for (LiveInput& input : newInputs) addIfNeeded(std::move(input));
     return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks live inputs before they reach a world.
+// Checks live inputs before they are applied to a world.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneLimits.h"
@@ -10,31 +10,31 @@
 
 namespace physvib {
 
-/// Checks the inputs of one scene in order. One thread at a time.
+/// Checks the live inputs of one scene in order. One thread at a time.
 class InputCheck {
 public:
-    static constexpr std::size_t endless = std::numeric_limits<std::size_t>::max();
+    static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
-    /// The scene must be valid; its inputs count as earlier ones. Accepts `most` inputs: as many as a file
-    /// may hold, or endless.
-    explicit InputCheck(const Scene& scene, std::size_t most = sceneLimits::maxLiveInputs);
+    /// The scene must be valid; its inputs count as earlier ones. Accepts `maxInputs` inputs: as many as a
+    /// file may hold, or unlimited.
+    explicit InputCheck(const Scene& scene, std::size_t maxInputs = sceneLimits::maxLiveInputs);
 
-    /// Empty, and later inputs are checked with this one in effect; or the error, as from validate(). Costs
-    /// as much as validate() of the scene with its spawned bodies. A removed body may still be named, without
-    /// effect; with endless inputs only the newest `remembered` ones.
-    std::string take(const Action& action) { return take(std::span{&action, 1}); }
+    /// Checks an input: empty if it is accepted, and is then in effect for later checks; else the error, as
+    /// from validate(), and it counts as not given. Takes as long as validate() of the scene with its spawned
+    /// bodies. Inputs may name removed bodies, with unlimited inputs only the last `maxRemembered`.
+    std::string accept(const Action& action) { return accept(std::span{&action, 1}); }
     /// Accepts several inputs in order, all of them or none.
-    std::string take(std::span<const Action> actions);
+    std::string accept(std::span<const Action> actions);
 
-    static constexpr std::size_t remembered = 64; ///< an installation may spawn and remove for months
+    static constexpr std::size_t maxRemembered = 64; ///< because an installation may run for months
 
 private:
-    void keep(LiveInput input);
-    bool fold(const Action& action);
-    void forgetOldest();
+    void addIfNeeded(LiveInput input);
+    bool mergeInput(const Action& action);
+    void dropOldestRemovals();
 
     Scene scene_; // with those inputs that later ones are checked against
-    std::size_t taken_, most_;
+    std::size_t accepted_, maxInputs_;
 };
 
 } // namespace physvib

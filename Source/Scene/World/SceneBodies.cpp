@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creates Box2D bodies, fixtures and joints from a scene's descriptions.
+// Creates Box2D bodies, fixtures and joints from a scene's descriptions and moves joints; places of joints.
 #include "Scene/World/SceneBodies.h"
 #include "Contacts/ImpactSettings.h"
 #include "Core/PortableMath.h"
@@ -16,68 +16,69 @@ namespace physvib {
 
 namespace {
 
-/// Calls `use` with the b2Shape of a fixture, at its place in the body.
-class ShapeMaker {
+/// Builds the b2Shape of a fixture, at its place in the body.
+class ShapeBuilder {
 public:
-    explicit ShapeMaker(const FixtureDescription& fixture)
-        : place_(box2dVector(fixture.offsetMetres), b2Rot(static_cast<float>(fixture.angleRadians))) {
+    explicit ShapeBuilder(const FixtureDescription& fixture)
+        : transform_(box2dVector(fixture.offsetMetres), b2Rot(static_cast<float>(fixture.angleRadians))) {
         std::visit([this](const auto& shape) { make(shape); }, fixture.shape);
     }
-    const b2Shape& shape() const { return *made_; }
+    const b2Shape& shape() const { return *shape_; }
 
 private:
     void make(const CircleShape& c) {
-        circle_.m_p = place_.p;
+        circle_.m_p = transform_.p;
         circle_.m_radius = static_cast<float>(c.radiusMetres);
-        made_ = &circle_;
+        shape_ = &circle_;
     }
 
-    // Box2D adds a skin of b2_polygonRadius around polygons, where contacts begin. Shrinking the sides by it
-    // puts the contact at the described outline; very thin shapes keep most of their thickness.
+    // Contacts of polygons begin at a skin of b2_polygonRadius around them. Shrinking the outline by that
+    // radius makes them begin at the described outline; very thin shapes keep most of their thickness.
     void make(const BoxShape& b) {
         const auto halfSide = [](double side) {
             const double skin = std::min(static_cast<double>(b2_polygonRadius), side / 4.0);
             return static_cast<float>(side / 2.0 - skin);
         };
-        polygon_.SetAsBox(halfSide(b.widthMetres), halfSide(b.heightMetres), place_.p, place_.q.GetAngle());
-        made_ = &polygon_;
+        polygon_.SetAsBox(halfSide(b.widthMetres), halfSide(b.heightMetres), transform_.p,
+                          transform_.q.GetAngle());
+        shape_ = &polygon_;
     }
     void make(const PolygonShape& p) {
         const double skin = std::min(static_cast<double>(b2_polygonRadius), thicknessMetres(p) / 8.0);
-        const auto points = placed(inset(p.verticesMetres, skin));
+        const auto points = transformed(inset(p.verticesMetres, skin));
         polygon_.Set(points.data(), static_cast<int32>(points.size()));
-        made_ = &polygon_;
+        shape_ = &polygon_;
     }
 
     void make(const ChainShape& c) {
-        const auto points = placed(c.verticesMetres);
+        const auto points = transformed(c.verticesMetres);
         const auto count = static_cast<int32>(points.size());
         if (c.isLoop)
             chain_.CreateLoop(points.data(), count);
-        else // neighbours beyond the ends continue the line straight
+        else // ghost vertices continue the line straight beyond its ends
             chain_.CreateChain(points.data(), count, 2.0F * points[0] - points[1],
                                2.0F * points.back() - points[points.size() - 2]);
-        made_ = &chain_;
+        shape_ = &chain_;
     }
 
-    std::vector<b2Vec2> placed(const std::vector<Vector>& vertices) const {
+    std::vector<b2Vec2> transformed(const std::vector<Vector>& vertices) const {
         std::vector<b2Vec2> points;
-        for (const Vector& vertex : vertices) points.push_back(b2Mul(place_, box2dVector(vertex)));
+        for (const Vector& vertex : vertices) points.push_back(b2Mul(transform_, box2dVector(vertex)));
         return points;
     }
 
-    b2Transform place_;
+    b2Transform transform_;
     b2CircleShape circle_;
     b2PolygonShape polygon_;
     b2ChainShape chain_;
-    const b2Shape* made_ = nullptr;
+    const b2Shape* shape_ = nullptr;
 };
 
-double thinnestMetres(const BodyDescription& body) {
-    double thinnest = std::numeric_limits<double>::infinity();
+double minThicknessMetres(const BodyDescription& body) {
+    double minMetres = std::numeric_limits<double>::infinity();
     for (const FixtureDescription& fixture : body.fixtures)
-        thinnest = std::min(thinnest, thicknessMetres(fixture.shape));
-    return thinnest;
+        minMetres = std::min(minMetres, thicknessMetres(fixture.shape));
+    return minMetres;
 }
 
 } // namespace
@@ -94,10 +95,10 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     def.linearDamping = static_cast<float>(body.linearDampingPerSecond);
     def.angularDamping = static_cast<float>(body.angularDampingPerSecond);
     const double maxSpeed = 2.0 * largestSpeed(scene.fieldWidthMetres);
-    def.bullet = thinnestMetres(body) < maxSpeed * stepSeconds;
+    def.bullet = minThicknessMetres(body) < maxSpeed * stepSeconds;
     b2Body& created = *world.CreateBody(&def);
     for (const FixtureDescription& fixture : body.fixtures) {
-        fixtures.push_back(created.CreateFixture(&ShapeMaker(fixture).shape(), 0.0F));
+        fixtures.push_back(created.CreateFixture(&ShapeBuilder(fixture).shape(), 0.0F));
         // A line has no skin, but Box2D's copy of a chain resets the radius.
         if (std::holds_alternative<ChainShape>(fixture.shape)) fixtures.back()->GetShape()->m_radius = 0.0F;
         setSurface(*fixtures.back(), fixture, scene.materials[static_cast<std::size_t>(fixture.material)]);
@@ -144,12 +145,12 @@ void setLimits(bool& isLimited, float& lower, float& upper, const std::optional<
     upper = static_cast<float>(limits.value_or(Interval{}).upper);
 }
 
-Vector unit(const Vector& axis) {
+Vector normalised(const Vector& axis) {
     const double length = portable::hypot(axis.x, axis.y);
     return {axis.x / length, axis.y / length};
 }
 
-struct Maker {
+struct JointBuilder {
     b2World& world;
     const JointDescription& described;
     b2Body &a, &b;
@@ -163,8 +164,8 @@ struct Maker {
     }
     b2Joint& operator()(const WheelJoint& joint) const {
         b2WheelJointDef def;
-        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
-        spring(def.stiffness, def.damping, joint.suspensionHz, joint.dampingRatio);
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(normalised(joint.axis)));
+        setSpring(def.stiffness, def.damping, joint.suspensionHz, joint.dampingRatio);
         setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         setMotor(def, joint);
         return create(def);
@@ -172,8 +173,8 @@ struct Maker {
     b2Joint& operator()(const DistanceJoint& joint) const {
         b2DistanceJointDef def;
         def.Initialize(&a, &b, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
-        if (!joint.isSlack) spring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
-        // else a rod: Box2D keeps the length between these two
+        if (!joint.isSlack) setSpring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
+        // a rope may be shorter, a spring also longer; a rod keeps its length
         if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F;
         if (!joint.isSlack && joint.springHz > 0.0) def.maxLength = b2_maxFloat;
         return create(def);
@@ -188,7 +189,7 @@ struct Maker {
     }
     b2Joint& operator()(const SliderJoint& joint) const {
         b2PrismaticJointDef def;
-        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(normalised(joint.axis)));
         setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         def.motorSpeed = static_cast<float>(joint.motorMetresPerSecond);
         def.maxMotorForce = static_cast<float>(joint.maxForceNewtons);
@@ -200,16 +201,16 @@ struct Maker {
         def.collideConnected = described.collide;
         return *world.CreateJoint(&def);
     }
-    void spring(float& stiffness, float& damping, double frequencyHz, double ratio) const {
+    void setSpring(float& stiffness, float& damping, double frequencyHz, double ratio) const {
         if (frequencyHz > 0.0)
             b2LinearStiffness(stiffness, damping, static_cast<float>(frequencyHz), static_cast<float>(ratio),
                               &a, &b);
     }
 };
 
-/// What the joint is now, except for its bodies.
+/// A definition with the joint's present values, but without its bodies.
 template <class Def, class Made>
-Def defOf(const Made& made) {
+Def definitionOf(const Made& made) {
     Def def;
     def.localAnchorA = made.GetLocalAnchorA();
     def.localAnchorB = made.GetLocalAnchorB();
@@ -244,8 +245,8 @@ Def defOf(const Made& made) {
 }
 
 template <class Made, class Def>
-b2Joint& moved(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
-    Def def = defOf<Def>(static_cast<const Made&>(joint));
+b2Joint& recreateJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
+    Def def = definitionOf<Def>(static_cast<const Made&>(joint));
     def.bodyA = joint.GetBodyA() == &from ? &to : joint.GetBodyA();
     def.bodyB = joint.GetBodyB() == &from ? &to : joint.GetBodyB();
     b2Joint* const made = world.CreateJoint(&def);
@@ -257,27 +258,28 @@ b2Joint& moved(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
 
 b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
     switch (joint.GetType()) {
-    case e_revoluteJoint: return moved<b2RevoluteJoint, b2RevoluteJointDef>(world, joint, from, to);
-    case e_wheelJoint: return moved<b2WheelJoint, b2WheelJointDef>(world, joint, from, to);
-    case e_distanceJoint: return moved<b2DistanceJoint, b2DistanceJointDef>(world, joint, from, to);
-    case e_weldJoint: return moved<b2WeldJoint, b2WeldJointDef>(world, joint, from, to);
+    case e_revoluteJoint: return recreateJoint<b2RevoluteJoint, b2RevoluteJointDef>(world, joint, from, to);
+    case e_wheelJoint: return recreateJoint<b2WheelJoint, b2WheelJointDef>(world, joint, from, to);
+    case e_distanceJoint: return recreateJoint<b2DistanceJoint, b2DistanceJointDef>(world, joint, from, to);
+    case e_weldJoint: return recreateJoint<b2WeldJoint, b2WeldJointDef>(world, joint, from, to);
     default: // there are no others in a scene
-        return moved<b2PrismaticJoint, b2PrismaticJointDef>(world, joint, from, to);
+        return recreateJoint<b2PrismaticJoint, b2PrismaticJointDef>(world, joint, from, to);
     }
 }
 
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB) {
-    return std::visit(Maker{world, joint, bodyA, bodyB}, joint.joint);
+    return std::visit(JointBuilder{world, joint, bodyA, bodyB}, joint.joint);
 }
 
-JointPose describedPose(const JointDescription& joint) {
+JointPose jointPose(const JointDescription& joint) {
     return std::visit(
         [&joint](const auto& kind) -> JointPose {
             if constexpr (requires { kind.anchorMetres; }) {
                 Vector end = kind.anchorMetres;
                 if constexpr (std::is_same_v<decltype(kind), const SliderJoint&>) {
                     const double length = kind.travelMetres ? kind.travelMetres->upper : 0.0;
-                    end = {end.x + length * unit(kind.axis).x, end.y + length * unit(kind.axis).y};
+                    end = {end.x + length * normalised(kind.axis).x,
+                           end.y + length * normalised(kind.axis).y};
                 }
                 return {joint.joint, kind.anchorMetres, end};
             } else
@@ -289,14 +291,14 @@ JointPose describedPose(const JointDescription& joint) {
 std::vector<JointPose> SceneWorld::jointPoses() const {
     std::vector<JointPose> poses;
     for (const auto& [name, held] : joints_) {
-        b2Joint& made = *held.made;
+        b2Joint& made = *held.joint;
         if (!made.IsEnabled()) continue;
         const b2Vec2 a = made.GetAnchorA();
         b2Vec2 b = made.GetAnchorB();
         if (made.GetType() == e_prismaticJoint) {
             const auto& slider = static_cast<const b2PrismaticJoint&>(made);
-            const float way = slider.IsLimitEnabled() ? slider.GetUpperLimit() : 0.0F;
-            b = made.GetBodyA()->GetWorldPoint(slider.GetLocalAnchorA() + way * slider.GetLocalAxisA());
+            const float travel = slider.IsLimitEnabled() ? slider.GetUpperLimit() : 0.0F;
+            b = made.GetBodyA()->GetWorldPoint(slider.GetLocalAnchorA() + travel * slider.GetLocalAxisA());
         }
         poses.push_back({held.described, {a.x, a.y}, {b.x, b.y}});
     }

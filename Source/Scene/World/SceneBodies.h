@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates Box2D bodies, fixtures and joints from a scene's descriptions; start states with or without jitter.
+// For the message thread.
 #pragma once
 #include "Scene/Scene.h"
 #include <box2d/box2d.h>
@@ -19,8 +20,8 @@ inline BodyStart describedStart(const BodyDescription& body) noexcept {
     return {body.positionMetres, body.angleRadians, body.velocityMetresPerSecond};
 }
 
-/// Five uniform draws, up to 1 mm, 1 mrad and 1 mm/s each way: a fall from 1 m shifts by at most 0.33 ms,
-/// while a box full of bodies diverges after some impacts.
+/// The start with place, angle and velocity changed at random by up to 1 mm, 1 mrad and 1 mm/s: a fall from 1
+/// m shifts by at most 0.33 ms, while the bodies of a full box diverge after some impacts.
 inline BodyStart jitteredStart(const BodyDescription& body, std::mt19937& random) noexcept {
     constexpr double reach = 1.0e-3;
     const auto draw = [&random] { return (static_cast<double>(random()) * 0x1p-31 - 1.0) * reach; };
@@ -37,25 +38,25 @@ inline b2Vec2 box2dVector(const Vector& v) noexcept {
     return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
 
-/// Creates a scene's body and appends its fixtures, in their order; outlines exactly as described. Bodies
-/// that cross their own thickness within a step at twice v_max (Eq. 5.7) are bullets. Of a valid scene. M.
+/// Creates a body of a valid scene, with outlines exactly as described, and appends its fixtures. Bodies that
+/// move by more than their thickness per step at twice v_max (Eq. 5.7) are bullets.
 b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
                    double stepSeconds, std::vector<b2Fixture*>& fixtures);
 
-/// Resets a body to its start and enables it. M only.
+/// Resets a body to its start and enables it.
 void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start);
 
-/// Sets a dynamic body's mass from its description; others have none. M only.
+/// Sets a dynamic body's mass from its description; others have none.
 void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
 
-/// Friction and restitution. M only.
+/// Sets friction and restitution of a fixture.
 void setSurface(b2Fixture& fixture, const FixtureDescription& description, const Material& material);
 
-/// Creates a joint between two bodies where they are now. M only.
+/// Creates a joint between two bodies where they are now.
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
 
 /// Replaces `from` by `to` in one of its joints, with the same anchor points. Returns the new joint; the old
-/// one is destroyed. M only.
+/// one is destroyed.
 b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to);
 
 } // namespace physvib

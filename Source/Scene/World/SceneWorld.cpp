@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Builds a scene's Box2D world, and applies actions to it.
+// Builds a scene's Box2D world, and executes scripted and live actions in it.
 #include "Scene/World/SceneWorld.h"
 #include "Core/PortableMath.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/SceneBodies.h"
-#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,21 +12,21 @@ namespace physvib {
 
 namespace {
 
-// How long a removed body is kept: its impacts come up to ReleaseImpacts::latestNs later, some steps.
-constexpr double heldSeconds = 0.5;
+// Time until a removed body is destroyed: longer than impacts are delayed (ReleaseImpacts::latestNs).
+constexpr double removalDelaySeconds = 0.5;
 
-Vector turnedBy(const Vector& v, double angleRadians) {
+Vector rotated(const Vector& v, double angleRadians) {
     const double c = portable::cos(angleRadians), s = portable::sin(angleRadians);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-// Room in Box2D's pools, for a step that needs none then: contacts, springs of grips, and lists of what moved
-// and of pairs, which grow by one proxy that is reported often. Two proxies that go in reverse order leave
-// the tree as it was, so motion is the same to the bit.
-void makeRoom(b2World& world, const Scene& scene) {
+// Fills Box2D's pools, so that steps do not allocate: blocks for contacts and grips, and the broad phase's
+// buffers of moved proxies and pairs, which grow when one proxy is reported as moved many times. Destroying
+// the two proxies in reverse order restores the tree, so motion is the same to the bit.
+void reservePools(b2World& world, const Scene& scene) {
     auto& manager = const_cast<b2ContactManager&>(world.GetContactManager());
     const std::size_t contacts = std::min<std::size_t>(24 + scene.bodies.size(), 512);
-    constexpr int pairs = 256; // that begin or end to be near in one step
+    constexpr int pairs = 256; // that may come near each other in one step
     const auto makeBlocks = [&manager](std::size_t count, int bytes) {
         std::vector<void*> blocks(count);
         for (void*& block : blocks) block = manager.m_allocator->Allocate(bytes);
@@ -34,24 +34,24 @@ void makeRoom(b2World& world, const Scene& scene) {
     };
     makeBlocks(contacts, sizeof(b2Contact));
     if (std::ranges::any_of(scene.script, isAnyOf<GripAction>, &ScriptInput::action)) {
-        makeBlocks(SceneGrips::expected, sizeof(b2MouseJoint));
-        makeBlocks(1, sizeof(b2Body)); // the other end of the grips
+        makeBlocks(SceneGrips::reservedGrips, sizeof(b2MouseJoint));
+        makeBlocks(1, sizeof(b2Body)); // the static body of the grips
     }
     struct {
         void AddPair(void*, void*) {}
-    } nobody;
-    const b2AABB place{{0.0F, 0.0F}, {0.0F, 0.0F}};
-    const int first = manager.m_broadPhase.CreateProxy(place, nullptr),
-              second = manager.m_broadPhase.CreateProxy(place, nullptr);
+    } pairCallback;
+    const b2AABB bounds{{0.0F, 0.0F}, {0.0F, 0.0F}};
+    const int first = manager.m_broadPhase.CreateProxy(bounds, nullptr),
+              second = manager.m_broadPhase.CreateProxy(bounds, nullptr);
     for (int i = 0; i < pairs; ++i) manager.m_broadPhase.TouchProxy(second);
-    manager.m_broadPhase.UpdatePairs(&nobody);
+    manager.m_broadPhase.UpdatePairs(&pairCallback);
     manager.m_broadPhase.DestroyProxy(second);
     manager.m_broadPhase.DestroyProxy(first);
 }
 
-/// What turns with a motor.
+/// Calls `set` with the joint as its own type if it is a hinge or a wheel.
 template <class Set>
-void forMotor(b2Joint& made, Set set) {
+void withMotor(b2Joint& made, Set set) {
     if (made.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(made));
     if (made.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(made));
 }
@@ -61,7 +61,7 @@ void forMotor(b2Joint& made, Set set) {
 SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
     : scene_(scene)
     , clock_(clock)
-    , jitters_(seed != 0)
+    , hasJitter_(seed != 0)
     , random_(seed)
     , script_(scene_, clock)
     , gravity_(scene.gravityMetresPerSecond2)
@@ -69,29 +69,29 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , materials_(scene.materials)
     , lastInputSeconds_(scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds) {
     if (!scene_.bodies.empty()) {
-        scene_.inputs.reserve(scene_.inputs.size() + expectedInputs);
-        paces_.reserve(expectedInputs);
-        makeRoom(world_, scene_);
+        scene_.inputs.reserve(scene_.inputs.size() + reservedInputs);
+        pendingPaces_.reserve(reservedInputs);
+        reservePools(world_, scene_);
     }
-    world_.SetContactFilter(&bound_);
+    world_.SetContactFilter(&contactLimit_);
     build();
-    actOnScript(0);
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_.at(i).body);
+    executeScript(0);
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) delayHalfAStep(*bodies_.at(i).body);
 }
 
 void SceneWorld::build() {
-    const auto cast = scriptedCast(scene_);
-    for (std::size_t i = 0; i < cast.size(); ++i) {
-        const bool isThere = i < scene_.bodies.size();
-        const Body& body = add(cast[i], isThere ? startOf(cast[i]) : describedStart(cast[i]));
-        if (!isThere) body.body->SetEnabled(false);
+    const auto scripted = scriptedBodies(scene_);
+    for (std::size_t i = 0; i < scripted.size(); ++i) {
+        const bool isPresent = i < scene_.bodies.size();
+        const Body& body = add(scripted[i], isPresent ? startOf(scripted[i]) : describedStart(scripted[i]));
+        if (!isPresent) body.body->SetEnabled(false);
     }
-    scripted_ = nextBody_;
+    scriptedBodyCount_ = nextBody_;
     scriptedNames_ = bodyNames_;
     for (const JointDescription& joint : scene_.joints)
-        joints_.emplace(joint.name, HeldJoint{&createJoint(world_, joint, *find(joint.bodyA)->body,
-                                                           *find(joint.bodyB)->body),
-                                              joint.joint});
+        joints_.emplace(joint.name, WorldJoint{&createJoint(world_, joint, *find(joint.bodyA)->body,
+                                                            *find(joint.bodyB)->body),
+                                               joint.joint});
     std::size_t next = scene_.bodies.size();
     for (const ScriptInput& input : scene_.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {
@@ -104,28 +104,29 @@ SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& 
     std::vector<b2Fixture*> created;
     b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
     bodyNames_.emplace(body.name, nextBody_);
-    Body& added =
+    Body& newBody =
         bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
-    nextFixture_ += added.fixtures.size();
-    if (body.type == BodyType::staticBody && body.velocityMetresPerSecond.x != 0.0) belts_.push_back(&added);
-    return added;
+    nextFixture_ += newBody.fixtures.size();
+    if (body.type == BodyType::staticBody && body.velocityMetresPerSecond.x != 0.0)
+        belts_.push_back(&newBody);
+    return newBody;
 }
 
 BodyStart SceneWorld::startOf(const BodyDescription& body) {
-    const bool moves = jitters_ && body.type == BodyType::dynamicBody;
-    return moves ? jitteredStart(body, random_) : describedStart(body);
+    const bool isJittered = hasJitter_ && body.type == BodyType::dynamicBody;
+    return isJittered ? jitteredStart(body, random_) : describedStart(body);
 }
 
 // Box2D adds a whole step of gravity before it moves a body, half a step too early. Velocities that start
 // half a step behind turn this into the leapfrog scheme: bodies fall along the exact parabola.
-void SceneWorld::startHalfAStepBehind(b2Body& body) const {
+void SceneWorld::delayHalfAStep(b2Body& body) const {
     if (body.GetType() != b2_dynamicBody) return;
     const b2Vec2 halfStep = static_cast<float>(-0.5 * clock_.stepSeconds()) * world_.GetGravity();
     body.SetLinearVelocity(body.GetLinearVelocity() + halfStep);
 }
 
-void SceneWorld::holdDevice() {
-    const Vector turned = turnedBy(gravity_, hold_.angleRadians);
+void SceneWorld::applyGravity() {
+    const Vector turned = rotated(gravity_, hold_.angleRadians);
     const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
     if (gravity == world_.GetGravity()) return;
     world_.SetGravity(gravity);
@@ -133,8 +134,8 @@ void SceneWorld::holdDevice() {
 }
 
 SceneWorld::Body* SceneWorld::find(std::string_view name) noexcept {
-    const auto place = bodyNames_.find(name);
-    return place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
+    const auto entry = bodyNames_.find(name);
+    return entry == bodyNames_.end() ? nullptr : &bodies_.at(entry->second);
 }
 
 b2Body* SceneWorld::findInWorld(std::string_view name) noexcept {
@@ -143,10 +144,10 @@ b2Body* SceneWorld::findInWorld(std::string_view name) noexcept {
 }
 
 void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
-    body.now.fixtures[fixture].material = material;
-    setSurface(*body.fixtures[fixture], body.now.fixtures[fixture],
+    body.current.fixtures[fixture].material = material;
+    setSurface(*body.fixtures[fixture], body.current.fixtures[fixture],
                materials_[static_cast<std::size_t>(material)]);
-    setMass(*body.body, body.now, scene_);
+    setMass(*body.body, body.current, scene_);
 }
 
 void SceneWorld::addInput(std::int64_t step, Action action) {
@@ -154,41 +155,43 @@ void SceneWorld::addInput(std::int64_t step, Action action) {
     scene_.inputs.push_back({lastInputSeconds_, std::move(action)});
 }
 
-void SceneWorld::forgetDone() {
-    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once on average
+void SceneWorld::dropExecutedInputs() {
+    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0)
+        return; // so that each is moved once on average
     scene_.inputs.erase(scene_.inputs.begin(),
                         scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
     nextInput_ = 0;
 }
 
-bool SceneWorld::act(std::int64_t step) {
+bool SceneWorld::executeActions(std::int64_t step) {
     step_ = step;
     destroyRemoved(step);
-    const bool live = actOnInputs(step), script = actOnScript(step);
-    grips_.move(step + 1);
-    for (const Body* belt : belts_) run(*belt);
-    return live || script;
+    const bool inputsChanged = executeInputs(step), scriptChanged = executeScript(step);
+    grips_.moveHands(step + 1);
+    for (const Body* belt : belts_) driveBelt(*belt);
+    return inputsChanged || scriptChanged;
 }
 
-// Box2D's friction drives what touches it, on either side; a contact is there a step before it touches.
-void SceneWorld::run(const Body& belt) {
+// Box2D's friction moves bodies that touch the belt on either side. Contacts exist a step before they touch,
+// so all of them get the speed in time.
+void SceneWorld::driveBelt(const Body& belt) {
     const auto speed = static_cast<float>(belt.described.velocityMetresPerSecond.x);
     for (b2ContactEdge* edge = belt.body->GetContactList(); edge != nullptr; edge = edge->next)
         edge->contact->SetTangentSpeed(speed);
 }
 
-// They have had neither contacts nor entries in Box2D's tree since they were disabled, so the order of the
-// others is unchanged.
+// Removed bodies have had neither contacts nor entries in Box2D's tree since they were disabled, so the order
+// of the others is unchanged.
 void SceneWorld::destroyRemoved(std::int64_t step) {
-    for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
-        const auto gone = bodies_.find(leaving_.front().body);
-        std::erase(belts_, &gone->second);
-        world_.DestroyBody(gone->second.body);
-        bodies_.erase(gone);
+    for (; !pendingRemovals_.empty() && pendingRemovals_.front().step <= step; pendingRemovals_.pop_front()) {
+        const auto removed = bodies_.find(pendingRemovals_.front().body);
+        std::erase(belts_, &removed->second);
+        world_.DestroyBody(removed->second.body);
+        bodies_.erase(removed);
     }
 }
 
-bool SceneWorld::actOnInputs(std::int64_t step) {
+bool SceneWorld::executeInputs(std::int64_t step) {
     bool fixturesChanged = false;
     for (; nextInput_ < scene_.inputs.size(); ++nextInput_) {
         const LiveInput& input = scene_.inputs[nextInput_];
@@ -198,14 +201,14 @@ bool SceneWorld::actOnInputs(std::int64_t step) {
     return fixturesChanged;
 }
 
-bool SceneWorld::actOnScript(std::int64_t step) {
+bool SceneWorld::executeScript(std::int64_t step) {
     bool fixturesChanged = false;
     const auto isDue = [&](const ScriptPace& pace) { return clock_.firstStepAt(pace.fromSeconds) <= step; };
-    const auto later = std::ranges::find_if_not(paces_, isDue);
-    std::for_each(paces_.begin(), later, [this](const ScriptPace& pace) { take(pace); });
-    paces_.erase(paces_.begin(), later);
-    const std::int64_t now = pace_.scriptStep(step, clock_);
-    for (DueAction due = script_.next(now); due.action != nullptr; due = script_.next(now)) {
+    const auto later = std::ranges::find_if_not(pendingPaces_, isDue);
+    std::for_each(pendingPaces_.begin(), later, [this](const ScriptPace& pace) { applyPace(pace); });
+    pendingPaces_.erase(pendingPaces_.begin(), later);
+    const std::int64_t scriptStep = pace_.scriptStep(step, clock_);
+    for (DueAction due = script_.next(scriptStep); due.action != nullptr; due = script_.next(scriptStep)) {
         const auto* spawn = std::get_if<SpawnAction>(due.action);
         if (spawn != nullptr) restart(*spawn, due.repetition);
         fixturesChanged |= spawn != nullptr || apply(*due.action);
@@ -213,183 +216,187 @@ bool SceneWorld::actOnScript(std::int64_t step) {
     return fixturesChanged;
 }
 
-void SceneWorld::take(const ScriptPace& pace) {
+void SceneWorld::applyPace(const ScriptPace& pace) {
     const auto factor = static_cast<float>(pace.rate / std::exchange(pace_, pace).rate);
     const auto drive = [factor](auto& joint) { joint.SetMotorSpeed(joint.GetMotorSpeed() * factor); };
-    for (auto& [name, joint] : joints_) forMotor(*joint.made, drive);
+    for (auto& [name, joint] : joints_) withMotor(*joint.joint, drive);
 }
 
 void SceneWorld::restart(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
-    // the body was changed since
+    // a ChangeAction has replaced the body: its joints return to this one
     if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) {
         moveJoints(*bodies_.at(named).body, *body.body);
-        retire(std::exchange(named, number));
+        removeFromWorld(std::exchange(named, number));
     }
     for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
         setMaterial(body, i, body.described.fixtures[i].material);
-        body.now.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
+        body.current.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
     }
-    grips_.letGo(*body.body); // it starts anew
+    grips_.release(*body.body); // because it restarts
     restartBody(*body.body, body.described, startOf(body.described));
-    startHalfAStepBehind(*body.body);
+    delayHalfAStep(*body.body);
 }
 
-// It has no contacts any more. The script may spawn it again; a live body is destroyed once its impacts have
-// been reported.
-void SceneWorld::retire(std::size_t number) {
+// Disables the body, which ends its contacts. The script may enable one of its bodies again; a live body is
+// destroyed once its impacts have been reported.
+void SceneWorld::removeFromWorld(std::size_t number) {
     b2Body& body = *bodies_.at(number).body;
-    grips_.letGo(body);
+    grips_.release(body);
     body.SetEnabled(false);
-    if (number >= scripted_) leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), number});
+    if (number >= scriptedBodyCount_)
+        pendingRemovals_.push_back({step_ + clock_.firstStepAt(removalDelaySeconds), number});
 }
 
 void SceneWorld::moveJoints(b2Body& from, b2Body& to) {
     for (auto& [name, joint] : joints_)
-        if (joint.made->GetBodyA() == &from || joint.made->GetBodyB() == &from)
-            joint.made = &moveJoint(world_, *joint.made, from, to);
+        if (joint.joint->GetBodyA() == &from || joint.joint->GetBodyB() == &from)
+            joint.joint = &moveJoint(world_, *joint.joint, from, to);
 }
 
-void SceneWorld::dropJoints(b2Body& body) {
+void SceneWorld::destroyJoints(b2Body& body) {
     std::erase_if(joints_, [&](const auto& named) {
-        b2Joint* const joint = named.second.made;
+        b2Joint* const joint = named.second.joint;
         if (joint->GetBodyA() != &body && joint->GetBodyB() != &body) return false;
         world_.DestroyJoint(joint);
         return true;
     });
 }
 
-/// What each action does when it comes.
-struct SceneWorld::Acts {
-    SceneWorld& w;
+/// Visitor that executes an action of any kind.
+struct SceneWorld::ActionExecutor {
+    SceneWorld& world;
 
     void operator()(const GravityAction& action) const {
-        w.gravity_ = action.metresPerSecond2;
-        w.holdDevice();
+        world.gravity_ = action.gravityMetresPerSecond2;
+        world.applyGravity();
     }
     void operator()(const TiltAction& action) const {
-        w.gravity_ = turnedBy(w.scene_.gravityMetresPerSecond2, action.angleRadians);
-        w.holdDevice();
+        world.gravity_ = rotated(world.scene_.gravityMetresPerSecond2, action.angleRadians);
+        world.applyGravity();
     }
     void operator()(const HoldAction& action) const {
-        w.hold_ = action;
-        w.holdDevice();
+        world.hold_ = action;
+        world.applyGravity();
     }
     void operator()(const ImpulseAction& action) const {
-        b2Body* body = w.findInWorld(action.body);
+        b2Body* body = world.findInWorld(action.body);
         if (body == nullptr) return;
         const b2Vec2 point = action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres))
                                                 : body->GetWorldCenter();
-        body->ApplyLinearImpulse(box2dVector(action.newtonSeconds), point, true);
+        body->ApplyLinearImpulse(box2dVector(action.impulseNewtonSeconds), point, true);
     }
     void operator()(const VelocityAction& action) const {
-        b2Body* body = w.findInWorld(action.body);
+        b2Body* body = world.findInWorld(action.body);
         if (body == nullptr) return;
         body->SetAwake(true); // also for a velocity of 0
-        body->SetLinearVelocity(box2dVector(action.metresPerSecond));
+        body->SetLinearVelocity(box2dVector(action.velocityMetresPerSecond));
         body->SetAngularVelocity(static_cast<float>(action.spinRadiansPerSecond));
     }
     void operator()(const GripAction& action) const {
-        if (b2Body* body = w.findInWorld(action.body)) w.grips_.act(*body, action, w.step_);
+        if (b2Body* body = world.findInWorld(action.body)) world.grips_.apply(*body, action, world.step_);
     }
 
-    /// Of a live input; a script's bodies are there already, see restart().
+    /// For live inputs only; a script's bodies exist already and restart(), see there.
     void operator()(const SpawnAction& action) const {
-        w.startHalfAStepBehind(*w.add(action.body, describedStart(action.body)).body);
+        world.delayHalfAStep(*world.add(action.body, describedStart(action.body)).body);
     }
     void operator()(const RemoveAction& action) const {
-        const auto place = w.bodyNames_.find(action.body);
-        if (place == w.bodyNames_.end()) return;
-        const std::size_t number = place->second;
-        b2Body& body = *w.bodies_.at(number).body;
-        if (number >= w.scripted_) {
-            w.bodyNames_.erase(place);
-            // the body was changed: the script may need the original
-            const auto scripted = w.scriptedNames_.find(action.body);
-            if (scripted == w.scriptedNames_.end())
-                w.dropJoints(body);
+        const auto entry = world.bodyNames_.find(action.body);
+        if (entry == world.bodyNames_.end()) return;
+        const std::size_t number = entry->second;
+        b2Body& body = *world.bodies_.at(number).body;
+        if (number >= world.scriptedBodyCount_) {
+            world.bodyNames_.erase(entry);
+            // the body replaced one of the script, which may spawn the original again
+            const auto scripted = world.scriptedNames_.find(action.body);
+            if (scripted == world.scriptedNames_.end())
+                world.destroyJoints(body);
             else {
-                w.moveJoints(body, *w.bodies_.at(scripted->second).body);
-                w.bodyNames_.emplace(*scripted);
+                world.moveJoints(body, *world.bodies_.at(scripted->second).body);
+                world.bodyNames_.emplace(*scripted);
             }
         }
-        w.retire(number);
+        world.removeFromWorld(number);
     }
     void operator()(const ChangeAction& action) const {
-        const auto place = w.bodyNames_.find(action.body.name);
-        Body* const before = place == w.bodyNames_.end() ? nullptr : &w.bodies_.at(place->second);
-        const bool stays = action.stays && before != nullptr && before->body->IsEnabled();
+        const auto entry = world.bodyNames_.find(action.body.name);
+        Body* const oldBody = entry == world.bodyNames_.end() ? nullptr : &world.bodies_.at(entry->second);
+        const bool stays = action.stays && oldBody != nullptr && oldBody->body->IsEnabled();
         BodyStart start = describedStart(action.body);
         if (stays) {
-            const b2Vec2 at = before->body->GetPosition(), speed = before->body->GetLinearVelocity();
-            start = {{at.x, at.y}, before->body->GetAngle(), {speed.x, speed.y}};
+            const b2Vec2 position = oldBody->body->GetPosition(), speed = oldBody->body->GetLinearVelocity();
+            start = {{position.x, position.y}, oldBody->body->GetAngle(), {speed.x, speed.y}};
         }
-        const std::size_t old = before == nullptr ? w.nextBody_ : place->second;
-        if (before != nullptr) w.bodyNames_.erase(place);
-        b2Body& now = *w.add(action.body, start).body;
+        const std::size_t oldNumber = oldBody == nullptr ? world.nextBody_ : entry->second;
+        if (oldBody != nullptr) world.bodyNames_.erase(entry);
+        b2Body& newBody = *world.add(action.body, start).body;
         if (stays)
-            now.SetAngularVelocity(before->body->GetAngularVelocity());
+            newBody.SetAngularVelocity(oldBody->body->GetAngularVelocity());
         else
-            w.startHalfAStepBehind(now);
-        if (before == nullptr) return;
-        w.moveJoints(*before->body, now);
-        w.retire(old);
+            world.delayHalfAStep(newBody);
+        if (oldBody == nullptr) return;
+        world.moveJoints(*oldBody->body, newBody);
+        world.removeFromWorld(oldNumber);
     }
 
     void operator()(const UnjoinAction& action) const {
-        const auto joint = w.joints_.find(action.joint);
-        if (joint == w.joints_.end()) return;
-        w.world_.DestroyJoint(joint->second.made); // wakes both bodies
-        w.joints_.erase(joint);
+        const auto joint = world.joints_.find(action.joint);
+        if (joint == world.joints_.end()) return;
+        world.world_.DestroyJoint(joint->second.joint); // wakes both bodies
+        world.joints_.erase(joint);
     }
     void operator()(const JoinAction& action) const {
         (*this)(UnjoinAction{action.joint.name});
-        b2Body *const a = w.findInWorld(action.joint.bodyA), *const b = w.findInWorld(action.joint.bodyB);
+        b2Body *const a = world.findInWorld(action.joint.bodyA), *const b =
+                                                                     world.findInWorld(action.joint.bodyB);
         if (a != nullptr && b != nullptr)
-            w.joints_.emplace(action.joint.name,
-                              HeldJoint{&createJoint(w.world_, action.joint, *a, *b), action.joint.joint});
+            world.joints_.emplace(
+                action.joint.name,
+                WorldJoint{&createJoint(world.world_, action.joint, *a, *b), action.joint.joint});
     }
     void operator()(const MotorAction& action) const {
-        const auto place = w.joints_.find(action.joint);
-        if (place == w.joints_.end()) return;
-        forMotor(*place->second.made, [&](auto& joint) {
-            joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond * w.pace_.rate));
+        const auto entry = world.joints_.find(action.joint);
+        if (entry == world.joints_.end()) return;
+        withMotor(*entry->second.joint, [&](auto& joint) {
+            joint.SetMotorSpeed(static_cast<float>(action.speedRadiansPerSecond * world.pace_.rate));
             if (action.maxTorqueNewtonMetres)
                 joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
         });
     }
 
-    /// Calls `change` with a body and the indices of one of its fixtures, or of all.
+    /// Calls change(body, index) for the action's fixture, or for every fixture of its body.
     void forFixtures(const auto& action, auto change) const {
-        Body* const meant = w.find(action.body);
-        for (std::size_t i = 0; meant != nullptr && i < meant->fixtures.size(); ++i)
+        Body* const target = world.find(action.body);
+        for (std::size_t i = 0; target != nullptr && i < target->fixtures.size(); ++i)
             if (action.fixture == everyFixture || static_cast<std::size_t>(action.fixture) == i)
-                change(*meant, i);
+                change(*target, i);
     }
     void operator()(const CameraAction& action) const {
-        forFixtures(action, [&](Body& body, std::size_t i) { body.now.fixtures[i].isCamera = action.isOn; });
+        forFixtures(action,
+                    [&](Body& body, std::size_t i) { body.current.fixtures[i].isCamera = action.isOn; });
     }
     void operator()(const MaterialAction& action) const {
-        forFixtures(action, [&](Body& body, std::size_t i) { w.setMaterial(body, i, action.material); });
-        if (b2Body* body = w.findInWorld(action.body))
+        forFixtures(action, [&](Body& body, std::size_t i) { world.setMaterial(body, i, action.material); });
+        if (b2Body* body = world.findInWorld(action.body))
             for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
                 edge->contact->ResetFriction(); // contacts keep the values they began with
                 edge->contact->ResetRestitution();
             }
     }
     void operator()(const SoundAction& action) const {
-        Material& material = w.materials_[static_cast<std::size_t>(action.material)];
+        Material& material = world.materials_[static_cast<std::size_t>(action.material)];
         material.frequencyHz = action.frequencyHz;
         material.decayPerSecond = action.decayPerSecond;
     }
     void operator()(const TextureAction& action) const {
-        w.materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
+        world.materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
     }
 };
 
 bool SceneWorld::apply(const Action& action) {
-    std::visit(Acts{*this}, action);
+    std::visit(ActionExecutor{*this}, action);
     return isAnyOf<SpawnAction, ChangeAction, CameraAction, MaterialAction, SoundAction, TextureAction>(
         action);
 }
@@ -403,10 +410,10 @@ BodyPose SceneWorld::poseOf(const b2Body& body) noexcept {
     return {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.IsEnabled()};
 }
 
-SceneWorld::FixtureNow SceneWorld::fixtureNow(const Body& body, std::size_t index) const noexcept {
-    const FixtureDescription& description = body.now.fixtures[index];
+SceneWorld::CurrentFixture SceneWorld::currentFixture(const Body& body, std::size_t index) const noexcept {
+    const FixtureDescription& description = body.current.fixtures[index];
     return {body.firstFixture + index, *body.fixtures[index], description,
-            materials_[static_cast<std::size_t>(description.material)], body.now};
+            materials_[static_cast<std::size_t>(description.material)], body.current};
 }
 
 } // namespace physvib

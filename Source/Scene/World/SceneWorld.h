@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Box2D world of a scene with scripted and live actions, and its parts: step clock, script, contact
-// limit, grips of hands, poses.
+// SceneWorld, the Box2D world of a scene with scripted and live actions; and its parts: step clock, script,
+// pace of the script, limit of contacts, grips of hands, poses. Classes are for the message thread.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneLimits.h"
@@ -35,7 +35,7 @@ struct StepClock {
 
     /// The first step that begins at or after `seconds` (>= 0). Any thread.
     std::int64_t firstStepAt(double seconds) const noexcept {
-        constexpr double rounding = 1.0e-6; // 0.07 s * 100 is 7.000000000000001, which belongs to step 7
+        constexpr double rounding = 1.0e-6; // 0.07 s * 100 is 7.000000000000001, but step 7 is meant
         return static_cast<std::int64_t>(std::ceil(seconds * stepsPerSecond - rounding));
     }
 };
@@ -48,10 +48,10 @@ struct DueAction {
 };
 
 /// The script of a valid scene at a fixed step rate. An input acts in the first step that begins at or after
-/// its time, those of one step in their order in the scene. Allocates in its constructor only. M only.
+/// its time; inputs of one step act in the order of the scene. Allocates in its constructor only.
 class SceneScript {
 public:
-    /// `scene` outlives the script.
+    /// `scene` must outlive the script.
     SceneScript(const Scene& scene, const StepClock& clock)
         : periodSteps_(clock.firstStepAt(scene.scriptPeriodSeconds)) {
         for (const ScriptInput& input : scene.script)
@@ -63,8 +63,8 @@ public:
         std::stable_sort(entries_.begin(), entries_.end(), isEarlier);
     }
 
-    /// The next action that is due in step `step` or before, each once; nullptr `action` if there is none.
-    /// Steps are asked for in ascending order.
+    /// The next action that is due in step `step` or before and was not returned yet; `action` is nullptr if
+    /// there is none. Call with ascending steps.
     DueAction next(std::int64_t step) noexcept {
         if (next_ == entries_.size() && periodSteps_ > 0 && !entries_.empty()) {
             periodStart_ += periodSteps_;
@@ -85,11 +85,12 @@ private:
     std::size_t next_ = 0;
 };
 
-/// From world time `fromSeconds` on, the script continues at `scriptSeconds` and runs at `rate`, as do the
-/// motors of joints. The scene's own rate is 1.
+/// From world time `fromSeconds` on, the script continues at script time `scriptSeconds`, `rate` times as
+/// fast as the scene says; motors of joints are `rate` times as fast, too.
 struct ScriptPace {
     double fromSeconds = 0.0, scriptSeconds = 0.0, rate = 1.0;
 
+    /// The step of the script that world step `step` executes. Any thread.
     std::int64_t scriptStep(std::int64_t step, const StepClock& clock) const noexcept {
         constexpr double rounding = 1.0e-6;
         return static_cast<std::int64_t>(
@@ -98,13 +99,12 @@ struct ScriptPace {
     }
 };
 
-// Limits the number of simultaneous contacts in a world, to bound time and memory per step.
-
-/// Bodies in one place touch pairwise, and pairs grow with the square of the bodies: two thousand would need
-/// a gigabyte and minutes. Beyond maxContacts, pairs pass through each other and are counted. M only.
-class ContactBound final : public b2ContactFilter {
+/// Limits the number of simultaneous contacts, to bound time and memory per step: two thousand bodies in one
+/// place have two million pairs, a gigabyte. Beyond maxContacts, pairs pass through each other and are
+/// counted.
+class ContactLimit final : public b2ContactFilter {
 public:
-    explicit ContactBound(const b2World& world)
+    explicit ContactLimit(const b2World& world)
         : world_{world} {}
 
     bool ShouldCollide(b2Fixture* a, b2Fixture* b) override {
@@ -121,34 +121,33 @@ private:
     std::uint64_t refused_ = 0;
 };
 
-// Grips of hands on bodies: each is a spring of limited force from a point of a body to the hand.
-
-/// The grips of one world, one per body. A hand moves straight at constant speed, so that a dragged body does
-/// not move in jumps. Release a body before it is disabled or destroyed. Message thread (M) only.
+/// Grips of hands on bodies, at most one per body: each is a spring of limited force from a point of the body
+/// to the hand. A hand moves straight at constant speed, so that a dragged body does not jump. Release a body
+/// before it is disabled or destroyed.
 class SceneGrips {
 public:
-    static constexpr float springHz = 5.0F; ///< Box2D's own for mouse joints: stable at 100 steps a second
+    static constexpr float springHz = 5.0F; ///< Box2D's value for mouse joints; stable at 100 steps/s
     static constexpr float dampingRatio = 0.7F;
 
-    /// Both outlive the grips.
+    /// World and clock must outlive the grips.
     SceneGrips(b2World& world, const StepClock& clock) noexcept
         : world_(world)
         , clock_(clock) {
-        grips_.reserve(expected);
+        grips_.reserve(reservedGrips);
     }
-    static constexpr std::size_t expected = 8; ///< at once; more take memory
+    static constexpr std::size_t reservedGrips = 8; ///< number without allocation
 
-    /// From `step` on.
-    void act(b2Body& body, const GripAction& action, std::int64_t step) {
-        if (!action.toMetres) return letGo(body);
+    /// Begins, changes or ends the grip on the body; the hand moves from `step` on.
+    void apply(b2Body& body, const GripAction& action, std::int64_t step) {
+        if (!action.toMetres) return release(body);
         if (body.GetType() != b2_dynamicBody || !body.IsEnabled()) return;
-        Grip& grip = hold(body, action.pointMetres);
+        Grip& grip = findOrCreate(body, action.pointMetres);
         grip.from = grip.joint->GetTarget();
         grip.to = box2dVector(*action.toMetres);
-        grip.start = step;
-        grip.end = step + clock_.firstStepAt(action.overSeconds);
+        grip.startStep = step;
+        grip.endStep = step + clock_.firstStepAt(action.overSeconds);
     }
-    void letGo(b2Body& body) {
+    void release(b2Body& body) {
         const auto grip = std::ranges::find(grips_, &body, &Grip::body);
         if (grip == grips_.end()) return;
         world_.DestroyJoint(grip->joint);
@@ -156,8 +155,8 @@ public:
     }
 
     /// Moves all hands to their places at the beginning of `step`.
-    void move(std::int64_t step) {
-        for (Grip& grip : grips_) grip.joint->SetTarget(grip.at(step));
+    void moveHands(std::int64_t step) {
+        for (Grip& grip : grips_) grip.joint->SetTarget(grip.targetAt(step));
     }
 
 private:
@@ -165,15 +164,15 @@ private:
         b2Body* body;
         b2MouseJoint* joint;
         b2Vec2 from, to;
-        std::int64_t start, end; // steps
-        b2Vec2 at(std::int64_t step) const noexcept {
-            if (step >= end) return to;
-            const auto share =
-                static_cast<float>(static_cast<double>(step - start) / static_cast<double>(end - start));
+        std::int64_t startStep, endStep;
+        b2Vec2 targetAt(std::int64_t step) const noexcept {
+            if (step >= endStep) return to;
+            const auto share = static_cast<float>(static_cast<double>(step - startStep) /
+                                                  static_cast<double>(endStep - startStep));
             return from + share * (to - from);
         }
     };
-    Grip& hold(b2Body& body, const std::optional<Vector>& point) {
+    Grip& findOrCreate(b2Body& body, const std::optional<Vector>& point) {
         auto grip = std::ranges::find(grips_, &body, &Grip::body);
         if (grip == grips_.end()) {
             b2MouseJointDef def;
@@ -190,7 +189,8 @@ private:
         grip->joint->SetMaxForce(static_cast<float>(sceneLimits::maxGripMetresPerSecond2) * body.GetMass());
         return *grip;
     }
-    // Without fixtures, so it has no contacts. Created by the first grip: worlds without are unchanged.
+    // The static body of all grips, without fixtures and contacts. The first grip creates it, so that worlds
+    // without grips are unchanged.
     b2Body& ground() {
         if (ground_ == nullptr) {
             const b2BodyDef def;
@@ -205,7 +205,7 @@ private:
     b2Body* ground_ = nullptr; // the other body of all mouse joints
 };
 
-/// Where a body is, in metres of the field.
+/// Place and angle of a body in the world.
 struct BodyPose {
     double xMetres = 0.0;
     double yMetres = 0.0;
@@ -213,25 +213,25 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
-/// A joint between two bodies that are present, and its points: both ends of a rod, rope or spring, or both
-/// ends of a slider's way, or the axle twice.
+/// A joint between two present bodies, and its two points in the world: the ends of a rod, rope or spring,
+/// the ends of a slider's travel, or twice the axle of others.
 struct JointPose {
     Joint joint; ///< as described
     Vector aMetres, bMetres;
 };
 
-/// As the scene describes it. Any thread.
-JointPose describedPose(const JointDescription& joint);
+/// The joint's pose at the start, as the scene describes it. Any thread.
+JointPose jointPose(const JointDescription& joint);
 
 struct WorldPoses {
-    std::vector<BodyPose> bodies; ///< of the scene's cast
+    std::vector<BodyPose> bodies; ///< of allBodies()
     std::vector<JointPose> joints;
 };
 
-/// All bodies of scriptedCast() exist from the start. Absent ones are disabled, without contacts in Box2D,
-/// because the script may spawn them. Bodies that a live input spawns or changes are created when it acts,
-/// under the following numbers, and destroyed soon after they are removed or replaced. Numbers are never
-/// reused. Seed 0 starts bodies exactly as described, any other with jitter (see jitteredStart). M only.
+/// The Box2D world of a scene. All bodies of scriptedBodies() exist from the start; absent ones are disabled,
+/// and the script enables them. Bodies that a live input spawns or changes are created when it acts, with the
+/// next numbers, and destroyed soon after they are removed or replaced. Numbers are never reused. Seed 0
+/// starts bodies exactly as described, any other with jitter (see jitteredStart).
 class SceneWorld {
 public:
     /// The scene must be valid. Executes its script's actions of step 0.
@@ -239,51 +239,51 @@ public:
     SceneWorld(const SceneWorld&) = delete;
     SceneWorld& operator=(const SceneWorld&) = delete;
 
-    /// Adds a valid input (see InputCheck) that acts in `step`, or once earlier ones have acted.
+    /// Adds a valid input (see InputCheck) that acts in `step`, or later if an earlier input does.
     void addInput(std::int64_t step, Action action);
 
     /// Applies `pace` from the first step that begins at or after its time; call in the order of their times.
-    void pace(const ScriptPace& pace) { paces_.push_back(pace); }
+    void addPace(const ScriptPace& pace) { pendingPaces_.push_back(pace); }
 
-    /// Executes the live inputs, then the script's actions, that are due in `step`. True if a fixture may be
-    /// new or have a new sound, texture or source flag. Allocates for new bodies only,
-    /// and for more grips than SceneGrips::expected.
-    bool act(std::int64_t step);
+    /// Executes the live inputs and then the script's actions that are due in `step`. True if a fixture may
+    /// be new or have a new sound, texture or source flag. Allocates only for new bodies and for more grips
+    /// than SceneGrips::reservedGrips.
+    bool executeActions(std::int64_t step);
 
     /// Removes executed live inputs from scene(), for endless worlds whose inputs are logged elsewhere.
-    void forgetDone();
+    void dropExecutedInputs();
 
     b2World& world() noexcept { return world_; }
 
     /// Number of pairs that passed through each other because of the limit of contacts.
-    std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
+    std::uint64_t refusedContacts() const noexcept { return contactLimit_.refused(); }
 
-    const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far, but those forgotten
+    const Scene& scene() const noexcept { return scene_; } ///< with its live inputs, but those dropped
 
-    /// Bodies so far; numbers as in sceneCast().
+    /// Number of bodies so far, removed ones included; numbered as in allBodies().
     std::size_t bodyCount() const noexcept { return nextBody_; }
     std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
     BodyPose pose(std::size_t body) const noexcept; ///< a removed body is not present
     std::vector<JointPose> jointPoses() const;      ///< in the order of their names
     /// Calls `use` with number and pose of every body in Box2D's world, in the order of their numbers.
     template <class Use>
-    void forAllBodies(Use use) const {
+    void forEachBody(Use use) const {
         for (const auto& [number, body] : bodies_) use(number, poseOf(*body.body));
     }
 
     /// One fixture, its material and its body as they are now.
-    struct FixtureNow {
+    struct CurrentFixture {
         std::size_t number;
         const b2Fixture& fixture; // owned by the world, as bodies and joints
         const FixtureDescription& description;
         const Material& material;
         const BodyDescription& body;
     };
-    /// Calls `use` with every FixtureNow of the world, in the order of their numbers.
+    /// Calls `use` with every CurrentFixture of the world, in the order of their numbers.
     template <class Use>
-    void forAllFixtures(Use use) const {
+    void forEachFixture(Use use) const {
         for (const auto& [number, body] : bodies_)
-            for (std::size_t i = 0; i < body.fixtures.size(); ++i) use(fixtureNow(body, i));
+            for (std::size_t i = 0; i < body.fixtures.size(); ++i) use(currentFixture(body, i));
     }
 
 private:
@@ -292,65 +292,65 @@ private:
         std::size_t firstFixture; // its number
         std::vector<b2Fixture*> fixtures;
         BodyDescription described;
-        BodyDescription now; // with the present materials and source flags
+        BodyDescription current; // with the present materials and source flags
     };
-    struct Leaving {
+    struct PendingRemoval {
         std::int64_t step;
         std::size_t body;
     };
     static BodyPose poseOf(const b2Body& body) noexcept;
-    FixtureNow fixtureNow(const Body& body, std::size_t index) const noexcept;
+    CurrentFixture currentFixture(const Body& body, std::size_t index) const noexcept;
     void build();
     Body& add(const BodyDescription& body, const BodyStart& start);
     void destroyRemoved(std::int64_t step);
-    bool actOnInputs(std::int64_t step);
-    bool actOnScript(std::int64_t step);
-    void take(const ScriptPace& pace);
-    struct Acts;
-    bool apply(const Action& action); // true as of act(step)
+    bool executeInputs(std::int64_t step);
+    bool executeScript(std::int64_t step);
+    void applyPace(const ScriptPace& pace);
+    struct ActionExecutor;
+    bool apply(const Action& action); // true if fixtures changed, as executeActions()
     void restart(const SpawnAction& action, int repetition);
     BodyStart startOf(const BodyDescription& body);
-    void startHalfAStepBehind(b2Body& body) const;
-    void holdDevice();
+    void delayHalfAStep(b2Body& body) const;
+    void applyGravity();
     Body* find(std::string_view name) noexcept; // nullptr if none has it
     b2Body* findInWorld(std::string_view name) noexcept;
     void setMaterial(Body& body, std::size_t fixture, int material);
-    static void run(const Body& belt);
-    void retire(std::size_t number);
+    static void driveBelt(const Body& belt);
+    void removeFromWorld(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);
-    void dropJoints(b2Body& body);
+    void destroyJoints(b2Body& body);
 
-    static constexpr std::size_t expectedInputs = 24; // between two steps
+    static constexpr std::size_t reservedInputs = 24; // between two steps
 
     Scene scene_; // only its inputs grow
     StepClock clock_;
-    bool jitters_;
+    bool hasJitter_;
     std::mt19937 random_;
     SceneScript script_;
     ScriptPace pace_;
-    std::vector<ScriptPace> paces_; // that begin later
-    Vector gravity_;                // before hold_
+    std::vector<ScriptPace> pendingPaces_; // paces that begin later
+    Vector gravity_;                       // before hold_ rotates and scales it
     HoldAction hold_;
     b2World world_;
-    ContactBound bound_{world_};
+    ContactLimit contactLimit_{world_};
     SceneGrips grips_{world_, clock_};
     std::vector<Material> materials_;    // with their present sounds and textures
     std::map<std::size_t, Body> bodies_; // by number
-    std::vector<const Body*> belts_;     // of them
-    // numbers; below scripted_ stands scriptedCast()
-    std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0;
+    std::vector<const Body*> belts_;     // bodies with moving surfaces
+    // next numbers to be given; those below scriptedBodyCount_ belong to scriptedBodies()
+    std::size_t nextBody_ = 0, nextFixture_ = 0, scriptedBodyCount_ = 0;
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
-    std::deque<Leaving> leaving_;                                   // in the order of their steps
-    std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedCast()
-    struct HeldJoint {
-        b2Joint* made;
+    std::deque<PendingRemoval> pendingRemovals_;                    // in the order of their steps
+    std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedBodies()
+    struct WorldJoint {
+        b2Joint* joint;
         Joint described;
     };
-    std::map<std::string, HeldJoint, std::less<>> joints_;
-    std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition
+    std::map<std::string, WorldJoint, std::less<>> joints_;
+    std::map<const SpawnAction*, std::size_t> spawned_; // number of the first repetition's body
     std::size_t nextInput_ = 0;
     double lastInputSeconds_ = 0.0;
-    std::int64_t step_ = 0; // that begins
+    std::int64_t step_ = 0; // the step that begins
 };
 
 } // namespace physvib

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Creates a scene's world and advances it step by step.
+// Steps a scene's world and collects its events; repeats scene runs offline, for their events or their poses.
 #include "Scene/World/Simulation.h"
 #include "Scene/PartNames.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyLists.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -20,7 +20,7 @@ constexpr int velocityIterations = 8;
 constexpr int positionIterations = 3;
 
 StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
-    if (const std::string fault = validate(scene); !fault.empty()) throw std::invalid_argument(fault);
+    if (const std::string error = validate(scene); !error.empty()) throw std::invalid_argument(error);
     if (stepsPerSecond < Simulation::minStepsPerSecond || stepsPerSecond > Simulation::maxStepsPerSecond)
         throw std::invalid_argument("steps per second: expected " +
                                     std::to_string(Simulation::minStepsPerSecond) + " to " +
@@ -39,15 +39,16 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
     return settings;
 }
 
-HapticFixture hapticOf(const Scene& scene, const SceneWorld::FixtureNow& now) {
-    // a control may have removed the decay
-    const bool isSilent = isEndless(now.material.frequencyHz, now.material.decayPerSecond);
-    HapticFixture values{
-        isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera,
-        now.description.isCamera ? massKg(now.body, scene) : now.body.massKg, now.description.voice};
-    values.texture = now.material.texture();
-    values.sound = soundOfMaterial(now.material.name);
-    values.part = partOf(now.description.part);
+HapticFixture hapticFixtureOf(const Scene& scene, const SceneWorld::CurrentFixture& current) {
+    // a sound action may have removed the decay, so that the sound would never end
+    const bool isSilent = isEndless(current.material.frequencyHz, current.material.decayPerSecond);
+    HapticFixture values{isSilent ? 0.0 : current.material.frequencyHz, current.material.decayPerSecond,
+                         current.description.isCamera,
+                         current.description.isCamera ? massKg(current.body, scene) : current.body.massKg,
+                         current.description.voice};
+    values.texture = current.material.texture();
+    values.sound = soundOfMaterial(current.material.name);
+    values.part = partNumberOf(current.description.part);
     return values;
 }
 
@@ -58,12 +59,13 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
     : clock_(checkedClock(scene, stepsPerSecond))
     , world_(scene, seed, clock_)
     , attachment_(world_.world(), settingsOf(scene, timing, location)) {
-    takeFixtures();
+    updateFixtures();
 }
 
-void Simulation::takeFixtures() {
-    world_.forAllFixtures([this](const SceneWorld::FixtureNow& now) {
-        (void)attachment_.set(now.fixture, hapticOf(scene(), now), static_cast<std::int32_t>(now.number));
+void Simulation::updateFixtures() {
+    world_.forEachFixture([this](const SceneWorld::CurrentFixture& current) {
+        (void)attachment_.set(current.fixture, hapticFixtureOf(scene(), current),
+                              static_cast<std::int32_t>(current.number));
     });
 }
 
@@ -72,7 +74,7 @@ void Simulation::addInput(double timeSeconds, Action action) {
 }
 
 void Simulation::step(std::vector<CollisionEvent>& finished) {
-    if (world_.act(stepsDone_)) takeFixtures();
+    if (world_.executeActions(stepsDone_)) updateFixtures();
     ++stepsDone_;
     attachment_.beginStepUntil(timeNs());
     world_.world().Step(static_cast<float>(clock_.stepSeconds()), velocityIterations, positionIterations);
@@ -80,42 +82,42 @@ void Simulation::step(std::vector<CollisionEvent>& finished) {
     attachment_.take(finished);
 }
 
-SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& keepGoing) {
+SceneEvents simulateScene(const Scene& scene, const RunSettings& settings, std::int64_t endNs,
+                          const StepWatch& keepGoing) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
-    const SceneRun take{0, 0, run.seed, shared, {}, {}};
-    return runTakes({&take, 1}, run, endNs, keepGoing);
+    const SceneRun sceneRun{0, 0, settings.seed, shared, {}, {}};
+    return simulateRuns({&sceneRun, 1}, settings, endNs, keepGoing);
 }
 
-SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& keepGoing) {
-    SceneEvents all;
-    for (const SceneRun& take : takes) {
-        const auto owned = std::make_unique<Simulation>(take.whole(), take.seed, run.stepsPerSecond,
-                                                        run.timing, run.location);
+SceneEvents simulateRuns(std::span<const SceneRun> runs, const RunSettings& settings, std::int64_t endNs,
+                         const StepWatch& keepGoing) {
+    SceneEvents result;
+    for (const SceneRun& sceneRun : runs) {
+        const auto owned = std::make_unique<Simulation>(
+            sceneRun.fullScene(), sceneRun.seed, settings.stepsPerSecond, settings.timing, settings.location);
         Simulation& world = *owned; // Box2D's has 100 kB, and the stack may be small
-        const bool isLast = &take == &takes.back();
-        std::int64_t originNs = take.startNs;
-        StallReader stalls{take.stalls};
-        if (keepGoing && !keepGoing(originNs)) return all; // building a world takes time, too
-        while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
-            originNs += stalls.lengthBefore(world.timeNs());
-            const std::size_t before = all.events.size();
-            world.step(all.events);
-            for (std::size_t i = before; i < all.events.size(); ++i) all.events[i].timeNs += originNs;
-            if (keepGoing && !keepGoing(originNs + world.timeNs())) return all;
+        const bool isLast = &sceneRun == &runs.back();
+        std::int64_t originNs = sceneRun.startNs;
+        StallReader stalls{sceneRun.stalls};
+        if (keepGoing && !keepGoing(originNs)) return result; // building a world takes time, too
+        while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < sceneRun.worldEndNs) {
+            originNs += stalls.delayNsBefore(world.timeNs());
+            const std::size_t before = result.events.size();
+            world.step(result.events);
+            for (std::size_t i = before; i < result.events.size(); ++i) result.events[i].timeNs += originNs;
+            if (keepGoing && !keepGoing(originNs + world.timeNs())) return result;
         }
-        all.drops += world.drops();
-        all.counts += world.counts();
+        result.drops += world.drops();
+        result.counts += world.counts();
     }
-    std::erase_if(all.events, [endNs](const CollisionEvent& e) { return e.timeNs >= endNs; });
-    return all;
+    std::erase_if(result.events, [endNs](const CollisionEvent& e) { return e.timeNs >= endNs; });
+    return result;
 }
 
-WorldPoses posesAt(const Scene& scene, const RunSettings& run, std::int64_t timeNs) {
+WorldPoses posesAt(const Scene& scene, const RunSettings& settings, std::int64_t timeNs) {
     WorldPoses last;
     timeNs = std::max<std::int64_t>(timeNs, 0);
-    followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1,
+    followPoses(scene, settings, std::max<std::int64_t>(timeNs, 1), timeNs + 1,
                 [&](std::int64_t, const WorldPoses& poses) {
                     last = poses;
                     return true;
@@ -126,21 +128,21 @@ WorldPoses posesAt(const Scene& scene, const RunSettings& run, std::int64_t time
 namespace {
 
 /// The world of a scene run, stepped along session time.
-class FollowedTake {
+class FollowedRun {
 public:
-    FollowedTake(const SceneRun& take, const RunSettings& run, bool isLast)
-        : scene_{take.whole()}
-        , world_{scene_, take.seed, run.stepsPerSecond, run.timing, run.location}
-        , stalls_{take.stalls}
-        , originNs_{take.startNs + stalls_.lengthBefore(0)}
-        , stepNs_{1'000'000'000 / run.stepsPerSecond}
-        , endNs_{isLast ? INT64_MAX : take.worldEndNs}
-        , poses_{std::vector<BodyPose>(sceneCast(scene_).size(), BodyPose{0.0, 0.0, 0.0, false}), {}} {}
+    FollowedRun(const SceneRun& sceneRun, const RunSettings& settings, bool isLast)
+        : scene_{sceneRun.fullScene()}
+        , world_{scene_, sceneRun.seed, settings.stepsPerSecond, settings.timing, settings.location}
+        , stalls_{sceneRun.stalls}
+        , originNs_{sceneRun.startNs + stalls_.delayNsBefore(0)}
+        , stepNs_{1'000'000'000 / settings.stepsPerSecond}
+        , endNs_{isLast ? INT64_MAX : sceneRun.worldEndNs}
+        , poses_{std::vector<BodyPose>(allBodies(scene_).size(), BodyPose{0.0, 0.0, 0.0, false}), {}} {}
 
     void moveTo(std::int64_t timeNs) {
         for (; world_.timeNs() < endNs_ && originNs_ + world_.timeNs() + stepNs_ <= timeNs; unused_.clear()) {
             world_.step(unused_);
-            originNs_ += stalls_.lengthBefore(world_.timeNs());
+            originNs_ += stalls_.delayNsBefore(world_.timeNs());
         }
         for (std::size_t i = 0; i < world_.bodyCount(); ++i) poses_.bodies[i] = world_.pose(i);
         poses_.joints = world_.jointPoses();
@@ -160,27 +162,27 @@ private:
 
 } // namespace
 
-void followTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t fromNs,
-                 std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
+void followRuns(std::span<const SceneRun> runs, const RunSettings& settings, std::int64_t fromNs,
+                std::int64_t everyNs, std::int64_t endNs, const RunPoseWatch& watch) {
     std::int64_t timeNs = fromNs;
-    for (std::size_t i = 0; i < takes.size(); ++i) {
-        const bool isLast = i + 1 == takes.size();
-        const std::int64_t untilNs = isLast ? endNs : std::min(endNs, takes[i + 1].startNs);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const bool isLast = i + 1 == runs.size();
+        const std::int64_t untilNs = isLast ? endNs : std::min(endNs, runs[i + 1].startNs);
         if (timeNs >= untilNs) continue;
-        for (FollowedTake take{takes[i], run, isLast}; timeNs < untilNs; timeNs += everyNs) {
-            take.moveTo(timeNs);
-            if (!see(timeNs, take.scene(), take.poses())) return;
+        for (FollowedRun sceneRun{runs[i], settings, isLast}; timeNs < untilNs; timeNs += everyNs) {
+            sceneRun.moveTo(timeNs);
+            if (!watch(timeNs, sceneRun.scene(), sceneRun.poses())) return;
         }
     }
 }
 
-void followPoses(const Scene& scene, const RunSettings& run, std::int64_t everyNs, std::int64_t endNs,
-                 const PoseWatch& see) {
+void followPoses(const Scene& scene, const RunSettings& settings, std::int64_t everyNs, std::int64_t endNs,
+                 const PoseWatch& watch) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
-    const SceneRun take{0, 0, run.seed, shared, {}, {}};
-    followTakes(
-        {&take, 1}, run, 0, everyNs, endNs,
-        [&](std::int64_t timeNs, const Scene&, const WorldPoses& poses) { return see(timeNs, poses); });
+    const SceneRun sceneRun{0, 0, settings.seed, shared, {}, {}};
+    followRuns(
+        {&sceneRun, 1}, settings, 0, everyNs, endNs,
+        [&](std::int64_t timeNs, const Scene&, const WorldPoses& poses) { return watch(timeNs, poses); });
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib analyse`: options of each analysis, and running it.
+// The command `physvib analyse`: options of each analysis, and running it; the option `--columns`.
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Lab/Analysis/Analysis.h"
@@ -13,17 +13,17 @@ void declareColumns(OptionTable& command, std::vector<std::string>& words) {
              "of another program's table: what it calls our columns, e.g. "
              "participant=subject,response=key_resp.keys")
         .as("NAME=COLUMN[,...]")
-        .listed(static_cast<int>(limits::maxTableColumns));
+        .separated(static_cast<int>(limits::maxTableColumns));
 }
 
 namespace {
 
 struct AnalyseOptions {
     AnalysisJob job;
-    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before parsing
+    std::vector<std::string> columnNames; ///< as NAME=COLUMN, before parsing
 };
 
-void declareOwn(OptionTable& command, AnalysisJob& o) {
+void declareResultOptions(OptionTable& command, AnalysisJob& o) {
     const std::string name = command.name();
     const bool isGrid = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
@@ -32,7 +32,8 @@ void declareOwn(OptionTable& command, AnalysisJob& o) {
     if (isGrid)
         command.add("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
             .in(0.0, 100.0);
-    if (name == "resolution") command.add("--counts", o.countsPath, "the percent counts").written("FILE.csv");
+    if (name == "resolution")
+        command.add("--counts", o.countsPath, "the percent counts").outputFile("FILE.csv");
     if (name == "icons")
         command.add("--meanings", o.meanings, "how many meanings the icons shall have")
             .in(std::size_t{2}, std::size_t{1000});
@@ -40,10 +41,10 @@ void declareOwn(OptionTable& command, AnalysisJob& o) {
         command
             .add("--participants", o.participantsPath,
                  "percent correct and IT of each participant and condition")
-            .written("FILE.csv");
+            .outputFile("FILE.csv");
 }
 
-void declareFit(OptionTable& command, AnalysisJob& o) {
+void declareFitOptions(OptionTable& command, AnalysisJob& o) {
     const bool isPsychometric = command.name() == "psychometric";
     command
         .add("--level", o.level,
@@ -55,7 +56,7 @@ void declareFit(OptionTable& command, AnalysisJob& o) {
              isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")
         .as("COLUMN");
     command.add("--picture", o.picturePath, "what was answered and the function, of the first condition")
-        .writtenAs("FILE.svg");
+        .outputFileNamed("FILE.svg");
     if (!isPsychometric) return;
     std::vector<std::pair<std::string, int>> shapes;
     for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i)
@@ -70,43 +71,47 @@ void declareFit(OptionTable& command, AnalysisJob& o) {
         .add("--guess", o.model.guess,
              "share of right answers without a percept: 1 / alternatives; 0 of stronger or weaker")
         .in(0.0, 0.9);
-    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate fitted (--guess 0: at most 0.02); 0: none")
-        .in(0.0, mostLapse);
+    command
+        .add("--lapse", o.model.lapseRateBound,
+             "highest lapse rate fitted (--guess 0: at most 0.02); 0: none")
+        .in(0.0, maxLapseRate);
 }
 
-OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalysisJob& o) {
-    OptionTable& own = command.addCommand(std::string{analysis.name}, analysis.purpose);
-    own.add("files", o.files, "trials, or what the analysis is about; several are taken together")
+OptionTable& declareCommonOptions(OptionTable& command, const Analysis& analysis, AnalysisJob& o) {
+    OptionTable& analysisTable = command.addCommand(std::string{analysis.name}, analysis.purpose);
+    analysisTable.add("files", o.files, "trials, or what the analysis is about; several are taken together")
         .required()
         .as("FILE.csv");
-    own.add("--export", o.exportPath, "the result as a table for a statistics package").written("FILE.csv");
-    return own;
+    analysisTable.add("--export", o.exportPath, "the result as a table for a statistics package")
+        .outputFile("FILE.csv");
+    return analysisTable;
 }
 
 void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
     for (const Analysis& analysis : allAnalyses()) {
-        OptionTable& own = declare(command, analysis, o.job);
+        OptionTable& analysisTable = declareCommonOptions(command, analysis, o.job);
         switch (analysis.kind) {
-        case Analysis::Kind::fit: declareFit(own, o.job); break;
+        case Analysis::Kind::fit: declareFitOptions(analysisTable, o.job); break;
         case Analysis::Kind::results:
             if (analysis.name != "places")
-                own.add("--picture", o.job.picturePath, "the result to look at").writtenAs("FILE.svg");
-            declareOwn(own, o.job);
+                analysisTable.add("--picture", o.job.picturePath, "the result to look at")
+                    .outputFileNamed("FILE.svg");
+            declareResultOptions(analysisTable, o.job);
         }
-        declareColumns(own, o.columnWords);
+        declareColumns(analysisTable, o.columnNames);
     }
 }
 
 int runAnalyse(const OptionTable& command, AnalyseOptions& options) {
-    auto columns = parseColumnNames(options.columnWords);
-    if (!columns) return leave(exitUsage, "--columns: " + columns.error);
+    auto columns = parseColumnNames(options.columnNames);
+    if (!columns) return reportExit(exitUsage, "--columns: " + columns.error);
     AnalysisJob& o = options.job;
     o.columns = std::move(columns.value);
     const AnalysisReport report = analyse(command.called()->name(), o);
     for (const auto& words : report.warnings) warn(words);
-    if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
-    std::cout << report.words;
-    if (!report.error.empty()) return leave(exitFailed, report.error);
+    if (report.error.empty() || !report.text.empty()) printIfSimulated(report.isSimulated);
+    std::cout << report.text;
+    if (!report.error.empty()) return reportExit(exitFailed, report.error);
     return writeStudyFiles({{o.exportPath, report.table},
                             {o.countsPath, report.counts},
                             {o.participantsPath, report.participants},
@@ -116,7 +121,7 @@ int runAnalyse(const OptionTable& command, AnalyseOptions& options) {
 } // namespace
 
 Command analyseCommand() {
-    return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse);
+    return makeCommand("analyse", "what the trials of a study say", declareAnalyse, runAnalyse);
 }
 
 } // namespace physvib

@@ -21,22 +21,22 @@ struct AttenuationOptions {
 
 constexpr const char* referenceWord = "reference";
 
-int runPair(const AttenuationOptions& o) {
+int compareRecordings(const AttenuationOptions& o) {
     const auto isolated = axisLevels(o.isolatedPath), reference = axisLevels(o.referencePath);
-    if (!isolated) return leave(exitFailed, isolated.error);
-    if (!reference) return leave(exitFailed, reference.error);
-    const std::size_t axes = reference.value.size();
-    if (isolated.value.size() != axes)
-        return leave(exitFailed, o.isolatedPath + ": expected the channels of " + o.referencePath + ", " +
-                                     std::to_string(axes) + ", found " +
-                                     std::to_string(isolated.value.size()));
-    for (std::size_t i = 0; i < axes; ++i)
+    if (!isolated) return reportExit(exitFailed, isolated.error);
+    if (!reference) return reportExit(exitFailed, reference.error);
+    const std::size_t axisCount = reference.value.size();
+    if (isolated.value.size() != axisCount)
+        return reportExit(exitFailed, o.isolatedPath + ": expected the channels of " + o.referencePath +
+                                          ", " + std::to_string(axisCount) + ", found " +
+                                          std::to_string(isolated.value.size()));
+    for (std::size_t i = 0; i < axisCount; ++i)
         if (!(reference.value[i] > 0.0))
-            return leave(exitFailed, o.referencePath + ": channel " + std::to_string(i + 1) +
-                                         ": expected a vibration, found silence");
+            return reportExit(exitFailed, o.referencePath + ": channel " + std::to_string(i + 1) +
+                                              ": expected a vibration, found silence");
     const auto ratios = attenuationRatios(isolated.value, reference.value);
     std::cout << "axis,attenuation_ratio\n";
-    for (std::size_t i = 0; i < axes; ++i) std::cout << i + 1 << ',' << numberText(ratios[i]) << '\n';
+    for (std::size_t i = 0; i < axisCount; ++i) std::cout << i + 1 << ',' << numberText(ratios[i]) << '\n';
     std::cout << "all," << numberText(combinedAttenuation(ratios)) << '\n';
     return exitDone;
 }
@@ -44,7 +44,7 @@ int runPair(const AttenuationOptions& o) {
 Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& folder) {
     const auto list = RecordingList::open(folder, {"frequency_hz", "axis", "material"});
     if (!list) return Failure{list.error};
-    std::vector<IsolationMeasurement> all;
+    std::vector<IsolationMeasurement> measurements;
     for (const CsvRow& row : list.value.rows()) {
         IsolationMeasurement m;
         m.source = list.value.path(row);
@@ -57,12 +57,12 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
         auto levels = axisLevels(m.source);
         if (!levels) return Failure{levels.error};
         m.levels = std::move(levels.value);
-        all.push_back(std::move(m));
+        measurements.push_back(std::move(m));
     }
-    return all;
+    return measurements;
 }
 
-/// The conditions' cells of a table; the softener has a column where a recording names one.
+/// Columns of the conditions in a table; the softener has one only if a recording names a softener.
 class ConditionColumns {
 public:
     explicit ConditionColumns(const std::vector<IsolationResult>& results)
@@ -99,11 +99,11 @@ std::string repetitionTable(const std::vector<IsolationResult>& results) {
     return table;
 }
 
-int runFolder(const AttenuationOptions& o) {
+int summariseFolder(const AttenuationOptions& o) {
     const auto measurements = measurementsIn(o.isolatedPath);
-    if (!measurements) return leave(exitFailed, measurements.error);
+    if (!measurements) return reportExit(exitFailed, measurements.error);
     const IsolationStudy study = summariseIsolation(measurements.value);
-    if (!study.fault.empty()) return leave(exitFailed, study.fault);
+    if (!study.error.empty()) return reportExit(exitFailed, study.error);
     const int code = writeStudyFiles(
         {StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
          StudyFile{o.picturePath, [&] { return chartSheet(isolationCharts(study.results)); }}});
@@ -124,28 +124,28 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
         .as("ISOLATED.wav|FOLDER")
         .required();
     command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
-    command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
+    command.add("--export", o.exportPath, "of a folder: a row per repetition").outputFile("FILE.csv");
     command
         .add("--picture", o.picturePath,
              "of a folder: gamma over frequency: a curve per layer, of one per voltage")
-        .writtenAs("FILE.svg");
+        .outputFileNamed("FILE.svg");
 }
 
 int runAttenuation(const AttenuationOptions& o) {
     if (!o.referencePath.empty() && (!o.exportPath.empty() || !o.picturePath.empty()))
-        return leave(exitUsage,
-                     "attenuation: expected --export and --picture with a folder of conditions only");
-    if (!o.referencePath.empty()) return runPair(o);
+        return reportExit(exitUsage,
+                          "attenuation: expected --export and --picture with a folder of conditions only");
+    if (!o.referencePath.empty()) return compareRecordings(o);
     if (!std::filesystem::is_directory(o.isolatedPath))
-        return leave(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) +
-                                    ", or a folder of conditions");
-    return runFolder(o);
+        return reportExit(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) +
+                                         ", or a folder of conditions");
+    return summariseFolder(o);
 }
 
 } // namespace
 
 Command attenuationCommand() {
-    return commandOf(
+    return makeCommand(
         "attenuation",
         "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)",
         declareAttenuation, runAttenuation);

@@ -23,7 +23,6 @@
 namespace physvib {
 namespace {
 
-/// Command-line options.
 struct CalibrateOptions {
     std::string device;
     int channel = 1, input = 1;           ///< from 1
@@ -32,7 +31,7 @@ struct CalibrateOptions {
     std::string sweepPath;                ///< only write the sweep to this file
     std::string profilePath;              ///< output
     std::string layout, layoutPath; ///< to write with the profile and its measured full scale; empty: none
-    std::string place;              ///< label of the measured actuator in the layout; empty: all are equal
+    std::string placeLabel;         ///< label of the measured actuator in the layout; empty: all are equal
     bool isLoopback = false; ///< measure the latency of a cable instead of an actuator; writes no profile
     std::string name = "calibrated";
     std::string band; ///< declared band "LO-HI"; empty: within 10 dB of the peak
@@ -41,7 +40,7 @@ struct CalibrateOptions {
     double driveVolts = 0.0; ///< voltage of a played sample of 1; 0: unknown
 };
 
-constexpr double bandDecibels = 10.0; // default band of a profile; the equaliser takes this much
+constexpr double bandDecibels = 10.0; // below the peak, at the edges of a profile's default band
 
 SweepSettings sweepSettings(const CalibrateOptions& o) {
     return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)};
@@ -66,7 +65,7 @@ Result<RecordedSweep> measure(const CalibrateOptions& o) {
     if (o.device.empty()) return readPair(o);
     return recordSweep(
         {o.device, o.channel - 1, o.input - 1, o.sampleRateHz},
-        [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); }, systemAudioDrivers);
+        [&](double rateHz) { return makeSweep(sweepSettings(o), rateHz); }, systemAudioDrivers);
 }
 
 ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) {
@@ -89,10 +88,10 @@ ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) 
 int writeSweep(const CalibrateOptions& o) {
     const int rate = o.sampleRateHz > 0 ? o.sampleRateHz : 48000;
     WavSink wav(o.sweepPath, 1, rate, "physvib " PHYSVIB_VERSION " sweep");
-    const auto samples = sweepOf(sweepSettings(o), rate);
-    const float* const all = samples.data();
-    wav.write(&all, static_cast<int>(samples.size()));
-    if (const std::string& error = wav.finish(); !error.empty()) return leave(exitFailed, error);
+    const auto samples = makeSweep(sweepSettings(o), rate);
+    const float* const channel = samples.data();
+    wav.write(&channel, static_cast<int>(samples.size()));
+    if (const std::string& error = wav.finish(); !error.empty()) return reportExit(exitFailed, error);
     std::cout << o.sweepPath
               << "  play it, record what the actuator does, and give both to physvib calibrate\n";
     return exitDone;
@@ -102,27 +101,27 @@ std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.re
 
 /// The layout with profile and full scale at the measured place, or at all places; or one error line.
 Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScaleG) {
-    auto layout = layoutNamed(o.layout);
+    auto layout = resolveLayout(o.layout);
     if (!layout) return layout;
-    bool isThere = false;
-    for (EnchanterDescription& enchanter : layout.value.enchanters) {
-        if (!o.place.empty() && enchanter.label != o.place) continue;
-        isThere = true;
-        enchanter.actuator = o.profilePath;
-        enchanter.fullScaleG = fullScaleG;
+    bool hasPlace = false;
+    for (ActuatorDescription& actuator : layout.value.actuators) {
+        if (!o.placeLabel.empty() && actuator.label != o.placeLabel) continue;
+        hasPlace = true;
+        actuator.actuator = o.profilePath;
+        actuator.fullScaleG = fullScaleG;
     }
-    if (!isThere) return Failure{"--place: " + o.layout + " has no actuator " + inQuotes(o.place)};
+    if (!hasPlace) return Failure{"--place: " + o.layout + " has no actuator " + inQuotes(o.placeLabel)};
     const auto read = readLayout(layoutJson(layout.value), o.layoutPath);
     return read ? layout : Failure{read.error};
 }
 
 /// Checks the requested layout before anything vibrates; empty if it is valid.
-std::string layoutFault(const CalibrateOptions& o) {
+std::string layoutError(const CalibrateOptions& o) {
     return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error;
 }
 
 /// Explains how to use the measured full scale for levels in g.
-void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
+void printLayoutAdvice(const CalibrateOptions& o, const ActuatorProfile& p) {
     if (!p.fullScaleG)
         return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a "
                                  "recorded sample of 1 stands for\n");
@@ -136,18 +135,18 @@ void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
 }
 
 /// Measures, and reports device errors.
-Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
+Result<RecordedSweep> measureAndWarn(const CalibrateOptions& o) {
     auto sweep = measure(o);
     if (sweep && sweep.value.xruns > 0) // -1: not counted
-        warnOf(static_cast<std::uint64_t>(sweep.value.xruns), "xruns of the device during the sweep");
+        warnIfAny(static_cast<std::uint64_t>(sweep.value.xruns), "xruns of the device during the sweep");
     return sweep;
 }
 
-int tellLoopback(const CalibrateOptions& o) {
-    const auto sweep = measureAndTell(o);
-    if (!sweep) return leave(exitFailed, sweep.error);
+int printLoopback(const CalibrateOptions& o) {
+    const auto sweep = measureAndWarn(o);
+    if (!sweep) return reportExit(exitFailed, sweep.error);
     const auto found = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
-    if (!found) return leave(exitFailed, sourceOf(o) + ": " + found.error);
+    if (!found) return reportExit(exitFailed, sourceOf(o) + ": " + found.error);
     const MeasuredLoopback& m = found.value;
     std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, "
               << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at "
@@ -156,7 +155,7 @@ int tellLoopback(const CalibrateOptions& o) {
     return exitDone;
 }
 
-std::string fault(const CalibrateOptions& o) {
+std::string optionsError(const CalibrateOptions& o) {
     const bool isPair = !o.playedPath.empty() || !o.recordedPath.empty();
     if (!o.sweepPath.empty())
         return isPair || !o.device.empty() || !o.profilePath.empty() ? "calibrate: --sweep stands alone" : "";
@@ -168,7 +167,8 @@ std::string fault(const CalibrateOptions& o) {
         return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
     if (o.profilePath.empty()) return "calibrate: expected --out FILE.json";
     if (o.layoutPath.empty() != o.layout.empty()) return "calibrate: expected both --layout and --layout-out";
-    if (o.layoutPath.empty() && !o.place.empty()) return "--place: expected with --layout and --layout-out";
+    if (o.layoutPath.empty() && !o.placeLabel.empty())
+        return "--place: expected with --layout and --layout-out";
     if (!o.layoutPath.empty() && o.gPerUnit <= 0.0)
         return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
     return o.band.empty() || parseBand(o.band)
@@ -185,13 +185,13 @@ void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--played", o.playedPath, "what was played elsewhere").as("FILE.wav");
     command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")
         .as("FILE.wav");
-    command.add("--sweep", o.sweepPath, "only write the sweep").written("FILE.wav");
-    command.add("--out", o.profilePath, "the profile").writtenAs("FILE.json");
+    command.add("--sweep", o.sweepPath, "only write the sweep").outputFile("FILE.wav");
+    command.add("--out", o.profilePath, "the profile").outputFileNamed("FILE.json");
     command.add("--layout", o.layout,
                 "also write this layout with the profile and its full scale in g: a preset or a layout file");
-    command.add("--layout-out", o.layoutPath, "where that layout goes").writtenAs("FILE.json");
+    command.add("--layout-out", o.layoutPath, "where that layout goes").outputFileNamed("FILE.json");
     command
-        .add("--place", o.place,
+        .add("--place", o.placeLabel,
              "label of the one actuator of the layout that was measured; left out: all of them")
         .as("LABEL");
     command.add("--loopback", o.isLoopback,
@@ -206,47 +206,49 @@ void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
 }
 
 int runCalibrate(const CalibrateOptions& o) {
-    if (const auto why = fault(o); !why.empty()) return leave(exitUsage, why);
+    if (const auto error = optionsError(o); !error.empty()) return reportExit(exitUsage, error);
     if (!o.sweepPath.empty()) return writeSweep(o);
-    if (o.isLoopback) return tellLoopback(o);
+    if (o.isLoopback) return printLoopback(o);
     const std::vector<std::string> outputs{o.profilePath, o.layoutPath},
         inputs{o.playedPath, o.recordedPath, o.layout};
-    if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
+    if (const std::string clash = fileClashError(outputs, inputs); !clash.empty())
+        return reportExit(exitUsage, clash);
     AtomicFile file(o.profilePath); // opened before anything vibrates
     std::optional<AtomicFile> layoutFile;
     if (!o.layoutPath.empty()) layoutFile.emplace(o.layoutPath);
     for (const std::string& error :
-         {file.error(), layoutFile ? layoutFile->error() : std::string{}, layoutFault(o)})
-        if (!error.empty()) return leave(exitFailed, error);
-    const auto sweep = measureAndTell(o);
-    if (!sweep) return leave(exitFailed, sweep.error);
+         {file.error(), layoutFile ? layoutFile->error() : std::string{}, layoutError(o)})
+        if (!error.empty()) return reportExit(exitFailed, error);
+    const auto sweep = measureAndWarn(o);
+    if (!sweep) return reportExit(exitFailed, sweep.error);
     const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
-    if (!measured) return leave(exitFailed, sourceOf(o) + ": " + measured.error);
+    if (!measured) return reportExit(exitFailed, sourceOf(o) + ": " + measured.error);
     const ActuatorProfile profile = profileOf(o, measured.value);
     if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read)
-        return leave(exitFailed, read.error);
+        return reportExit(exitFailed, read.error);
     if (layoutFile) {
         const auto layout = layoutWith(o, profile.fullScaleG.value_or(1.0));
-        if (!layout) return leave(exitFailed, layout.error);
+        if (!layout) return reportExit(exitFailed, layout.error);
         layoutFile->write(layoutJson(layout.value));
     }
     file.write(actuatorJson(profile));
-    for (AtomicFile* const one : {&file, layoutFile ? &*layoutFile : nullptr})
-        if (one != nullptr && !one->commit().empty()) return leave(exitFailed, one->error());
+    for (AtomicFile* const outputFile : {&file, layoutFile ? &*layoutFile : nullptr})
+        if (outputFile != nullptr && !outputFile->commit().empty())
+            return reportExit(exitFailed, outputFile->error());
     const MeasuredActuator& m = measured.value;
     std::cout << o.profilePath << "  " << fixedNumber(m.resonator.resonanceHz, 2) << " Hz, Q "
               << fixedNumber(m.resonator.q, 2) << ", gain " << fixedNumber(m.gain, 4) << ", delay "
               << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; "
               << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
-    offerLayout(o, profile);
+    printLayoutAdvice(o, profile);
     return exitDone;
 }
 
 } // namespace
 
 Command calibrateCommand() {
-    return commandOf("calibrate", "measure an actuator and write its profile", declareCalibrate,
-                     runCalibrate);
+    return makeCommand("calibrate", "measure an actuator and write its profile", declareCalibrate,
+                       runCalibrate);
 }
 
 } // namespace physvib

@@ -13,28 +13,27 @@
 namespace physvib {
 namespace {
 
-/// Command-line options.
 struct CouplingOptions {
     std::string folder, layout, outPath;
 };
 
 /// Sums over repetitions, and their number per driven actuator.
-struct Measured {
-    explicit Measured(std::size_t enchanters)
-        : sums(enchanters)
-        , counts(enchanters, 0) {
-        for (std::size_t j = 0; j < enchanters; ++j) sums.at(j, j) = 0.0;
+struct CouplingSums {
+    explicit CouplingSums(std::size_t actuatorCount)
+        : sums(actuatorCount)
+        , counts(actuatorCount, 0) {
+        for (std::size_t j = 0; j < actuatorCount; ++j) sums.at(j, j) = 0.0;
     }
     CouplingMatrix sums;
     std::vector<int> counts;
 };
 
-using ByFrequency = std::map<double, Measured>;
+using SumsByFrequency = std::map<double, CouplingSums>;
 
 /// Adds a recording: response of every actuator, in shares of its full scale, to a drive of 1 of actuator j.
-std::string add(Measured& measured, std::size_t j, const std::vector<std::complex<double>>& tones,
-                const LayoutDescription& layout) {
-    const auto share = [&](std::size_t i) { return tones[i] / layout.enchanters[i].fullScaleG; };
+std::string addRecording(CouplingSums& measured, std::size_t j,
+                         const std::vector<std::complex<double>>& tones, const LayoutDescription& layout) {
+    const auto share = [&](std::size_t i) { return tones[i] / layout.actuators[i].fullScaleG; };
     if (!(std::abs(share(j)) > 0.0))
         return "expected that the driven actuator vibrates, found silence on its channel";
     for (std::size_t i = 0; i < tones.size(); ++i) measured.sums.at(i, j) += share(i) / share(j);
@@ -42,12 +41,12 @@ std::string add(Measured& measured, std::size_t j, const std::vector<std::comple
     return {};
 }
 
-Result<MeasuredCoupling> meansOf(ByFrequency& all, const LayoutDescription& layout) {
+Result<MeasuredCoupling> meansOf(SumsByFrequency& sumsByHz, const LayoutDescription& layout) {
     MeasuredCoupling coupling;
-    for (auto& [hz, measured] : all) {
+    for (auto& [hz, measured] : sumsByHz) {
         for (std::size_t j = 0; j < measured.counts.size(); ++j) {
             if (measured.counts[j] == 0)
-                return Failure{"expected a recording with actuator " + layout.enchanters[j].label +
+                return Failure{"expected a recording with actuator " + layout.actuators[j].label +
                                " driven at " + numberText(hz) + " Hz, found none"};
             for (std::size_t i = 0; i < measured.counts.size(); ++i)
                 measured.sums.at(i, j) /= measured.counts[j];
@@ -61,29 +60,29 @@ Result<MeasuredCoupling> meansOf(ByFrequency& all, const LayoutDescription& layo
 Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescription& layout) {
     const auto list = RecordingList::open(folder, {"frequency_hz", "driven"});
     if (!list) return Failure{list.error};
-    const std::size_t enchanters = layout.enchanters.size();
-    ByFrequency all;
+    const std::size_t actuatorCount = layout.actuators.size();
+    SumsByFrequency sumsByHz;
     for (const CsvRow& row : list.value.rows()) {
         const auto hz = list.value.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        const auto driven = std::ranges::find(layout.enchanters, list.value.cell(row, "driven"),
-                                              &EnchanterDescription::label);
-        if (driven == layout.enchanters.end())
-            return Failure{list.value.table().fault(row, *list.value.table().column("driven"),
-                                                    "the label of an actuator of the layout")};
+        const auto driven =
+            std::ranges::find(layout.actuators, list.value.cell(row, "driven"), &ActuatorDescription::label);
+        if (driven == layout.actuators.end())
+            return Failure{list.value.table().cellError(row, *list.value.table().column("driven"),
+                                                        "the label of an actuator of the layout")};
         const std::string path = list.value.path(row);
         const auto tones = channelTones(path, hz.value);
         if (!tones) return Failure{tones.error};
-        if (tones.value.size() != enchanters)
+        if (tones.value.size() != actuatorCount)
             return Failure{path + ": expected a channel per actuator of the layout, " +
-                           std::to_string(enchanters) + ", found " + std::to_string(tones.value.size())};
-        const auto at = all.try_emplace(hz.value, enchanters).first;
-        if (auto fault = add(at->second, static_cast<std::size_t>(driven - layout.enchanters.begin()),
-                             tones.value, layout);
-            !fault.empty())
-            return Failure{path + ": " + fault};
+                           std::to_string(actuatorCount) + ", found " + std::to_string(tones.value.size())};
+        const auto at = sumsByHz.try_emplace(hz.value, actuatorCount).first;
+        if (auto error = addRecording(at->second, static_cast<std::size_t>(driven - layout.actuators.begin()),
+                                      tones.value, layout);
+            !error.empty())
+            return Failure{path + ": " + error};
     }
-    auto coupling = meansOf(all, layout);
+    auto coupling = meansOf(sumsByHz, layout);
     return coupling ? coupling
                     : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
 }
@@ -96,19 +95,19 @@ void declareCoupling(OptionTable& command, CouplingOptions& o) {
         .as("FOLDER")
         .required();
     command.add("--layout", o.layout, "whose actuators they are: labels and full scales").required();
-    command.add("--out", o.outPath, "the coupling, for render --coupling").written("FILE.json").required();
+    command.add("--out", o.outPath, "the coupling, for render --coupling").outputFile("FILE.json").required();
 }
 
 int runCoupling(const CouplingOptions& o) {
-    const auto layout = layoutNamed(o.layout);
-    if (!layout) return leave(exitFailed, layout.error);
+    const auto layout = resolveLayout(o.layout);
+    if (!layout) return reportExit(exitFailed, layout.error);
     const auto coupling = couplingIn(o.folder, layout.value);
-    if (!coupling) return leave(exitFailed, coupling.error);
+    if (!coupling) return reportExit(exitFailed, coupling.error);
     const std::string text = couplingJson(coupling.value, layout.value.name,
                                           "measured: recordings of one driven actuator at a time");
     // rejects implausible values, e.g. a neighbour with five times the amplitude
-    if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error);
-    if (const auto error = writeFile(o.outPath, text); !error.empty()) return leave(exitFailed, error);
+    if (const auto read = readCoupling(text, o.outPath); !read) return reportExit(exitFailed, read.error);
+    if (const auto error = writeFile(o.outPath, text); !error.empty()) return reportExit(exitFailed, error);
     std::cout << o.outPath << "  " << coupling.value.enchanters() << " actuators at "
               << coupling.value.frequenciesHz.size()
               << (coupling.value.frequenciesHz.size() == 1 ? " frequency\n" : " frequencies\n");
@@ -118,9 +117,9 @@ int runCoupling(const CouplingOptions& o) {
 } // namespace
 
 Command couplingCommand() {
-    return commandOf("coupling",
-                     "what actuators make of each other's vibration, from recordings, for render --coupling",
-                     declareCoupling, runCoupling);
+    return makeCommand(
+        "coupling", "what actuators make of each other's vibration, from recordings, for render --coupling",
+        declareCoupling, runCoupling);
 }
 
 } // namespace physvib

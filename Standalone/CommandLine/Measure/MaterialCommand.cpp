@@ -26,49 +26,48 @@
 namespace physvib {
 namespace {
 
-std::string conditions(const Scrape& scrape) {
+std::string conditionsText(const Scrape& scrape) {
     return numberText(scrape.metresPerSecond) + " m/s, " + numberText(scrape.loadNewtons) + " N and " +
            numberText(scrape.massKg) + " kg";
 }
 
-std::string howMeasured(const ScrapedTexture& f, const Scrape& scrape) {
+std::string measurementText(const ScrapedTexture& f, const Scrape& scrape) {
     std::string words = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
-    words += f.counted > 0 ? std::to_string(f.counted) + " counted, " + fixedNumber(100.0 * f.lostShare, 1) +
-                                 " % taken to be hidden"
-                           : "by their tone alone";
+    words += f.grainCount > 0 ? std::to_string(f.grainCount) + " counted, " +
+                                    fixedNumber(100.0 * f.lostShare, 1) + " % taken to be hidden"
+                              : "by their tone alone";
     return words + (f.strength > 0.0
                         ? "; " + fixedNumber(100.0 * f.strength, 2) +
                               " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " +
-                              conditions(scrape)
+                              conditionsText(scrape)
                         : "; modes and roughness cannot be measured at this speed: scrape more slowly");
 }
 
-/// Returns an exit code.
-int tellTexture(const std::string& path, const Scrape& scrape) {
+/// Measures a recorded scrape and prints its texture as a table. Returns an exit code.
+int printTexture(const std::string& path, const Scrape& scrape) {
     const auto recording = readRecording(path);
-    if (!recording) return leave(exitFailed, recording.error);
+    if (!recording) return reportExit(exitFailed, recording.error);
     const auto found =
-        extractTexture(loudestOf(recording.value.channels), recording.value.sampleRateHz, scrape);
-    if (!found) return leave(exitFailed, path + ": " + found.error);
+        extractTexture(loudestChannel(recording.value.channels), recording.value.sampleRateHz, scrape);
+    if (!found) return reportExit(exitFailed, path + ": " + found.error);
     const ScrapedTexture& f = found.value;
-    const auto known = [&](double number) { return f.strength > 0.0 ? numberText(number) : std::string{}; };
+    const auto orEmpty = [&](double number) { return f.strength > 0.0 ? numberText(number) : std::string{}; };
     std::cout << "frequency_hz,decay_per_s,grain_m,roughness,grain_pattern\n"
-              << known(f.frequencyHz) << ',' << known(f.decayPerSecond) << ','
-              << numberText(f.texture.grainMetres) << ',' << known(f.texture.roughness) << ','
+              << orEmpty(f.frequencyHz) << ',' << orEmpty(f.decayPerSecond) << ','
+              << numberText(f.texture.grainMetres) << ',' << orEmpty(f.texture.roughness) << ','
               << grainPatternNames[static_cast<std::size_t>(f.texture.pattern)] << '\n';
-    std::cerr << "physvib: " << howMeasured(f, scrape) << '\n';
+    std::cerr << "physvib: " << measurementText(f, scrape) << '\n';
     return exitDone;
 }
 
-/// Command-line options.
 struct MaterialOptions {
     std::string path;
     std::string band = "20-1000"; ///< "LO-HI" in Hz
     std::string rule = "fit";     ///< or "two-peaks"
     int modes = 1;
-    bool lists = false;      ///< list the built-in materials
-    std::string picturePath; ///< empty: none
-    std::string texturePath; ///< a scrape recording, instead of an impact
+    bool listsMaterials = false; ///< list the built-in materials
+    std::string picturePath;     ///< empty: none
+    std::string texturePath;     ///< a scrape recording, instead of an impact
     std::optional<double> speedMetresPerSecond;
     double loadNewtons = 1.0, massKg = 1.0;
 };
@@ -86,33 +85,33 @@ int listMaterials() {
     return exitDone;
 }
 
-std::string significant(double number) { return fixedNumber(number, number < 0.1 ? 4 : 2); }
+std::string significantText(double number) { return fixedNumber(number, number < 0.1 ? 4 : 2); }
 
-std::string howSure(const ContactSound& s) {
+std::string confidenceText(const ContactSound& s) {
     std::string words = fixedNumber(s.frequencyHz, 2) + " Hz";
-    if (s.frequencyErrorHz > 0.0) words += " +- " + significant(s.frequencyErrorHz);
+    if (s.frequencyErrorHz > 0.0) words += " +- " + significantText(s.frequencyErrorHz);
     words += ", " + fixedNumber(s.decayPerSecond, 2) + " /s";
-    if (s.decayErrorPerSecond > 0.0) words += " +- " + significant(s.decayErrorPerSecond);
+    if (s.decayErrorPerSecond > 0.0) words += " +- " + significantText(s.decayErrorPerSecond);
     words +=
         "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB"
                                                : std::string{"none"});
-    return words + "; " + counted(static_cast<std::size_t>(s.partials), "partial") + " in " +
+    return words + "; " + counted(static_cast<std::size_t>(s.partialCount), "partial") + " in " +
            fixedNumber(s.lengthSeconds, 3) + " s from " + fixedNumber(s.beginSeconds, 4) + " s; confidence " +
            (s.isConfident() ? "high" : "low");
 }
 
-/// Each scaled to a peak of 1, as in thesis Fig. 5.7.
-void scale(std::vector<double>& values) {
-    const double most = std::abs(*std::ranges::max_element(values, {}, [](double x) { return std::abs(x); }));
-    for (double& value : values) value /= most > 0.0 ? most : 1.0;
+/// Scales the values to a peak of 1, as in thesis Fig. 5.7.
+void normalise(std::vector<double>& values) {
+    const double peak = std::abs(*std::ranges::max_element(values, {}, [](double x) { return std::abs(x); }));
+    for (double& value : values) value /= peak > 0.0 ? peak : 1.0;
 }
 
-/// The contact from its start to where its mode has fallen to a hundredth.
+/// Draws waveform and spectrum as SVG, from the contact's start until its mode has fallen to a hundredth.
 std::string pictureOf(const std::vector<float>& samples, double rateHz, const ContactSound& sound,
                       const ExtractionBand& band) {
-    constexpr double mostSeconds = 0.5;
+    constexpr double maxSeconds = 0.5;
     const auto from = static_cast<std::size_t>(std::max(0.0, sound.beginSeconds) * rateHz);
-    const double seconds = std::min(mostSeconds, std::log(100.0) / std::max(1.0, sound.decayPerSecond));
+    const double seconds = std::min(maxSeconds, std::log(100.0) / std::max(1.0, sound.decayPerSecond));
     std::vector<double> contact, mode;
     for (std::size_t n = 0; from + n < samples.size() && static_cast<double>(n) < seconds * rateHz; ++n) {
         const double t = static_cast<double>(n) / rateHz;
@@ -120,30 +119,30 @@ std::string pictureOf(const std::vector<float>& samples, double rateHz, const Co
         mode.push_back(std::sin(2.0 * std::numbers::pi * sound.frequencyHz * t) *
                        std::exp(-sound.decayPerSecond * t));
     }
-    LineChart wave{{"wave", "Waveform", false}, "time (ms)", "share of the peak", {}},
-        bins{{"bins", "Spectrum", false}, "frequency (Hz)", "share of the peak", {}};
+    LineChart waveformChart{{"wave", "Waveform", false}, "time (ms)", "share of the peak", {}},
+        spectrumChart{{"bins", "Spectrum", false}, "frequency (Hz)", "share of the peak", {}};
     for (auto& [words, values, style] : {std::tuple{"recorded", &contact, 0u}, {"its mode", &mode, 4u}}) {
         std::vector<double> spectrum = magnitudes(*values);
         const double binHz = 0.5 * rateHz / static_cast<double>(spectrum.size() - 1);
-        scale(*values);
-        scale(spectrum);
+        normalise(*values);
+        normalise(spectrum);
         LineSeries waveform{words, {}}, magnitude{words, {}};
         for (std::size_t n = 0; n < values->size(); ++n)
             waveform.points.push_back(
-                {1000.0 * static_cast<double>(n) / rateHz, ChartValue::around((*values)[n])});
+                {1000.0 * static_cast<double>(n) / rateHz, ChartValue::withMargin((*values)[n])});
         for (std::size_t k = 0; k < spectrum.size() && static_cast<double>(k) * binHz <= 2.0 * band.highHz;
              ++k)
-            magnitude.points.push_back({static_cast<double>(k) * binHz, ChartValue::around(spectrum[k])});
-        for (auto [series, chart] : {std::pair{&waveform, &wave}, {&magnitude, &bins}}) {
-            series->isMarked = false;
+            magnitude.points.push_back({static_cast<double>(k) * binHz, ChartValue::withMargin(spectrum[k])});
+        for (auto [series, chart] : {std::pair{&waveform, &waveformChart}, {&magnitude, &spectrumChart}}) {
+            series->hasMarkers = false;
             series->isThin = true;
             series->style = style;
             chart->series.push_back(std::move(*series));
         }
     }
-    bins.threshold = ChartValue{sound.frequencyHz, band.lowHz, band.highHz};
-    bins.thresholdWords = fixedNumber(sound.frequencyHz, 1) + " Hz, in the band";
-    return chartSheet({lineChart(wave), lineChart(bins)});
+    spectrumChart.threshold = ChartValue{sound.frequencyHz, band.lowHz, band.highHz};
+    spectrumChart.thresholdLabel = fixedNumber(sound.frequencyHz, 1) + " Hz, in the band";
+    return chartSheet({lineChart(waveformChart), lineChart(spectrumChart)});
 }
 
 void declareMaterial(OptionTable& command, MaterialOptions& o) {
@@ -157,60 +156,63 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command
         .add("--picture", o.picturePath,
              "waveform and spectrum of the contact, and of the mode that was found, with the band")
-        .writtenAs("FILE.svg");
+        .outputFileNamed("FILE.svg");
     command.add("--texture", o.texturePath, "a scrape at a steady speed: grains instead of one contact")
         .as("FILE.wav");
     command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
     command.add("--load", o.loadNewtons, "N that pressed").as("N").in(0.001, 1000.0);
     command.add("--mass", o.massKg, "kg of what vibrated").as("KG").in(0.0001, 10000.0);
-    command.add("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
+    command.add("--list", o.listsMaterials,
+                "the built-in materials that sound, and where their numbers are from");
 }
 
 int runMaterial(const MaterialOptions& o) {
-    if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1)
-        return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
+    if ((o.listsMaterials ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1)
+        return reportExit(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
     if (!o.picturePath.empty() && o.path.empty())
-        return leave(exitUsage, "material: --picture goes with FILE.wav");
+        return reportExit(exitUsage, "material: --picture goes with FILE.wav");
     if (o.texturePath.empty() == o.speedMetresPerSecond.has_value())
-        return leave(exitUsage, "material: --texture and --speed go together");
+        return reportExit(exitUsage, "material: --texture and --speed go together");
     // range checks accept nan
     if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg))
-        return leave(exitUsage, "--speed, --load, --mass: expected numbers");
-    if (o.lists) return listMaterials();
+        return reportExit(exitUsage, "--speed, --load, --mass: expected numbers");
+    if (o.listsMaterials) return listMaterials();
     if (!o.texturePath.empty())
-        return tellTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
+        return printTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
     const auto band = parseBand(o.band);
     if (!band)
-        return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
+        return reportExit(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
     const auto recording = readRecording(o.path);
-    if (!recording) return leave(exitFailed, recording.error);
-    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz,
+    if (!recording) return reportExit(exitFailed, recording.error);
+    const auto sound = extractMaterial(loudestChannel(recording.value.channels), recording.value.sampleRateHz,
                                        {band->lowHz, band->highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
-    if (!sound) return leave(exitFailed, o.path + ": " + sound.error);
-    const int code = writeStudyFiles(
-        {StudyFile{o.picturePath, [&] {
-                       return pictureOf(loudestOf(recording.value.channels), recording.value.sampleRateHz,
-                                        sound.value, {band->lowHz, band->highHz});
-                   }}});
+    if (!sound) return reportExit(exitFailed, o.path + ": " + sound.error);
+    const int code =
+        writeStudyFiles({StudyFile{o.picturePath, [&] {
+                                       return pictureOf(loudestChannel(recording.value.channels),
+                                                        recording.value.sampleRateHz, sound.value,
+                                                        {band->lowHz, band->highHz});
+                                   }}});
     if (code != exitDone) return code;
-    const auto pair = [](double hz, double perSecond) {
+    const auto rowText = [](double hz, double perSecond) {
         return numberText(hz) + ',' + numberText(perSecond);
     };
     const bool hasAmplitudes = o.modes > 1;
     std::cout << "frequency_hz,decay_per_s" << (hasAmplitudes ? ",amplitude\n" : "\n")
-              << pair(sound.value.frequencyHz, sound.value.decayPerSecond) << (hasAmplitudes ? ",1\n" : "\n");
-    for (const FurtherPartial& other : sound.value.others | std::views::take(o.modes - 1))
-        std::cout << pair(other.frequencyHz, other.decayPerSecond) << ',' << numberText(other.amplitude)
-                  << '\n';
-    std::cerr << "physvib: " << howSure(sound.value) << '\n';
+              << rowText(sound.value.frequencyHz, sound.value.decayPerSecond)
+              << (hasAmplitudes ? ",1\n" : "\n");
+    for (const FurtherPartial& partial : sound.value.furtherPartials | std::views::take(o.modes - 1))
+        std::cout << rowText(partial.frequencyHz, partial.decayPerSecond) << ','
+                  << numberText(partial.amplitude) << '\n';
+    std::cerr << "physvib: " << confidenceText(sound.value) << '\n';
     return exitDone;
 }
 
 } // namespace
 
 Command materialCommand() {
-    return commandOf("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial);
+    return makeCommand("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial);
 }
 
 } // namespace physvib

@@ -30,17 +30,17 @@ std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample
 }
 
 template <class Value, class Measure>
-Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure) {
-    constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest frequency
+Result<std::vector<Value>> measureChannels(const std::string& path, Measure measure) {
+    constexpr double minSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest frequency
     const auto recording = readRecording(path);
     if (!recording) return Failure{recording.error};
     std::vector<Value> values;
     const double rateHz = recording.value.sampleRateHz;
     for (const auto& channel : recording.value.channels) {
-        std::string fault = recordingFault(channel, rateHz, shortestSeconds);
-        if (fault.empty()) fault = clippingFault(channel, rateHz);
-        if (!fault.empty())
-            return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + fault};
+        std::string error = recordingError(channel, rateHz, minSeconds);
+        if (error.empty()) error = clippingError(channel, rateHz);
+        if (!error.empty())
+            return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + error};
         values.push_back(measure(channel, rateHz));
     }
     return values;
@@ -49,12 +49,12 @@ Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure)
 } // namespace
 
 Result<std::vector<double>> axisLevels(const std::string& path) {
-    return eachChannel<double>(path,
-                               [](const std::vector<float>& channel, double) { return levelOf(channel); });
+    return measureChannels<double>(
+        path, [](const std::vector<float>& channel, double) { return levelOf(channel); });
 }
 
 Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz) {
-    return eachChannel<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) {
+    return measureChannels<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) {
         return toneOf(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
     });
 }

@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace physvib {
-/// Message thread.
+/// The recordings of a folder, one per row of its conditions.csv. Message thread.
 class RecordingList {
 public:
     static constexpr const char* fileName = "conditions.csv";
@@ -49,10 +49,10 @@ public:
     }
     Result<double> frequencyHz(const CsvRow& row) const {
         const auto hz = parseNumber<double>(cell(row, "frequency_hz"));
-        if (hz && *hz >= limits::leastMeasuredHz && *hz <= limits::maxFrequencyHz) return *hz;
-        return Failure{table_.fault(row, *table_.column("frequency_hz"),
-                                    "a number from " + plainNumber(limits::leastMeasuredHz) + " to " +
-                                        plainNumber(limits::maxFrequencyHz))};
+        if (hz && *hz >= limits::minMeasuredHz && *hz <= limits::maxFrequencyHz) return *hz;
+        return Failure{table_.cellError(row, *table_.column("frequency_hz"),
+                                        "a number from " + plainNumber(limits::minMeasuredHz) + " to " +
+                                            plainNumber(limits::maxFrequencyHz))};
     }
 
 private:
@@ -70,7 +70,7 @@ Result<std::vector<std::complex<double>>> channelTones(const std::string& path, 
 
 // Parses frequency bands such as "90-1000".
 
-/// LO-HI in Hz, LO < HI, above 0.
+/// Parses "LO-HI" in Hz, 0 < LO < HI; nullopt for any other text. Any thread.
 inline std::optional<FrequencyBand> parseBand(std::string_view text) {
     const std::size_t dash = text.find('-');
     if (dash == std::string_view::npos) return std::nullopt;

@@ -14,9 +14,9 @@ namespace physvib {
 
 struct BeatOptions {
     /// Actuator letters per band; unset: default.
-    std::array<std::optional<std::string>, beatBands.size()> enchanters;
-    double sensitivity = BeatDetector::usualSensitivity;
-    double level = BeatVoices::usualLevel;
+    std::array<std::optional<std::string>, beatBands.size()> actuators;
+    double sensitivity = BeatDetector::defaultSensitivity;
+    double level = BeatVoices::defaultLevel;
     std::string frequencies = "205"; ///< Hz: one for all bands, or one per band
 };
 
@@ -24,35 +24,36 @@ inline void declareBeatOptions(OptionTable& command, BeatOptions& o) {
     for (std::size_t band = 0; band < beatBands.size(); ++band) {
         const BeatBand& b = beatBands[band];
         command
-            .add("--" + std::string{b.name}, o.enchanters[band],
+            .add("--" + std::string{b.name}, o.actuators[band],
                  "actuators that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) +
                      " Hz; none: \"\"")
             .as("AB")
-            .under("Beats");
+            .inGroup("Beats");
     }
     command
         .add("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs")
         .in(0.0, 1.0)
-        .under("Beats");
+        .inGroup("Beats");
     command.add("--strike-level", o.level, "of the strongest beats, in shares of full scale")
         .in(0.0, 1.0)
-        .under("Beats");
+        .inGroup("Beats");
     command
         .add("--strike-hz", o.frequencies, "of the strikes: one frequency, or one each for low, mid and high")
         .as("HZ[,HZ,HZ]")
-        .under("Beats");
+        .inGroup("Beats");
 }
 
 /// Voices for that number of actuators; or a usage error in one line.
-inline Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int enchanters) {
+inline Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int actuatorCount) {
     BeatVoices voices;
     voices.level = o.level;
-    voices.enchanters = usualBeatEnchanters(enchanters);
+    voices.actuators = defaultBeatActuators(actuatorCount);
     for (std::size_t band = 0; band < beatBands.size(); ++band)
-        if (o.enchanters[band] && !parseEnchanters(*o.enchanters[band], enchanters, voices.enchanters[band]))
+        if (o.actuators[band] &&
+            !parseActuatorLetters(*o.actuators[band], actuatorCount, voices.actuators[band]))
             return Failure{"--" + std::string{beatBands[band].name} + ": expected letters of the " +
-                           std::to_string(enchanters) + " actuators, each once, like A, found " +
-                           inQuotes(*o.enchanters[band])};
+                           std::to_string(actuatorCount) + " actuators, each once, like A, found " +
+                           inQuotes(*o.actuators[band])};
     std::vector<double> hz;
     if (parseNumbers(o.frequencies, hz) && hz.size() == 1) hz.resize(beatBands.size(), hz[0]);
     const auto isFrequency = [](double f) { return f >= 1.0 && f <= limits::maxFrequencyHz; };

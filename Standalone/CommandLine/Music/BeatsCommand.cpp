@@ -25,57 +25,57 @@ namespace {
 struct BeatsOptions {
     std::string music;
     std::string eventsPath, wavPath; ///< empty: not written
-    bool isThrough = false;          ///< write the low-passed music itself to the WAV
+    bool playsMusic = false;         ///< write the low-passed music itself to the WAV
     std::string band;                ///< its band in Hz; empty: default
-    std::string enchanters;          ///< actuators that play it; empty: all
+    std::string actuators;           ///< actuators that play it; empty: all
     std::string layout = "phone4";
     BeatOptions beats;
 };
 
 Provenance provenanceOf(const BeatsOptions& o) {
-    return {PHYSVIB_VERSION, {{"music", leafOf(o.music)}, {"layout", o.layout}}};
+    return {PHYSVIB_VERSION, {{"music", fileNameOf(o.music)}, {"layout", o.layout}}};
 }
 
-std::string rateFault(int rateHz) {
+std::string rateError(int rateHz) {
     if (isSampleRate(rateHz)) return {};
     return "expected a rate of " + std::to_string(limits::minSampleRateHz) + " to " +
            std::to_string(limits::maxSampleRateHz) + " Hz, found " + std::to_string(rateHz) + " Hz";
 }
 
 /// Averages all channels of the music.
-class MonoTaker : public SoundTaker {
+class MonoReceiver : public SoundReceiver {
 public:
-    int rateHz() const noexcept { return static_cast<int>(shape_.sampleRateHz); }
-    std::int64_t frames() const noexcept { return shape_.frames; }
+    int rateHz() const noexcept { return static_cast<int>(format_.sampleRateHz); }
+    std::int64_t frames() const noexcept { return format_.frames; }
 
-    std::string begin(const SoundShape& shape) final {
-        shape_ = shape;
-        std::string fault = streamFault(shape);
-        if (fault.empty()) fault = rateFault(rateHz());
-        return fault.empty() ? open() : fault;
+    std::string begin(const SoundFormat& format) final {
+        format_ = format;
+        std::string error = streamError(format);
+        if (error.empty()) error = rateError(rateHz());
+        return error.empty() ? open() : error;
     }
-    std::string take(const float* const* channels, int frames) final {
+    std::string receive(const float* const* channels, int frames) final {
         mono_.assign(static_cast<std::size_t>(frames), 0.0f);
-        const float share = 1.0f / static_cast<float>(shape_.channels);
-        for (std::int64_t j = 0; j < shape_.channels; ++j)
+        const float share = 1.0f / static_cast<float>(format_.channels);
+        for (std::int64_t j = 0; j < format_.channels; ++j)
             for (std::size_t i = 0; i < mono_.size(); ++i) mono_[i] += share * channels[j][i];
-        return take(mono_);
+        return processMono(mono_);
     }
 
 protected:
-    ~MonoTaker() = default;
+    ~MonoReceiver() = default;
 
 private:
     virtual std::string open() = 0;
-    virtual std::string take(std::span<float> mono) = 0;
+    virtual std::string processMono(std::span<float> mono) = 0;
 
-    SoundShape shape_;
+    SoundFormat format_;
     std::vector<float> mono_;
 };
 
-class BeatTaker final : public MonoTaker {
+class BeatReceiver final : public MonoReceiver {
 public:
-    BeatTaker(const BeatOptions& options, const BeatVoices& voices, const EnchanterLayout& layout)
+    BeatReceiver(const BeatOptions& options, const BeatVoices& voices, const ActuatorLayout& layout)
         : options_{options}
         , voices_{voices}
         , layout_{layout} {}
@@ -92,34 +92,34 @@ private:
         detector_ = std::make_unique<BeatDetector>(rateHz(), options_.sensitivity);
         return {};
     }
-    std::string take(std::span<float> mono) override {
-        detector_->take(mono, [this](const BandOnset& onset) { strike(onset); });
+    std::string processMono(std::span<float> mono) override {
+        detector_->process(mono, [this](const BandOnset& onset) { addBeat(onset); });
         return events_.size() <= limits::maxEventRows
                    ? ""
                    : "expected at most " + std::to_string(limits::maxEventRows) + " strikes";
     }
-    void strike(const BandOnset& onset) {
+    void addBeat(const BandOnset& onset) {
         const std::int64_t rate = rateHz(), ns = 1'000'000'000;
         const std::int64_t timeNs = onset.frame / rate * ns + onset.frame % rate * ns / rate;
-        strikeBeat(onset, timeNs, voices_, layout_, layout_.extentWidthMetres, layout_.extentHeightMetres,
-                   [this](const CollisionEvent& e) { events_.push_back(e); });
+        makeBeatEvents(onset, timeNs, voices_, layout_, layout_.extentWidthMetres, layout_.extentHeightMetres,
+                       [this](const CollisionEvent& e) { events_.push_back(e); });
         ++counts_[static_cast<std::size_t>(onset.band)];
     }
 
     const BeatOptions& options_;
     const BeatVoices& voices_;
-    const EnchanterLayout& layout_;
+    const ActuatorLayout& layout_;
     std::unique_ptr<BeatDetector> detector_;
     std::vector<CollisionEvent> events_;
     std::array<std::size_t, beatBands.size()> counts_{};
 };
 
-/// Plays the filtered music on some channels.
-class ThroughTaker final : public MonoTaker {
+/// Writes the filtered music to a WAV file, on the channels of some actuators.
+class BandReceiver final : public MonoReceiver {
 public:
-    ThroughTaker(const BeatsOptions& options, int channels, EnchanterSet felt, FrequencyBand band)
+    BandReceiver(const BeatsOptions& options, int channels, ActuatorSet actuators, FrequencyBand band)
         : options_{options}
-        , felt_{felt}
+        , actuators_{actuators}
         , band_{band}
         , channels_(static_cast<std::size_t>(channels)) {}
     std::string finish() { return wav_->finish(); }
@@ -128,33 +128,33 @@ private:
     std::string open() override {
         if (band_.lowHz >= 0.5 * rateHz())
             return "expected a band that begins below half the rate, " + std::to_string(rateHz() / 2) + " Hz";
-        pass_.emplace(band_, rateHz());
+        bandPass_.emplace(band_, rateHz());
         return wav_
             .emplace(options_.wavPath, static_cast<int>(channels_.size()), rateHz(),
                      provenanceLine(provenanceOf(options_)))
             .error();
     }
-    std::string take(std::span<float> mono) override {
-        pass_->process(mono);
+    std::string processMono(std::span<float> mono) override {
+        bandPass_->process(mono);
         const auto level = static_cast<float>(options_.beats.level);
         for (float& sample : mono) sample = std::clamp(level * sample, -1.0f, 1.0f);
         silence_.assign(mono.size(), 0.0f);
         for (std::size_t j = 0; j < channels_.size(); ++j)
-            channels_[j] = felt_[j] ? mono.data() : silence_.data();
+            channels_[j] = actuators_[j] ? mono.data() : silence_.data();
         return wav_->write(channels_.data(), static_cast<int>(mono.size())) ? "" : wav_->error();
     }
 
     const BeatsOptions& options_;
-    EnchanterSet felt_;
+    ActuatorSet actuators_;
     FrequencyBand band_;
     std::vector<const float*> channels_;
-    std::optional<BandPass> pass_;
+    std::optional<BandPass> bandPass_;
     std::optional<WavSink> wav_;
     std::vector<float> silence_;
 };
 
-void renderTo(WavSink& wav, std::span<const CollisionEvent> events, const EnchanterLayout& layout, int rateHz,
-              std::int64_t frames) {
+void renderWav(WavSink& wav, std::span<const CollisionEvent> events, const ActuatorLayout& layout, int rateHz,
+               std::int64_t frames) {
     OfflineSettings settings;
     settings.renderer.sampleRateHz = rateHz;
     settings.renderer.panner = PhantomPanner{layout, PanningLaw::automatic, 1.0, layout.extentWidthMetres,
@@ -163,31 +163,31 @@ void renderTo(WavSink& wav, std::span<const CollisionEvent> events, const Enchan
     const RenderStatus status = renderOffline(events, settings, [&](const float* const* channels, int count) {
         return wav.write(channels, count);
     });
-    warnOf(status.rejected, "strikes that could not be played at " + std::to_string(rateHz) + " Hz");
+    warnIfAny(status.rejected, "strikes that could not be played at " + std::to_string(rateHz) + " Hz");
 }
 
-int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
+int renderBeats(const BeatsOptions& o, const LayoutDescription& layout) {
     const auto voices = beatVoicesOf(o.beats, layout.geometry.count);
-    if (!voices) return leave(exitUsage, voices.error);
-    std::optional<AtomicFile> list;
-    if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty())
-        return leave(exitFailed, list->error());
-    BeatTaker beats{o.beats, voices.value, layout.geometry};
-    if (const std::string fault = streamRecording(o.music, beats); !fault.empty())
-        return leave(exitFailed, fault);
+    if (!voices) return reportExit(exitUsage, voices.error);
+    std::optional<AtomicFile> table;
+    if (!o.eventsPath.empty() && !table.emplace(o.eventsPath).error().empty())
+        return reportExit(exitFailed, table->error());
+    BeatReceiver beats{o.beats, voices.value, layout.geometry};
+    if (const std::string error = streamRecording(o.music, beats); !error.empty())
+        return reportExit(exitFailed, error);
     const auto& events = beats.events();
     if (events.empty())
-        return leave(exitFailed, o.music + ": expected beats, found none (see --sensitivity)");
+        return reportExit(exitFailed, o.music + ": expected beats, found none (see --sensitivity)");
     std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
         wav.emplace(o.wavPath, layout.geometry.count, beats.rateHz(), provenanceLine(provenanceOf(o)));
-        if (wav->error().empty()) renderTo(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
-        if (!wav->complete().empty()) return leave(exitFailed, wav->error());
+        if (wav->error().empty()) renderWav(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
+        if (!wav->complete().empty()) return reportExit(exitFailed, wav->error());
     }
-    if (list && (!list->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
-                 !list->commit().empty()))
-        return leave(exitFailed, list->error());
-    if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
+    if (table && (!table->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
+                  !table->commit().empty()))
+        return reportExit(exitFailed, table->error());
+    if (wav && !wav->finish().empty()) return reportExit(exitFailed, wav->error());
     std::cout << "beats";
     for (std::size_t band = 0; band < beatBands.size(); ++band)
         std::cout << (band > 0 ? ", " : ": ") << beatBands[band].name << ' ' << beats.counts()[band];
@@ -195,21 +195,23 @@ int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
     return exitDone;
 }
 
-int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
+int renderMusic(const BeatsOptions& o, const LayoutDescription& layout) {
     if (o.wavPath.empty() || !o.eventsPath.empty())
-        return leave(exitUsage, "--through: expected --render FILE.wav, and no --out: music has no strikes");
-    const auto band = o.band.empty() ? BandPass::usual : parseBand(o.band);
-    if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 50-500, found " + inQuotes(o.band));
+        return reportExit(exitUsage,
+                          "--through: expected --render FILE.wav, and no --out: music has no strikes");
+    const auto band = o.band.empty() ? BandPass::defaultBand : parseBand(o.band);
+    if (!band)
+        return reportExit(exitUsage, "--band: expected LO-HI in Hz like 50-500, found " + inQuotes(o.band));
     const int count = layout.geometry.count;
-    EnchanterSet felt;
-    felt.set();
-    if (!o.enchanters.empty() && !parseEnchanters(o.enchanters, count, felt))
-        return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) +
-                                    " actuators, each once, like AC, found " + inQuotes(o.enchanters));
-    ThroughTaker through{o, count, felt, *band};
-    if (const std::string fault = streamRecording(o.music, through); !fault.empty())
-        return leave(exitFailed, fault);
-    if (const std::string error = through.finish(); !error.empty()) return leave(exitFailed, error);
+    ActuatorSet actuators;
+    actuators.set();
+    if (!o.actuators.empty() && !parseActuatorLetters(o.actuators, count, actuators))
+        return reportExit(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) +
+                                         " actuators, each once, like AC, found " + inQuotes(o.actuators));
+    BandReceiver receiver{o, count, actuators, *band};
+    if (const std::string error = streamRecording(o.music, receiver); !error.empty())
+        return reportExit(exitFailed, error);
+    if (const std::string error = receiver.finish(); !error.empty()) return reportExit(exitFailed, error);
     std::cout << o.wavPath << "  " << count << " channels, " << numberText(band->lowHz) << " to "
               << numberText(band->highHz) << " Hz of the music\n";
     return exitDone;
@@ -219,34 +221,36 @@ void declareBeats(OptionTable& command, BeatsOptions& o) {
     command.add("music", o.music, "WAV, AIFF, FLAC, Ogg Vorbis or Opus, of up to a day")
         .required()
         .as("MUSIC.wav");
-    command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
+    command.add("--out", o.eventsPath, "its beats as an event list").outputFile("EVENTS.csv");
     command
         .add("--render", o.wavPath,
              "what is felt, a channel per actuator, as long as the music and at its rate")
-        .written("FILE.wav");
-    command.add("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
+        .outputFile("FILE.wav");
+    command.add("--through", o.playsMusic,
+                "not its beats but the music itself, between the slopes of --band");
     command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")
         .as("LO-HI");
-    command.add("--enchanters", o.enchanters, "who feels it, with --through: all unless told").as("AC");
+    command.add("--enchanters", o.actuators, "who feels it, with --through: all unless told").as("AC");
     command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
     declareBeatOptions(command, o.beats);
 }
 
 int runBeats(const BeatsOptions& o) {
     if (o.eventsPath.empty() && o.wavPath.empty())
-        return leave(exitUsage, "beats: nothing to write; give --out or --render");
-    if (!o.isThrough && !(o.band.empty() && o.enchanters.empty()))
-        return leave(exitUsage, "--band, --enchanters: expected with --through; see --low, --mid, --high");
-    const auto layout = layoutNamed(o.layout);
-    if (!layout) return leave(exitFailed, layout.error);
-    return o.isThrough ? runThrough(o, layout.value) : runStrikes(o, layout.value);
+        return reportExit(exitUsage, "beats: nothing to write; give --out or --render");
+    if (!o.playsMusic && !(o.band.empty() && o.actuators.empty()))
+        return reportExit(exitUsage,
+                          "--band, --enchanters: expected with --through; see --low, --mid, --high");
+    const auto layout = resolveLayout(o.layout);
+    if (!layout) return reportExit(exitFailed, layout.error);
+    return o.playsMusic ? renderMusic(o, layout.value) : renderBeats(o, layout.value);
 }
 
 } // namespace
 
 Command beatsCommand() {
-    return commandOf("beats", "music as strikes on actuators, or what of it they can render", declareBeats,
-                     runBeats);
+    return makeCommand("beats", "music as strikes on actuators, or what of it they can render", declareBeats,
+                       runBeats);
 }
 
 } // namespace physvib

@@ -23,9 +23,9 @@ struct PadsOptions {
     std::string profilePath, name;
 };
 
-constexpr auto lookFor = std::chrono::milliseconds{1500}; // Bluetooth controllers need a second
+constexpr auto searchTime = std::chrono::milliseconds{1500}; // Bluetooth controllers need a second
 
-PadTrialTime realTime(GamePads& pads) {
+PadTrialClock systemTime(GamePads& pads) {
     const auto seconds = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
@@ -36,60 +36,61 @@ PadTrialTime realTime(GamePads& pads) {
     return {seconds, tick, [] { return !interrupted.load(); }};
 }
 
-std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceName>& sounds) {
+std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceName>& audioDevices) {
     std::string words = info.hasMotors ? "two motors" : "no motors";
     if (info.hasTriggers) words += ", triggers";
     if (info.hasAccelerometer) words += ", accelerometer";
     if (!info.isDualSense) return words;
-    const auto sound = dualSenseDevice(sounds);
+    const auto sound = dualSenseDevice(audioDevices);
     return words + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)"
                     : info.bus == PadBus::bluetooth ? ", coils (--device DUALSENSE:auto --layout dualsense)"
                                                     : ", coils by USB sound (not there)");
 }
 
-int list() {
+int listPads() {
     GamePads pads{GamePads::Driver::sdl}; // only SDL's drivers report accelerometers
-    if (!pads.fault().empty()) return leave(exitFailed, pads.fault());
-    for (const auto end = std::chrono::steady_clock::now() + lookFor;
+    if (!pads.error().empty()) return reportExit(exitFailed, pads.error());
+    for (const auto end = std::chrono::steady_clock::now() + searchTime;
          pads.list().empty() && std::chrono::steady_clock::now() < end;)
-        realTime(pads).tick();
+        systemTime(pads).tick();
     const auto found = pads.list();
     const bool hasDualSense = std::ranges::any_of(found, &GamePadInfo::isDualSense);
-    const auto sounds = hasDualSense ? listAudioDevices(systemAudioDrivers) : std::vector<AudioDeviceName>{};
+    const auto audioDevices =
+        hasDualSense ? listAudioDevices(systemAudioDrivers) : std::vector<AudioDeviceName>{};
     for (const GamePadInfo& info : found)
-        std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, sounds)
+        std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, audioDevices)
                   << "  profile " << info.profile << '\n';
-    bool isAnyThere = !found.empty();
-    for (const SinkKind& kind : sinkKinds()) // those whose raw reports carry more than two commands
-        for (const SinkPlace& place : kind.takesReports ? kind.places() : std::vector<SinkPlace>{}) {
-            std::cout << place.about << "  " << place.where << "  --device " << kind.name << ':'
-                      << place.where << '\n';
-            isAnyThere = true;
+    bool hasAny = !found.empty();
+    for (const SinkKind& kind : sinkKinds()) // those with coils or more motors
+        for (const SinkUnit& unit : kind.acceptsRawReports ? kind.listUnits() : std::vector<SinkUnit>{}) {
+            std::cout << unit.about << "  " << unit.address << "  --device " << kind.name << ':'
+                      << unit.address << '\n';
+            hasAny = true;
         }
-    if (!isAnyThere) tell("no game controller is there");
+    if (!hasAny) printMessage("no game controller is there");
     return exitDone;
 }
 
 /// The requested controller, or one error line.
-Result<std::unique_ptr<GamePad>> find(GamePads& pads, const std::string& name) {
-    if (!pads.fault().empty()) return Failure{pads.fault()};
-    for (const auto end = std::chrono::steady_clock::now() + lookFor;
-         std::chrono::steady_clock::now() < end && !interrupted; realTime(pads).tick())
+Result<std::unique_ptr<GamePad>> awaitPad(GamePads& pads, const std::string& name) {
+    if (!pads.error().empty()) return Failure{pads.error()};
+    for (const auto end = std::chrono::steady_clock::now() + searchTime;
+         std::chrono::steady_clock::now() < end && !interrupted; systemTime(pads).tick())
         if (auto pad = pads.open(name)) return pad;
     return Failure{name == anyPad ? "no game controller with motors is there"
                                   : "no game controller with motors is called " + inQuotes(name)};
 }
 
 /// Plays ten impacts of 20 ms with increasing level, as `play` sends them.
-void playHits(GamePad& pad, const PadLaw& law, const PadTrialTime& time) {
-    EnchanterLayout phone;
+void playHits(GamePad& pad, const PadLaw& law, const PadTrialClock& time) {
+    ActuatorLayout phone;
     layoutPreset("phone2", phone);
     const PhantomPanner grips = PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
     PadMotors motors{law};
-    constexpr std::int64_t apartNs = 600'000'000;
+    constexpr std::int64_t intervalNs = 600'000'000;
     for (int i = 1; i <= 10; ++i) {
         CollisionEvent hit;
-        hit.timeNs = i * apartNs;
+        hit.timeNs = i * intervalNs;
         hit.durationNs = 20'000'000;
         hit.frequencyHz = 60.0;
         hit.amplitude = i / 10.0;
@@ -97,25 +98,25 @@ void playHits(GamePad& pad, const PadLaw& law, const PadTrialTime& time) {
         motors.strike(hit, grips);
     }
     const double begin = time.seconds();
-    for (PadCommand last; time.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
+    for (PadCommand lastCommand; time.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
          time.tick()) {
         if (static_cast<double>(motors.dueNs()) * 1e-9 > time.seconds() - begin) continue;
         const PadCommand command = motors.next(1.0);
-        if (!command.isSame(last)) pad.rumble(command.low, command.high);
-        last = command;
+        if (!command.isSame(lastCommand)) pad.rumble(command.low, command.high);
+        lastCommand = command;
     }
 }
 
-int test(const PadsOptions& o) {
-    heedInterrupts();
+int testMotors(const PadsOptions& o) {
+    installInterruptHandlers();
     GamePads pads;
-    auto found = find(pads, o.pad);
-    if (!found) return leave(exitFailed, found.error);
+    auto found = awaitPad(pads, o.pad);
+    if (!found) return reportExit(exitFailed, found.error);
     GamePad& pad = *found.value;
     auto profile = findPad(pad.info().profile);
     PadLaw law = profile.value.law;
-    law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad.info().bus));
-    const PadTrialTime time = realTime(pads);
+    law.commandsPerSecond = std::min(law.commandsPerSecond, maxCommandsPerSecond(pad.info().bus));
+    const PadTrialClock time = systemTime(pads);
     std::cout << pad.info().name << ", " << profile.value.name << '\n';
     for (const auto& [words, low, high] :
          {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
@@ -123,31 +124,31 @@ int test(const PadsOptions& o) {
             std::cout << words << ": command " << numberText(command) << std::endl;
             if (!holdMotors(pad, low * command, high * command, 0.7, time) ||
                 !holdMotors(pad, 0.0, 0.0, 0.5, time))
-                return leave(exitFailed,
-                             pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
+                return reportExit(exitFailed,
+                                  pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
         }
     std::cout << "ten hits of 20 ms, from 0.1 to 1 of full scale: all of them should be felt" << std::endl;
     playHits(pad, law, time);
     pad.rumble(0.0, 0.0);
-    return interrupted ? leave(exitFailed, "ended before its time") : exitDone;
+    return interrupted ? reportExit(exitFailed, "ended before its time") : exitDone;
 }
 
-int calibrate(const PadsOptions& o) {
-    if (o.profilePath.empty()) return leave(exitUsage, "pads calibrate: expected --out FILE.json");
+int calibrateMotors(const PadsOptions& o) {
+    if (o.profilePath.empty()) return reportExit(exitUsage, "pads calibrate: expected --out FILE.json");
     AtomicFile file(o.profilePath); // opened before anything vibrates
-    if (!file.error().empty()) return leave(exitFailed, file.error());
-    heedInterrupts();
+    if (!file.error().empty()) return reportExit(exitFailed, file.error());
+    installInterruptHandlers();
     GamePads pads{GamePads::Driver::sdl};
-    auto found = find(pads, o.pad);
-    if (!found) return leave(exitFailed, found.error);
+    auto found = awaitPad(pads, o.pad);
+    if (!found) return reportExit(exitFailed, found.error);
     GamePad& pad = *found.value;
     PadProfile profile = findPad(pad.info().profile).value;
     for (const bool isHeavy : {true, false}) {
         std::cout << (isHeavy ? "heavy" : "light")
                   << " motor, 15 s: leave the controller alone, on something soft" << std::endl;
-        const auto steps = recordMotor(pad, isHeavy, realTime(pads));
+        const auto steps = recordMotor(pad, isHeavy, systemTime(pads));
         const auto motor = steps ? fitMotor(steps.value) : Result<PadMotor>{Failure{steps.error}};
-        if (!motor) return leave(exitFailed, motor.error);
+        if (!motor) return reportExit(exitFailed, motor.error);
         const PadMotor& m = isHeavy ? profile.law.low = motor.value : profile.law.high = motor.value;
         std::cout << "nothing below " << numberText(m.threshold) << ", half at " << numberText(m.half)
                   << ", full at " << numberText(m.full) << ", rises in "
@@ -158,34 +159,34 @@ int calibrate(const PadsOptions& o) {
     profile.description = "measured on " + pad.info().name;
     profile.source = "physvib pads calibrate " PHYSVIB_VERSION ", the controller's own accelerometer";
     if (const auto read = readPad(padJson(profile), o.profilePath); !read)
-        return leave(exitFailed, read.error);
+        return reportExit(exitFailed, read.error);
     file.write(padJson(profile));
-    if (const std::string& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+    if (const std::string& error = file.commit(); !error.empty()) return reportExit(exitFailed, error);
     std::cout << o.profilePath << "  for --pad " << (o.pad == anyPad ? "auto" : o.pad) << '@' << o.profilePath
               << '\n';
     return exitDone;
 }
 
-void declare(OptionTable& command, PadsOptions& o) {
+void declarePads(OptionTable& command, PadsOptions& o) {
     command
         .add("action", o.action,
              "list, test (each motor, then ten hits) or calibrate (by the controller's accelerometer)")
         .oneOf({"list", "test", "calibrate"});
     command.add("pad", o.pad, "part of its name, or auto: the first with motors");
-    command.add("--out", o.profilePath, "calibrate: the profile").writtenAs("FILE.json");
+    command.add("--out", o.profilePath, "calibrate: the profile").outputFileNamed("FILE.json");
     command.add("--name", o.name, "calibrate: of the profile; left out: the file's");
 }
 
-int run(const PadsOptions& o) {
+int runPads(const PadsOptions& o) {
     if (o.action != "calibrate" && !(o.profilePath.empty() && o.name.empty()))
-        return leave(exitUsage, "--out, --name: expected pads calibrate");
-    return o.action == "test" ? test(o) : o.action == "calibrate" ? calibrate(o) : list();
+        return reportExit(exitUsage, "--out, --name: expected pads calibrate");
+    return o.action == "test" ? testMotors(o) : o.action == "calibrate" ? calibrateMotors(o) : listPads();
 }
 
 } // namespace
 
 Command padsCommand() {
-    return commandOf("pads", "list game controllers, try or measure their motors", declare, run);
+    return makeCommand("pads", "list game controllers, try or measure their motors", declarePads, runPads);
 }
 
 } // namespace physvib

@@ -16,47 +16,48 @@
 namespace physvib {
 
 /// Splits a byte stream into lines. Overlong lines are discarded, except that "silence" in them is reported.
-/// `take(std::string_view line, bool isWhole)` is called once per line. For a line longer than `longest`,
-/// isWhole is false and the line is "silence" if it contains that word, else empty. One thread at a time.
-class LineCutter {
+/// `onLine(std::string_view line, bool isWhole)` is called once per line. For a line longer than
+/// `maxLineBytes`, isWhole is false and the line is "silence" if it contains that word, else empty. One
+/// thread at a time.
+class LineSplitter {
 public:
-    static constexpr std::size_t longest = 65'536; // far above any valid line
+    static constexpr std::size_t maxLineBytes = 65'536; // far above any valid line
 
-    template <class Take>
-    void add(std::string_view bytes, Take&& take) {
+    template <class OnLine>
+    void add(std::string_view bytes, OnLine&& onLine) {
         for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; end = bytes.find('\n')) {
-            keep(bytes.substr(0, end));
-            hand(take);
+            append(bytes.substr(0, end));
+            emitLine(onLine);
             bytes.remove_prefix(end + 1);
         }
-        keep(bytes);
+        append(bytes);
     }
 
     /// Ends the stream; text without a final newline is a line too.
-    template <class Take>
-    void end(Take&& take) {
-        if (!line_.empty() || isTooLong_) hand(take);
+    template <class OnLine>
+    void end(OnLine&& onLine) {
+        if (!line_.empty() || isTooLong_) emitLine(onLine);
     }
 
 private:
-    void keep(std::string_view part) {
+    void append(std::string_view part) {
         line_ += part;
-        isTooLong_ = isTooLong_ || line_.size() > longest;
+        isTooLong_ = isTooLong_ || line_.size() > maxLineBytes;
         if (!isTooLong_) return;
-        namesSilence_ = namesSilence_ || namesSilence(line_);
+        hasSilence_ = hasSilence_ || containsSilenceWord(line_);
         // keeps the end, which may be the first part of the word
-        line_.erase(0, line_.size() - std::min(line_.size(), word.size() - 1));
+        line_.erase(0, line_.size() - std::min(line_.size(), silenceWord.size() - 1));
     }
-    template <class Take>
-    void hand(Take&& take) {
-        take(!isTooLong_ ? std::string_view{line_} : namesSilence_ ? word : "", !isTooLong_);
+    template <class OnLine>
+    void emitLine(OnLine&& onLine) {
+        onLine(!isTooLong_ ? std::string_view{line_} : hasSilence_ ? silenceWord : "", !isTooLong_);
         line_.clear();
-        isTooLong_ = namesSilence_ = false;
+        isTooLong_ = hasSilence_ = false;
     }
 
-    static constexpr std::string_view word = "silence";
+    static constexpr std::string_view silenceWord = "silence";
     std::string line_;
-    bool isTooLong_ = false, namesSilence_ = false;
+    bool isTooLong_ = false, hasSilence_ = false;
 };
 
 /// One thread reads lines and applies silence immediately; another processes the lines in order. Rejections
@@ -76,32 +77,33 @@ private:
     /// A line waiting to be processed.
     struct Line {
         std::string text;
-        bool isWhole = true, silences = false;
-        std::uint64_t asked = 0; // number of silences up to this line
+        bool isWhole = true, isSilence = false;
+        std::uint64_t silenceCount = 0; // number of silences up to this line
     };
-    void read();
-    void keep(std::string_view text, bool isWhole);
-    void run();
-    void take(const Line& line);
-    void end();
-    // Answer of a query; an empty name if the line is not a query.
-    Result<PlainMessage> act(LineInput& input, const Line& line);
-    void complain(const std::string& reason);
+    void runReader();
+    void enqueue(std::string_view text, bool isWhole);
+    void runWorker();
+    void process(const Line& line);
+    void silenceAtEnd();
+    /// Returns the answer of a query (its name is empty if the line is none), or an error line.
+    Result<PlainMessage> handleInput(LineInput& input, const Line& line);
+    void reportError(const std::string& reason);
     void reportSuppressed();
 
     Session& session_;
     AudioOutput& output_;
     MessageRouter& messages_;
     const ClipSource clips_;
-    std::uint64_t lines_ = 0;
-    InputQueue<Line> waiting_;
-    ErrorRateLimit complaints_{1'000'000'000};
+    std::uint64_t lineCount_ = 0;
+    InputQueue<Line> queue_;
+    ErrorRateLimit errorLimit_{1'000'000'000};
     const bool keepsPlaying_; // true: no silence at the end of input
     std::atomic<bool> stop_{false}, isAllRead_{false}, hasEnded_{false};
-    std::thread thread_, reader_;
+    std::thread worker_, reader_;
 };
 
-/// Applies an input or control from that source. Empty, or an error. Any thread but the render thread.
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output, MuteRequester from);
+/// Applies an input; `requester`: source of a silence. Empty, or an error. Any thread but the render thread.
+std::string applyInput(const LineInput& input, Session& session, AudioOutput& output,
+                       MuteRequester requester);
 
 } // namespace physvib

@@ -28,7 +28,7 @@ class LiveBeats {
 public:
     /// Time that the output latency must cover in addition to a block and the limiter, i.e. ClockLaw's
     /// longest gap and two steps together: the detector's delay, and the thread's maximum delay.
-    static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
+    static constexpr double detectionDelaySeconds = BeatDetector::maxDelaySeconds + 0.010;
 
     /// Both references outlive this object. Message thread.
     LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity)
@@ -45,44 +45,44 @@ public:
     std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_relaxed); } ///< Any thread.
 
 private:
-    static constexpr std::chrono::milliseconds pause{1};
+    static constexpr std::chrono::milliseconds pollInterval{1};
     static constexpr std::int64_t nsPerSecond = 1'000'000'000;
     static std::int64_t nsOf(std::int64_t frames, int rateHz) {
         return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz;
     }
 
     void run() {
-        HeardPiece piece;
+        InputChunk chunk;
         while (!stop_) {
-            while (inputs_.next(piece)) take(piece);
-            std::this_thread::sleep_for(pause);
+            while (inputs_.next(chunk)) process(chunk);
+            std::this_thread::sleep_for(pollInterval);
         }
     }
     // Restarts the detector if session time jumps, because input was lost or the device returned.
-    void take(const HeardPiece& piece) {
-        const std::int64_t expectedNs = beginNs_ + (detector_ ? nsOf(heardFrames_, rateHz_) : 0);
-        if (!detector_ || piece.rateHz != rateHz_ ||
-            std::abs(piece.sessionNs - expectedNs) > nsPerSecond / piece.rateHz)
-            begin(piece);
-        heardFrames_ += piece.count;
-        detector_->take(piece.sound(), [this](const BandOnset& onset) { strike(onset); });
+    void process(const InputChunk& chunk) {
+        const std::int64_t expectedNs = startNs_ + (detector_ ? nsOf(processedFrames_, rateHz_) : 0);
+        if (!detector_ || chunk.rateHz != rateHz_ ||
+            std::abs(chunk.sessionNs - expectedNs) > nsPerSecond / chunk.rateHz)
+            restart(chunk);
+        processedFrames_ += chunk.count;
+        detector_->process(chunk.sound(), [this](const BandOnset& onset) { submitBeat(onset); });
     }
-    void begin(const HeardPiece& piece) {
-        if (!detector_ || piece.rateHz != rateHz_)
-            detector_ = std::make_unique<BeatDetector>(piece.rateHz, sensitivity_);
+    void restart(const InputChunk& chunk) {
+        if (!detector_ || chunk.rateHz != rateHz_)
+            detector_ = std::make_unique<BeatDetector>(chunk.rateHz, sensitivity_);
         else
             detector_->reset();
-        rateHz_ = piece.rateHz;
-        beginNs_ = piece.sessionNs;
-        heardFrames_ = 0;
+        rateHz_ = chunk.rateHz;
+        startNs_ = chunk.sessionNs;
+        processedFrames_ = 0;
     }
-    void strike(const BandOnset& onset) {
+    void submitBeat(const BandOnset& onset) {
         const PhantomPanner panner = session_.panner();
-        std::vector<CollisionEvent> strikes;
-        strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
-                   panner.fieldWidthMetres(), panner.fieldHeightMetres(),
-                   [&](const CollisionEvent& e) { strikes.push_back(e); });
-        if (session_.submit({Strikes{strikes}, 0})) ++beats_;
+        std::vector<CollisionEvent> events;
+        makeBeatEvents(onset, startNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
+                       panner.fieldWidthMetres(), panner.fieldHeightMetres(),
+                       [&](const CollisionEvent& e) { events.push_back(e); });
+        if (session_.submit({Strikes{events}, 0})) ++beats_;
     }
 
     Session& session_;
@@ -91,16 +91,16 @@ private:
     const double sensitivity_;
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
-    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of its first sample; samples so far
+    std::int64_t startNs_ = 0, processedFrames_ = 0; // session time of its first sample; samples so far
     std::atomic<std::uint64_t> beats_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };
 
-struct LivePlay {
+struct LivePlaySettings {
     RigSettings rig;
     double seconds = 10.0;
-    bool listens = false;              ///< reads standard input, line by line (see readInputLine)
+    bool readsInput = false;           ///< reads standard input, line by line (see readInputLine)
     std::optional<BeatVoices> beats{}; ///< plays beats of the input at rig.output.inputs
     double beatSensitivity = 0.0;
     OscSettings osc;
@@ -110,21 +110,21 @@ struct LivePlay {
 };
 
 /// Empty, or one error line. Message thread.
-std::string playLive(LivePlay wanted);
+std::string playLive(LivePlaySettings settings);
 
 // Plays a sound file on the actuators, as a clip in a session without bodies, with its safety limits.
 
 /// True if the name has an extension of a recording or a haptic file.
-bool namesSound(std::string_view file);
+bool isSoundFile(std::string_view file);
 
 /// Reads the sound file given as scene. Sets a scene without bodies in `job`; sets the file's duration and a
 /// layout with one actuator per channel in `options`, unless given. Or one error line. Message thread.
-Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job);
+Result<LoadedClip> loadSound(RenderJob& options, std::string_view device, LoadedRender& job);
 
 /// Empty, or an error if the layout has fewer actuators than channels.
-std::string soundFault(const LoadedClip& sound, const LoadedRender& job);
+std::string soundError(const LoadedClip& sound, const LoadedRender& job);
 
-/// Starts the sound and sets the duration of `wanted` to its end. Empty, or one error line. Message thread.
-std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages);
+/// Starts the sound and sets the duration of `settings` to its end. Empty, or one error line. Message thread.
+std::string startSound(LivePlaySettings& settings, const Session& session, MessageRouter& messages);
 
 } // namespace physvib

@@ -20,35 +20,34 @@
 namespace physvib {
 namespace {
 
-/// Options of the scene, and of the output.
 struct PlayOptions {
     RenderJob scene;
-    LivePlay live; ///< settings of the playback
+    LivePlaySettings live; ///< settings of the playback
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
-    std::vector<std::string> pads; ///< game controllers: auto or a name, optionally with @PROFILE; alone or
-                                   ///< in addition to other outputs
+    std::vector<std::string> pads; ///< game controllers, with or without other outputs: auto or
+                                   ///< NAME[@PROFILE]
     std::string map;               ///< "1,2,3,4": device outputs from 1, in the order of the actuators
     std::string onOff;             ///< actuators from 1 that are on/off motors; empty: none
     double threshold = OnOffSteps::thesisThreshold; ///< of these motors, as a share of full scale
     std::string noise;                              ///< outputs for pink noise, as in map; empty: none
     double noiseDb = PinkNoise::safeDb;             ///< root mean square, dB of full scale
     std::string driver = "thread";                  ///< or "message"
-    bool hasHands = false, isDirect = false;
+    bool takesLiveInput = false, isDirect = false;
     std::string beatInputs; ///< device inputs whose beats are played, as in map; empty: none
     BeatOptions beats;
-    double oscTurnDegrees = 0.0;        ///< counter-clockwise rotation of a phone from upright
-    double levelDb = safeStartDecibels; ///< master level
-    std::string ceilings = "0";         ///< dB of full scale: one for all actuators, or one each
-    int blockFrames = 0;                ///< 0: device default
+    double oscTurnDegrees = 0.0;     ///< counter-clockwise rotation of a phone from upright
+    double levelDb = defaultLevelDb; ///< master level
+    std::string ceilings = "0";      ///< dB of full scale: one for all actuators, or one each
+    int blockFrames = 0;             ///< 0: device default
 };
 
 /// "1,2,3" to {0, 1, 2}; an empty text gives an empty map, any other text an error.
-std::string takeMap(std::string_view option, const std::string& like, const std::string& text,
-                    std::vector<int>& map, int most = std::numeric_limits<int>::max()) {
-    const auto isKnown = [most](int number) { return number >= 1 && number <= most; };
-    if (!text.empty() && !(parseNumbers(text, map) && std::ranges::all_of(map, isKnown)))
-        return std::string{option} + ": expected " + like + ", found " + inQuotes(text);
+std::string parseMap(std::string_view option, const std::string& example, const std::string& text,
+                     std::vector<int>& map, int maxNumber = std::numeric_limits<int>::max()) {
+    const auto isInRange = [maxNumber](int number) { return number >= 1 && number <= maxNumber; };
+    if (!text.empty() && !(parseNumbers(text, map) && std::ranges::all_of(map, isInRange)))
+        return std::string{option} + ": expected " + example + ", found " + inQuotes(text);
     for (int& output : map) --output;
     return {};
 }
@@ -56,12 +55,11 @@ std::string takeMap(std::string_view option, const std::string& like, const std:
 float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
 
 /// "-6" for all channels, or "-6,-12,-6,-6" for each; false for any other text.
-bool parseCeilings(const std::string& text, int channels,
-                   std::array<float, limits::maxEnchanters>& ceilings) {
+bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxActuators>& ceilings) {
     std::vector<double> decibels;
     if (!parseNumbers(text, decibels)) return false;
     if (decibels.size() == 1) decibels.resize(static_cast<std::size_t>(channels), decibels[0]);
-    const auto isCeiling = [](double dB) { return dB >= leastCeilingDb && dB <= 0.0; };
+    const auto isCeiling = [](double dB) { return dB >= minCeilingDb && dB <= 0.0; };
     if (decibels.size() != static_cast<std::size_t>(channels) ||
         !std::all_of(decibels.begin(), decibels.end(), isCeiling))
         return false;
@@ -74,28 +72,28 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
     if (o.scene.contactSound.find(',') != std::string::npos) setup.ears = 2;
     setup.marks = o.scene.marks();
-    if (o.isDirect) setup.direct = Direct::told;
+    if (o.isDirect) setup.direct = Direct::inputs;
     setup.longestGapSeconds =
         o.driver == "thread" ? threadGapSeconds(setup.stepsPerSecond) : messageTimerGapSeconds;
     if (!o.beatInputs.empty())
         setup.longestGapSeconds =
-            std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
+            std::max(setup.longestGapSeconds, LiveBeats::detectionDelaySeconds - 2.0 / setup.stepsPerSecond);
     return setup;
 }
 
 /// Resolves the DualSense's device name, selects the outputs of its coils unless others were given, and sends
 /// the report that it needs. Returns an exit code.
-int takeDualSense(AudioOutputSettings& settings, int channels) {
+int prepareDualSense(AudioOutputSettings& settings, int channels) {
     if (settings.channelMap.empty() && channels != 2)
-        return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
-                                    std::to_string(channels) + "; try --layout dualsense, or --map");
+        return reportExit(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
+                                         std::to_string(channels) + "; try --layout dualsense, or --map");
     if (settings.device == dualSenseDeviceName) {
         auto device = dualSenseDevice(listAudioDevices(systemAudioDrivers));
-        if (!device) return leave(exitFailed, device.error);
+        if (!device) return reportExit(exitFailed, device.error);
         settings.device = std::move(device.value);
     }
     if (settings.channelMap.empty()) settings.channelMap = {dualsense::leftCoil, dualsense::rightCoil};
-    if (const std::string note = giveCoilsToSound(); !note.empty()) tell(note);
+    if (const std::string note = switchCoilsToAudio(); !note.empty()) printMessage(note);
     return exitDone;
 }
 
@@ -129,7 +127,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
              "other outputs of the device that play pink noise, from 1: masks what actuators sound like")
         .as("5,6");
     command.add("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")
-        .in(PinkNoise::leastDb, PinkNoise::mostDb);
+        .in(PinkNoise::minDb, PinkNoise::maxDb);
     command
         .add("--contact-sound", o.scene.contactSound,
              "other outputs of the device on which each hit is heard, from 1; two: left and right")
@@ -141,24 +139,24 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .as("8");
     command.add("--block", o.blockFrames, "frames per block; 0: device default")
         .in(0, limits::maxBlockFrames)
-        .unshown();
+        .hideDefault();
     command.add("--record", o.live.rig.recordPath, "WAV of what was played, before the master level")
-        .written("FILE.wav");
+        .outputFile("FILE.wav");
     command
         .add("--save", o.live.rig.savePath,
              "the session, to render it again; what was played beside it as .events.csv")
-        .writtenAs("FILE.json");
+        .outputFileNamed("FILE.json");
     command
         .add("--beats", o.beatInputs,
              "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)")
         .as("1,2");
     declareBeatOptions(command, o.beats);
-    command.add("--hands", o.hasHands,
+    command.add("--hands", o.takesLiveInput,
                 "disable the scene's scripted user input; take it from --listen instead");
     command.add("--direct", o.isDirect,
                 "low-latency mode for messages and controls: one block plus the limiter's look-ahead. "
                 "Collisions keep the normal output latency");
-    command.add("--listen", o.live.listens,
+    command.add("--listen", o.live.readsInput,
                 "take inputs and controls from standard input, a line of JSON each (Docs/sessions.md)");
     command.add("--keep-playing", o.live.keepsPlaying,
                 "play on when standard input has ended, until --seconds are over: for a file of lines. "
@@ -181,25 +179,25 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
              "by how much a phone that tilts the scene is held counter-clockwise of upright")
         .as("DEGREES")
         .in(-180.0, 180.0)
-        .unshown();
+        .hideDefault();
     command.add("--osc-to", o.live.osc.receiver, "send each hit as it is felt, and the status once a second")
         .as("HOST:PORT");
 }
 
 bool isGiven(const OptionTable& command, std::string_view name) {
     return std::ranges::any_of(command.options, [&](const Option& option) {
-        return option.spellings.front() == name && !option.said.empty();
+        return option.spellings.front() == name && !option.arguments.empty();
     });
 }
 
 /// Without a device: lists the available ones, and prints a complete example call.
-int leaveWithoutDevice(const std::string& scene) {
-    const auto devices = devicesOfThisMachine();
+int suggestDevices(const std::string& scene) {
+    const auto devices = availableDevices();
     printDevices(std::cout, devices);
     std::cout << (devices.empty() ? "no audio device was found; for nobody, in time: " : "for example: ")
-              << proposedCall(scene, devices) << '\n'
+              << suggestedPlayCall(scene, devices) << '\n'
               << std::flush;
-    return leave(exitUsage, "play: expected --device, --board or --pad");
+    return reportExit(exitUsage, "play: expected --device, --board or --pad");
 }
 
 int runPlay(const OptionTable& command, PlayOptions& o) {
@@ -207,118 +205,125 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
-    if (o.device.empty() && outputs.sinks.empty()) return leaveWithoutDevice(o.scene.scene);
-    if (o.device.empty()) { // then a timer gives the blocks
+    if (o.device.empty() && outputs.sinks.empty()) return suggestDevices(o.scene.scene);
+    if (o.device.empty()) { // boards and controllers alone: a timer requests the blocks
         o.device = OutputNames{"BOARD:"}.device;
         for (const char* option : {"--map", "--on-off", "--threshold", "--noise", "--noise-db",
                                    "--contact-sound", "--marker", "--beats"})
             if (isGiven(command, option))
-                return leave(exitUsage,
-                             std::string{option} + ": expected a --device, as it is of its channels");
+                return reportExit(exitUsage,
+                                  std::string{option} + ": expected a --device, as it is of its channels");
     }
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
-    if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
+    if (auto error = sceneOptionsError(o.scene); !error.empty()) return reportExit(exitUsage, error);
+    if (!o.scene.coupling.empty()) return reportExit(exitUsage, "--coupling: not yet live; render has it");
     if (o.scene.limiting == Limiting::blocks && !o.live.rig.savePath.empty())
-        return leave(exitUsage, "--limiter blocks: expected no --save, as a session does not keep blocks");
+        return reportExit(exitUsage,
+                          "--limiter blocks: expected no --save, as a session does not keep blocks");
     const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings &&
                          o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 &&
                          !o.scene.isWeighted;
     if (hasBoard && !isPlain)
-        return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and "
-                                "--actuator; render --events, then board PORT play, has them");
+        return reportExit(exitUsage,
+                          "--board: not yet with --method, --level-db, --gamma, --perceived-level and "
+                          "--actuator; render --events, then board PORT play, has them");
     if (o.isDirect && hasBoard)
-        return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
-    if (const auto preset = picoLayout(systemAudioDrivers, o.device);
+        return reportExit(exitUsage,
+                          "--direct: a board has to know of a strike earlier; expected no --board");
+    if (const auto preset = picoLayoutPreset(systemAudioDrivers, o.device);
         !preset.empty() && !isGiven(command, "--layout"))
         o.scene.layout = preset;
     LoadedRender job{o.scene, {}, {}, {}, {}};
     std::optional<LoadedClip> sound;
-    if (namesSound(o.scene.scene)) {
+    if (isSoundFile(o.scene.scene)) {
         if (!outputs.sinks.empty())
-            return leave(exitUsage, o.scene.scene + ": boards and controllers play no recordings; "
-                                                    "expected a --device alone");
-        noteGiven(command, o.scene);
-        auto taken = takeSound(o.scene, o.device, job);
-        if (!taken) return leave(exitFailed, taken.error);
-        sound = std::move(taken.value);
-    } else if (const int code = takeScene(job); code != exitDone)
+            return reportExit(exitUsage, o.scene.scene + ": boards and controllers play no recordings; "
+                                                         "expected a --device alone");
+        recordGivenOptions(command, o.scene);
+        auto loaded = loadSound(o.scene, o.device, job);
+        if (!loaded) return reportExit(exitFailed, loaded.error);
+        sound = std::move(loaded.value);
+    } else if (const int code = loadSceneInto(job); code != exitDone)
         return code;
-    if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
-    auto layout = layoutNamed(o.scene.layout);
-    if (!layout) return leave(exitFailed, layout.error);
+    if (o.takesLiveInput) job.scene = sceneForUserInput(std::move(*job.scene));
+    auto layout = resolveLayout(o.scene.layout);
+    if (!layout) return reportExit(exitFailed, layout.error);
     auto calibrated = calibratedLayout(o.scene, std::move(layout.value));
-    if (!calibrated) return leave(exitFailed, calibrated.error);
+    if (!calibrated) return reportExit(exitFailed, calibrated.error);
     job.layout = std::move(calibrated.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
-        return leave(exitUsage,
-                     "--board: the board has four channels, this layout " + std::to_string(job.channels()));
-    if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty())
-        return leave(exitUsage, fault);
-    if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = sound ? soundFault(*sound, job) : ""; !fault.empty()) return leave(exitUsage, fault);
+        return reportExit(exitUsage, "--board: the board has four channels, this layout " +
+                                         std::to_string(job.channels()));
+    if (auto error = channelCountError(outputs.sinks, job.channels()); !error.empty())
+        return reportExit(exitUsage, error);
+    if (auto error = fixedLevelError(job); !error.empty()) return reportExit(exitFailed, error);
+    if (auto error = sound ? soundError(*sound, job) : ""; !error.empty())
+        return reportExit(exitUsage, error);
     auto actuators = chooseActuators(o.scene, job.layout);
-    if (!actuators) return leave(exitFailed, actuators.error);
+    if (!actuators) return reportExit(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
     for (const std::string& line :
-         remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene))
-        tell("warning: " + line);
-    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty())
-        return leave(exitFailed, fault);
-    for (const std::string& note : notesOf(job.recordings)) tell(note);
-    for (const std::string& line : calibrationWarnings(o.scene, job.layout)) tell("warning: " + line);
-    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
-    const std::vector<std::string> written{
+         remapWarnings(job.actuators.remap, materialSounds(*job.scene), job.layout, o.scene))
+        printMessage("warning: " + line);
+    if (auto error = loadNamedRecordings(job, materialSounds(*job.scene), o.scene.scene); !error.empty())
+        return reportExit(exitFailed, error);
+    for (const std::string& note : notesOf(job.recordings)) printMessage(note);
+    for (const std::string& line : calibrationWarnings(o.scene, job.layout)) printMessage("warning: " + line);
+    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) printMessage(line);
+    const std::vector<std::string> outputPaths{
         o.live.rig.recordPath, o.live.rig.savePath,
         o.live.rig.savePath.empty()
             ? ""
             : std::filesystem::path{o.live.rig.savePath}.replace_extension(".events.csv").string()};
-    if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
+    if (auto clash = fileClashError(outputPaths, job.namedInputs()); !clash.empty())
+        return reportExit(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     const std::string actuatorsOf = "actuators like 1,2, of " + std::to_string(job.channels());
     ListeningSettings& listening = settings.listening;
-    for (const std::string& fault :
-         {takeMap("--map", "outputs like 1,2,3,4", o.map, settings.channelMap),
-          takeMap("--on-off", actuatorsOf, o.onOff, settings.onOff, job.channels()),
-          takeMap("--noise", "outputs like 5,6", o.noise, listening.noise),
-          takeMap("--contact-sound", "outputs like 5,6", o.scene.contactSound, listening.contacts),
-          takeMap("--marker", "outputs like 8", o.scene.marker, listening.marks),
-          takeMap("--beats", "inputs like 1,2", o.beatInputs, settings.inputs)})
-        if (!fault.empty()) return leave(exitUsage, fault);
+    for (const std::string& error :
+         {parseMap("--map", "outputs like 1,2,3,4", o.map, settings.channelMap),
+          parseMap("--on-off", actuatorsOf, o.onOff, settings.onOffActuators, job.channels()),
+          parseMap("--noise", "outputs like 5,6", o.noise, listening.noise),
+          parseMap("--contact-sound", "outputs like 5,6", o.scene.contactSound, listening.contacts),
+          parseMap("--marker", "outputs like 8", o.scene.marker, listening.marks),
+          parseMap("--beats", "inputs like 1,2", o.beatInputs, settings.inputs)})
+        if (!error.empty()) return reportExit(exitUsage, error);
     if (dualsense::isDevice(o.device))
-        if (const int code = takeDualSense(settings, job.channels()); code != exitDone) return code;
+        if (const int code = prepareDualSense(settings, job.channels()); code != exitDone) return code;
     settings.onOffThreshold = o.threshold;
     listening.noiseDb = o.noiseDb;
     listening.contactDb = o.scene.contactSoundDb;
     const auto voices = beatVoicesOf(o.beats, job.channels());
-    if (!voices) return leave(exitUsage, voices.error);
+    if (!voices) return reportExit(exitUsage, voices.error);
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
-        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" +
-                                    std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
+        return reportExit(exitUsage,
+                          "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" +
+                              std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
     if (hasBoard && std::ranges::any_of(setup.ceilings, [](float ceiling) { return ceiling < 1.0f; }))
-        return leave(exitUsage, "--ceiling: a board has none below full scale; expected a lower --level");
+        return reportExit(exitUsage,
+                          "--ceiling: a board has none below full scale; expected a lower --level");
     setup.log = LogUse::none;
-    LivePlay& wanted = o.live;
-    wanted.rig.setup = setup;
-    wanted.rig.output = settings;
-    wanted.rig.sinks = outputs.sinks;
-    wanted.rig.ownThread = o.driver == "thread";
-    wanted.rig.provenance = {PHYSVIB_VERSION,
-                             {{"scene", setup.scene.name}, {"session", wanted.rig.savePath}}};
-    wanted.seconds = o.scene.seconds;
-    wanted.beatSensitivity = o.beats.sensitivity;
-    wanted.osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
-    wanted.sound = std::move(sound);
-    if (!settings.inputs.empty()) wanted.beats = voices.value;
-    const std::string error = playLive(std::move(wanted));
-    return error.empty() ? exitDone : leave(exitFailed, error);
+    LivePlaySettings& live = o.live;
+    live.rig.setup = setup;
+    live.rig.output = settings;
+    live.rig.sinks = outputs.sinks;
+    live.rig.hasOwnThread = o.driver == "thread";
+    live.rig.provenance = {PHYSVIB_VERSION, {{"scene", setup.scene.name}, {"session", live.rig.savePath}}};
+    live.seconds = o.scene.seconds;
+    live.beatSensitivity = o.beats.sensitivity;
+    live.osc.phoneAngleRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
+    live.sound = std::move(sound);
+    if (!settings.inputs.empty()) live.beats = voices.value;
+    const std::string error = playLive(std::move(live));
+    return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
 } // namespace
 
 Command playCommand() {
-    return commandOf("play", "play a scene or a sound live on an audio device", declarePlayOptions, runPlay);
+    return makeCommand("play", "play a scene or a sound live on an audio device", declarePlayOptions,
+                       runPlay);
 }
 
 } // namespace physvib

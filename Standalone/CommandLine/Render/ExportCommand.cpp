@@ -17,13 +17,13 @@ namespace {
 struct ExportOptions {
     RenderJob input; ///< what is exported, and its layout and panning
     std::string to;  ///< path; its extension selects the format
-    double error = 0.004;
+    double maxDeviation = 0.004;
 };
 
-constexpr double leastError = 1e-5, mostError = 0.1;
+constexpr double minError = 1e-5, maxError = 0.1;
 
 /// The panner at an event's time: a session may have changed its layout.
-StrikeGains gainsOf(const LoadedRender& job) {
+EventGains gainsOf(const LoadedRender& job) {
     return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event,
                                                                 PhantomPanner::Gains& gains) mutable {
         while (job.keepsLayouts() && next < job.session->log.panners.size() &&
@@ -36,9 +36,9 @@ StrikeGains gainsOf(const LoadedRender& job) {
 
 HitExport hitsOf(const LoadedRender& job) {
     const std::string& actuator = job.options.actuator;
-    const bool isOwn = actuator == "none" || actuator == "layout";
-    return {job.source(), leafOf(job.source()), job.made.events,
-            job.layout,   job.options.layout,   isOwn ? std::string{} : actuator};
+    const bool isDefault = actuator == "none" || actuator == "layout";
+    return {job.source(), fileNameOf(job.source()), job.collisions.events,
+            job.layout,   job.options.layout,       isDefault ? std::string{} : actuator};
 }
 
 Result<Clip> clipOf(const LoadedRender& job, double error) {
@@ -46,28 +46,29 @@ Result<Clip> clipOf(const LoadedRender& job, double error) {
     return clipOfHits(hitsOf(job), {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
 }
 
-void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format,
-                const FrequencyScale& usual) {
-    for (const std::string& loss : lossesOf(parts, format, usual)) tell("warning: " + loss);
+void printLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format,
+                 const FrequencyScale& scale) {
+    for (const std::string& loss : lossesOf(parts, format, scale)) printMessage("warning: " + loss);
     if (parts.size() > 1)
-        tell("warning: a file for each actuator; for one file of all hits: --layout phone1");
+        printMessage("warning: a file for each actuator; for one file of all hits: --layout phone1");
     if (job.session && !job.session->log.channels.empty())
-        tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
-    warnOf(job.made.drops, "collisions lost because too many began in one physics step");
+        printMessage(
+            "warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
+    warnIfAny(job.collisions.drops, "collisions lost because too many began in one physics step");
 }
 
 /// The error of options that have no effect on an export; or empty.
-std::string refusalOf(const RenderJob& o) {
+std::string exportOptionsError(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
-    if (const char* other = o.firstGiven(
+    if (const char* option = o.firstGiven(
             {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"}))
-        return std::string{other} +
+        return std::string{option} +
                ": says how something is played, not what it is: expected with render or play";
     return o.playsRecordings ? "--method SV: recordings are no waves to be exported" : "";
 }
 
 /// Makes the events of scene, session or list, within --seconds if given. Empty, or one error line.
-std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
+std::string loadEvents(LoadedRender& job, std::vector<std::string>& warnings) {
     if (!job.sessionRecordings.sets.empty())
         return job.options.scene + ": the session plays recordings, which are no waves to be exported; "
                                    "expected --method AV-FV-DRV, for modes";
@@ -77,58 +78,61 @@ std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
     if (!made) return made.error;
     warnings = std::move(made.value);
     if (job.scene || job.options.isGiven("--seconds"))
-        std::erase_if(job.made.events, [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
+        std::erase_if(job.collisions.events,
+                      [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
     return {};
 }
 
 void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
     std::vector<std::string> formats;
-    for (const ClipFormatRow& row : clipFormats)
+    for (const ClipFormatInfo& row : clipFormats)
         formats.push_back(std::string{row.ending} + " (" + std::string{row.owner} + ")");
     command.add("--to", o.to, "the file; its ending says the format: " + listed(formats))
         .required()
-        .written("FILE");
-    command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength")
-        .in(leastError, mostError);
+        .outputFile("FILE");
+    command
+        .add("--error", o.maxDeviation, "how far lines may be from each hit's exponential, of its strength")
+        .in(minError, maxError);
 }
 
 int runExport(const OptionTable& command, ExportOptions& options) {
     RenderJob& o = options.input;
-    noteGiven(command, o);
-    if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
+    recordGivenOptions(command, o);
+    if (const std::string error = exportOptionsError(o); !error.empty()) return reportExit(exitUsage, error);
     const auto format = clipFormatOf(options.to);
-    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, writtenEndings));
+    if (!format) return reportExit(exitUsage, "--to: " + fileExtensionError(options.to, writableEndings));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // the playing device equalises its own actuators
-    if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);
+    if (const std::string error = sceneOptionsError(o); !error.empty()) return reportExit(exitUsage, error);
     LoadedRender job{o, {}, {}, {}, {}};
-    if (const int code = takeInputs(job); code != exitDone) return code;
-    const auto usual = frequencyScaleOf(o);
-    if (!usual) return leave(exitFailed, usual.error);
+    if (const int code = loadInputs(job); code != exitDone) return code;
+    const auto scale = frequencyScaleOf(o);
+    if (!scale) return reportExit(exitFailed, scale.error);
     std::vector<std::string> warnings;
-    if (const std::string error = job.clip ? std::string{} : takeEvents(job, warnings); !error.empty())
-        return leave(exitFailed, error);
-    const Result<Clip> clip = clipOf(job, options.error);
-    if (!clip) return leave(exitFailed, clip.error);
+    if (const std::string error = job.clip ? std::string{} : loadEvents(job, warnings); !error.empty())
+        return reportExit(exitFailed, error);
+    const Result<Clip> clip = clipOf(job, options.maxDeviation);
+    if (!clip) return reportExit(exitFailed, clip.error);
     const std::vector<ClipPart> parts = partsOf(clip.value, options.to, *format);
     std::vector<std::string> outputs, inputs = job.namedInputs();
     for (const ClipPart& part : parts) outputs.push_back(part.path);
     for (const std::string& path : {o.scene, o.fromEvents, o.layout, o.actuator}) inputs.push_back(path);
-    if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
-    const Result<std::string> written = writeParts(parts, *format, usual.value);
-    if (!written) return leave(exitFailed, written.error);
+    if (const std::string clash = fileClashError(outputs, inputs); !clash.empty())
+        return reportExit(exitUsage, clash);
+    const Result<std::string> written = writeParts(parts, *format, scale.value);
+    if (!written) return reportExit(exitFailed, written.error);
     std::cout << written.value;
-    for (const std::string& line : warnings) tell("warning: " + line);
-    tellLosses(job, parts, *format, usual.value);
+    for (const std::string& line : warnings) printMessage("warning: " + line);
+    printLosses(job, parts, *format, scale.value);
     return exitDone;
 }
 
 } // namespace
 
 Command exportCommand() {
-    return commandOf("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others",
-                     declareExport, runExport);
+    return makeCommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others",
+                       declareExport, runExport);
 }
 
 } // namespace physvib

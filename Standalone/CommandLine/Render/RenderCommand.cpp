@@ -20,36 +20,37 @@ namespace {
 constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little below the limit of a RIFF header
 
 // The error of an event at or above half the sample rate, which would alias; or empty.
-std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
+std::string aliasingError(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
     const double limitHz = 0.5 * rateHz;
-    const auto high =
+    const auto tooHigh =
         std::find_if(events.begin(), events.end(), [=](const auto& e) { return e.frequencyHz >= limitHz; });
-    if (high == events.end()) return {};
+    if (tooHigh == events.end()) return {};
     std::ostringstream text;
-    text << source << ": event " << high - events.begin() + 1
+    text << source << ": event " << tooHigh - events.begin() + 1
          << ": column frequency_hz: expected less than half of --rate, " << limitHz << " Hz, found "
-         << high->frequencyHz;
+         << tooHigh->frequencyHz;
     return text.str();
 }
 
 // Prints warnings about all that was lost or altered.
 void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
-    const auto& events = job.made.events;
-    const auto beyond =
+    const auto& events = job.collisions.events;
+    const auto afterEnd =
         std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
-    warnOf(job.made.drops, "collisions lost because too many began in one physics step");
-    warnOf(status.rejected, "events that could not be played");
-    warnOf(status.late, "events played late");
-    warnOf(status.withoutPart,
-           "events of a part of the body that no actuator has, felt by their place on all");
-    warnOf(status.stolen, "modes faded out early because too many different ones sounded at once");
-    warnOf(status.nonFinite, "samples that were not finite and became silence");
-    warnOf(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");
-    warnOf(static_cast<std::uint64_t>(beyond),
-           "events that begin after the end of the render (see --seconds)");
+    warnIfAny(job.collisions.drops, "collisions lost because too many began in one physics step");
+    warnIfAny(status.rejected, "events that could not be played");
+    warnIfAny(status.late, "events played late");
+    warnIfAny(status.withoutPart,
+              "events of a part of the body that no actuator has, felt by their place on all");
+    warnIfAny(status.stolen, "modes faded out early because too many different ones sounded at once");
+    warnIfAny(status.nonFinite, "samples that were not finite and became silence");
+    warnIfAny(status.guarded,
+              "times an actuator was turned down, as it would have got nearly direct current");
+    warnIfAny(static_cast<std::uint64_t>(afterEnd),
+              "events that begin after the end of the render (see --seconds)");
     if (job.scene || job.clip) return;
-    const std::string outside = outsideWarning(events, job.field(), job.hasGuessedField());
-    if (!outside.empty()) tell("warning: " + outside);
+    const std::string outside = outsideFieldWarning(events, job.field(), job.hasGuessedField());
+    if (!outside.empty()) printMessage("warning: " + outside);
 }
 
 OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls,
@@ -73,51 +74,52 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
                         RenderOutputs& outputs) {
     const RenderJob& o = job.options;
     const ContactSounds sounds{job.recordings, o.sampleRateHz};
-    ContactAudioRender heard{o.sampleRateHz, job.frames(), o.blockFrames};
-    heard.ears = o.contactSoundEars;
-    heard.field = job.panner();
-    heard.levelDb = o.contactSoundDb;
-    heard.recordings = {sounds.contacts(), true};
-    renderContactAudio(
-        job.made.events, std::move(controls), heard,
-        [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels, frames); });
+    ContactAudioRender audio{o.sampleRateHz, job.frames(), o.blockFrames};
+    audio.ears = o.contactSoundChannels;
+    audio.field = job.panner();
+    audio.levelDb = o.contactSoundDb;
+    audio.recordings = {sounds.contacts(), true};
+    renderContactAudio(job.collisions.events, std::move(controls), audio,
+                       [&](const float* const* channels, int frames) {
+                           return outputs.writeContactSound(channels, frames);
+                       });
 }
 
 /// Renders the clip's samples, without collisions or controls.
 RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
-    const ClipVoices voices{job};
+    const ClipEvents clip{job};
     return renderOffline(
-        voices.events(), settingsOf(job, {}, {voices.contacts()}),
-        [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
+        clip.events(), settingsOf(job, {}, {clip.contacts()}),
+        [&](const float* const* channels, int frames) { return outputs.write(channels, frames); });
 }
 
 /// Renders the samples, and the onset markers if requested, in the same pass.
 RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
-    const auto which = job.options.marks();
-    if (!which)
-        return renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
-            return outputs.take(channels, frames);
+    const auto markedOnsets = job.options.marks();
+    if (!markedOnsets)
+        return renderOffline(job.collisions.events, settings, [&](const float* const* channels, int frames) {
+            return outputs.write(channels, frames);
         });
-    OnsetMarks marks{*which};
+    OnsetMarks marks{*markedOnsets};
     settings.marks = &marks;
     const auto status =
-        renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
-            return outputs.take(channels, frames) && outputs.takeMarks(channels[job.channels()], frames);
+        renderOffline(job.collisions.events, settings, [&](const float* const* channels, int frames) {
+            return outputs.write(channels, frames) && outputs.writeMarks(channels[job.channels()], frames);
         });
-    outputs.tellMarks(marks);
+    outputs.setMarkSummary(marks);
     return status;
 }
 
 RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
-    SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings,
-                            job.options.sampleRateHz};
+    SessionRecordings recordings{job.session ? job.session->log : SessionLog{}, job.sessionRecordings,
+                                 job.options.sampleRateHz};
     const auto controls =
-        again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels())
-                               : std::vector<RenderControl>{});
-    outputs.takeMotors(controls);
+        recordings.mergedWith(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels())
+                                          : std::vector<RenderControl>{});
+    outputs.computeMotorCommands(controls);
     const RenderStatus status =
-        renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
-    if (outputs.wantsContactSound()) renderContactSound(job, controls, outputs);
+        renderMarked(job, settingsOf(job, controls, recordings.withClips(job.playedRecordings())), outputs);
+    if (outputs.needsContactSound()) renderContactSound(job, controls, outputs);
     return status;
 }
 
@@ -127,7 +129,7 @@ void printExplanation(const LoadedRender& job, const RenderStatus& status) {
     output.levelGain = fromDecibels(job.options.levelDb);
     output.rejected = status.rejected;
     output.panner = &panner;
-    std::cout << describe(job.made.counts, &output);
+    std::cout << describe(job.collisions.counts, &output);
 }
 
 std::string render(LoadedRender& job) {
@@ -135,17 +137,20 @@ std::string render(LoadedRender& job) {
     if (auto error = outputs.open(); !error.empty()) return error;
     const auto warnings = makeEvents(job);
     if (!warnings) return warnings.error;
-    if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, job.source()); !error.empty())
+    if (auto error = aliasingError(job.options.sampleRateHz, job.collisions.events, job.source());
+        !error.empty())
         return error;
-    if (auto error = takeRecordings(job, job.made.events, job.source()); !error.empty()) return error;
-    for (const std::string& note : notesOf(job.recordings)) tell(note);
+    if (auto error = loadNamedRecordings(job, job.collisions.events, job.source()); !error.empty())
+        return error;
+    for (const std::string& note : notesOf(job.recordings)) printMessage(note);
     outputs.begin();
     const RenderStatus status = job.clip ? renderClip(job, outputs) : renderEvents(job, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;
-    for (const std::string& line : warnings.value) tell("warning: " + line);
-    for (const std::string& line : calibrationWarnings(job.options, job.layout)) tell("warning: " + line);
-    for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) tell(line);
-    if (!job.coupling.note.empty()) tell(job.coupling.note);
+    for (const std::string& line : warnings.value) printMessage("warning: " + line);
+    for (const std::string& line : calibrationWarnings(job.options, job.layout))
+        printMessage("warning: " + line);
+    for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) printMessage(line);
+    if (!job.coupling.note.empty()) printMessage(job.coupling.note);
     warnOfLosses(status, job);
     outputs.summarise(std::cout);
     if (job.options.explains) printExplanation(job, status);
@@ -155,26 +160,27 @@ std::string render(LoadedRender& job) {
 /// Runs the render of the checked options. All files appear, or none. Returns an exit code.
 int runRender(const RenderJob& options) {
     LoadedRender job{options, {}, {}, {}, {}};
-    if (const int code = takeInputs(job); code != exitDone) return code;
+    if (const int code = loadInputs(job); code != exitDone) return code;
     if (job.clip && !options.pad.empty())
-        return leave(exitUsage, "--pad: expected a scene, a session or events; a clip has samples alone");
-    if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty())
-        return leave(exitUsage, clash);
+        return reportExit(exitUsage,
+                          "--pad: expected a scene, a session or events; a clip has samples alone");
+    if (const std::string clash = fileClashError(options.writtenPaths(), job.namedInputs()); !clash.empty())
+        return reportExit(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
-        return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
+        return reportExit(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
     const std::string error = render(job);
-    return error.empty() ? exitDone : leave(exitFailed, error);
+    return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
 } // namespace
 
 Command renderCommand() {
-    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions,
-                     [](const OptionTable& command, RenderJob& options) {
-                         noteGiven(command, options);
-                         const std::string refusal = renderFault(options);
-                         return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
-                     });
+    return makeCommand("render", "render a scene, an event list or a clip to files", declareRenderOptions,
+                       [](const OptionTable& command, RenderJob& options) {
+                           recordGivenOptions(command, options);
+                           const std::string error = renderOptionsError(options);
+                           return error.empty() ? runRender(options) : reportExit(exitUsage, error);
+                       });
 }
 
 } // namespace physvib

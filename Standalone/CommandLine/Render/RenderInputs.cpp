@@ -12,23 +12,23 @@
 namespace physvib {
 namespace {
 
-/// Loads the layout of the options, else `own`, and the data of its actuators; or one error line.
-std::string chooseLayout(LoadedRender& job, std::optional<LayoutDescription> own) {
-    const bool isOwn = own && !job.options.isGiven("--layout");
-    auto layout = isOwn ? Result{std::move(*own)} : layoutNamed(job.options.layout);
+/// Loads the layout of the options, else `ownLayout`, and the data of its actuators; or one error line.
+std::string chooseLayout(LoadedRender& job, std::optional<LayoutDescription> ownLayout) {
+    const bool usesOwn = ownLayout && !job.options.isGiven("--layout");
+    auto layout = usesOwn ? Result{std::move(*ownLayout)} : resolveLayout(job.options.layout);
     if (layout) layout = calibratedLayout(job.options, std::move(layout.value));
     if (!layout) return layout.error;
     job.layout = std::move(layout.value);
-    if (auto fault = fixedLevelFault(job); !fault.empty()) return fault;
+    if (auto error = fixedLevelError(job); !error.empty()) return error;
     auto actuators = chooseActuators(job.options, job.layout);
     job.actuators = std::move(actuators.value);
     return actuators.error;
 }
 
 std::string readInputs(LoadedRender& job) {
-    if (auto fault = chooseLayout(job, job.session ? std::optional{job.session->layout} : std::nullopt);
-        !fault.empty())
-        return fault;
+    if (auto error = chooseLayout(job, job.session ? std::optional{job.session->layout} : std::nullopt);
+        !error.empty())
+        return error;
     if (!job.options.coupling.empty()) {
         if (job.session)
             return "--coupling: expected a scene or events; a saved session may change its layout and play "
@@ -40,7 +40,7 @@ std::string readInputs(LoadedRender& job) {
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
-    job.made.events = std::move(events.value.events);
+    job.collisions.events = std::move(events.value.events);
     job.listField = events.value.field;
     job.listNames = std::move(events.value.names);
     return {};
@@ -48,34 +48,35 @@ std::string readInputs(LoadedRender& job) {
 
 /// Simulates the events of the scene or session; one error line if the simulation takes too long.
 Result<SceneEvents> eventsOf(const LoadedRender& job) {
-    Patience patience{job.options.patienceSeconds};
-    auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience))
-                            : runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
-    if (auto fault = patience.fault(); !fault.empty()) return Failure{job.options.scene + ": " + fault};
-    return made;
+    SimulationTimeLimit timeLimit{job.options.timeoutSeconds};
+    auto simulated = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(timeLimit))
+                                 : simulateScene(*job.scene, job.run(), job.endNs(), std::ref(timeLimit));
+    if (auto error = timeLimit.error(); !error.empty()) return Failure{job.options.scene + ": " + error};
+    return simulated;
 }
 
 } // namespace
 
-int takeInputs(LoadedRender& job) {
+int loadInputs(LoadedRender& job) {
     const std::string& name = job.options.scene;
-    if (clipFormatOf(name)) return takeClip(job);
+    if (clipFormatOf(name)) return loadClipInto(job);
     if (!name.empty()) {
         const bool isSession = isJsonPath(name) && fileKind(name) == FileKind::session;
-        if (const int code = isSession ? takeSession(job) : takeScene(job); code != exitDone) return code;
+        if (const int code = isSession ? loadSessionInto(job) : loadSceneInto(job); code != exitDone)
+            return code;
     }
     const std::string error = readInputs(job);
-    return error.empty() ? exitDone : leave(exitFailed, error);
+    return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
 Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     if (job.scene) {
-        auto made = eventsOf(job);
-        if (!made) return Failure{made.error};
-        job.made = std::move(made.value);
+        auto simulated = eventsOf(job);
+        if (!simulated) return Failure{simulated.error};
+        job.collisions = std::move(simulated.value);
     }
-    auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
-    EventShaper{job.shaping()}.shape(job.made.events);
+    auto warnings = remapWarnings(job.shaping().remap, job.collisions.events, job.layout, job.options);
+    EventShaper{job.shaping()}.shape(job.collisions.events);
     return warnings;
 }
 
@@ -90,18 +91,18 @@ bool hasPlaces(const Clip& clip) {
 }
 
 LayoutDescription layoutOf(const Clip& clip) {
-    EnchanterLayout geometry{
+    ActuatorLayout geometry{
         clip.extentWidthMetres, clip.extentHeightMetres, static_cast<int>(clip.channels.size()), {}};
     for (std::size_t j = 0; j < clip.channels.size(); ++j) geometry.places[j] = *clip.channels[j].place;
     return describeLayout("clip", geometry);
 }
 
 /// Converts the place to metres of the job's field.
-EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
+ActuatorPlace placeOf(const LoadedRender& job, std::size_t channel) {
     const Clip& clip = *job.clip;
-    const EnchanterLayout& layout = job.layout.geometry;
+    const ActuatorLayout& layout = job.layout.geometry;
     const auto onField = [&](double x, double y) {
-        return EnchanterPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()};
+        return ActuatorPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()};
     };
     if (hasPlaces(clip))
         return onField(clip.channels[channel].place->xMetres / clip.extentWidthMetres,
@@ -111,23 +112,23 @@ EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
                    layout.places[channel].yMetres / layout.extentHeightMetres);
 }
 
-std::string faultOf(const LoadedRender& job) {
+std::string channelCountError(const LoadedRender& job) {
     const Clip& clip = *job.clip;
     const auto channels = clip.channels.size();
     if (!hasPlaces(clip) && channels != 1 && static_cast<int>(channels) != job.layout.geometry.count)
         return "expected one channel, places, or as many channels as the layout has actuators, " +
                std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
-    return soundFault({job.options.sampleRateHz, static_cast<std::int64_t>(channels),
+    return soundError({job.options.sampleRateHz, static_cast<std::int64_t>(channels),
                        static_cast<std::int64_t>(clip.seconds() * job.options.sampleRateHz)});
 }
 
 } // namespace
 
-ClipVoices::ClipVoices(const LoadedRender& job)
+ClipEvents::ClipEvents(const LoadedRender& job)
     : sound_{clipSound(*job.clip, job.options.sampleRateHz)} {
-    if (const std::string note = takeSlowPart(sound_, job.options.scene); !note.empty()) tell(note);
+    if (const std::string note = removeSlowPart(sound_, job.options.scene); !note.empty()) printMessage(note);
     for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
-        const EnchanterPlace place = placeOf(job, j);
+        const ActuatorPlace place = placeOf(job, j);
         const SoundNumber sound = soundOfClip(static_cast<int>(j));
         events_.push_back({0, clipFrequencyHz, 1.0, job.gain(), place.xMetres, place.yMetres, 0, {}});
         events_.back().sound = sound;
@@ -143,24 +144,24 @@ Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
                               : FrequencyScale{};
 }
 
-int takeClip(LoadedRender& job) {
+int loadClipInto(LoadedRender& job) {
     const RenderJob& o = job.options;
-    if (const char* other = o.firstGiven({"--set", "--seed", "--steps-per-second", "--location", "--timing",
-                                          "--method", "--sound", "--perceived-level", "--remap",
-                                          "--contact-sound", "--marker", "--events", "--coupling"}))
-        return leave(exitUsage, std::string{other} + ": a clip has no collisions");
+    if (const char* option = o.firstGiven({"--set", "--seed", "--steps-per-second", "--location", "--timing",
+                                           "--method", "--sound", "--perceived-level", "--remap",
+                                           "--contact-sound", "--marker", "--events", "--coupling"}))
+        return reportExit(exitUsage, std::string{option} + ": a clip has no collisions");
     const auto scale = frequencyScaleOf(o);
-    if (!scale) return leave(exitFailed, scale.error);
+    if (!scale) return reportExit(exitFailed, scale.error);
     auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);
-    if (!clip) return leave(exitFailed, clip.error);
-    if (!clip.value.leftOut.empty()) tell("warning: " + o.scene + ": " + clip.value.leftOut);
+    if (!clip) return reportExit(exitFailed, clip.error);
+    if (!clip.value.leftOut.empty()) printMessage("warning: " + o.scene + ": " + clip.value.leftOut);
     job.clip = std::move(clip.value);
-    if (auto fault =
+    if (auto error =
             chooseLayout(job, hasPlaces(*job.clip) ? std::optional{layoutOf(*job.clip)} : std::nullopt);
-        !fault.empty())
-        return leave(exitFailed, fault);
-    const std::string fault = faultOf(job);
-    return fault.empty() ? exitDone : leave(exitFailed, o.scene + ": " + fault);
+        !error.empty())
+        return reportExit(exitFailed, error);
+    const std::string error = channelCountError(job);
+    return error.empty() ? exitDone : reportExit(exitFailed, o.scene + ": " + error);
 }
 
 } // namespace physvib

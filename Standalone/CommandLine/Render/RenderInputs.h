@@ -8,20 +8,20 @@
 
 namespace physvib {
 /// Reads and checks what the options name: scene, session, clip or event list, layout, actuators, coupling.
-/// Returns exitDone, or the exit code after an error line on stderr. M only.
-int takeInputs(LoadedRender& job);
+/// Returns exitDone, or the exit code after an error line on stderr. Message thread.
+int loadInputs(LoadedRender& job);
 
 /// Simulates the job's events, or uses those of its list, and applies the options' event shaping. Returns
-/// warnings about what the shaping loses, or one error line. M only.
+/// warnings about what the shaping loses, or one error line. Message thread.
 Result<std::vector<std::string>> makeEvents(LoadedRender& job);
 
 // Haptic files of other programs as inputs: the actuators on which each of their channels is played.
 
 /// A clip's channels at the job's sample rate, each as a recorded contact, and the event that plays it.
-class ClipVoices {
+class ClipEvents {
 public:
     /// `job` has a clip; RenderInputs.cpp says where its channels are played. Prints losses on stderr.
-    explicit ClipVoices(const LoadedRender& job);
+    explicit ClipEvents(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }
     std::span<const RecordedContact> contacts() const { return contacts_; }
@@ -33,11 +33,11 @@ private:
 };
 
 /// The frequency range that a phone's haptic file refers to: the band of a named --actuator, else the
-/// default. Or one error line if there is no such actuator. M only.
+/// default. Or one error line if there is no such actuator. Message thread.
 Result<FrequencyScale> frequencyScaleOf(const RenderJob& options);
 
 /// Loads the clip that the options name, and its own layout if none is given, into `job`. Returns exitDone,
-/// or the exit code after an error line on stderr. M only.
-int takeClip(LoadedRender& job);
+/// or the exit code after an error line on stderr. Message thread.
+int loadClipInto(LoadedRender& job);
 
 } // namespace physvib

@@ -25,66 +25,67 @@ inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"
 
 /// "peak -6.0 dBFS (0.50 g)", in g of the actuator that moves most. An equalised channel contains the drive
 /// signal, so the acceleration is that before equalisation, not that of the samples in the file.
-inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& whole) {
-    if (!(whole.peak() > 0.0f)) {
+inline std::string peakText(const LoadedRender& job, const WaveformEnvelope& envelope) {
+    if (!(envelope.peak() > 0.0f)) {
         const std::string why =
-            job.clip ? "" : silentWords(job.made.events, job.panner(), job.hasGuessedField(), job.endNs());
+            job.clip ? ""
+                     : silenceReason(job.collisions.events, job.panner(), job.hasGuessedField(), job.endNs());
         return "silent" + (why.empty() ? "" : ": " + why);
     }
-    std::string words = "peak " + fixedNumber(toDecibels(static_cast<double>(whole.peak())), 1) + " dBFS";
+    std::string words = "peak " + fixedNumber(toDecibels(static_cast<double>(envelope.peak())), 1) + " dBFS";
     const auto equalised = job.equalised();
     if (std::ranges::any_of(equalised, &EqualisedActuator::isKnown)) return "drive " + words;
-    double most = 0.0;
-    for (int j = 0; j < whole.channels(); ++j)
-        most = std::max(
-            most,
-            static_cast<double>(whole.peak(j)) *
-                job.layout.enchanters[std::min(static_cast<std::size_t>(j), job.layout.enchanters.size() - 1)]
+    double maxG = 0.0;
+    for (int j = 0; j < envelope.channels(); ++j)
+        maxG = std::max(
+            maxG,
+            static_cast<double>(envelope.peak(j)) *
+                job.layout.actuators[std::min(static_cast<std::size_t>(j), job.layout.actuators.size() - 1)]
                     .fullScaleG);
-    return words + " (" + inG(most) + ")";
+    return words + " (" + inG(maxG) + ")";
 }
 
 /// "48 collisions, 0.0020 g to 0.42 g, 3 under one step of an 8-bit converter": each event counts at the
 /// actuator that it is strongest at.
-inline std::string collisionWords(const LoadedRender& job) {
-    constexpr double step = 1.0 / 128.0; // of full scale: the board's converters
-    auto events = job.made.events;
-    std::erase_if(events, isMeanOff);
+inline std::string collisionText(const LoadedRender& job) {
+    constexpr double converterStep = 1.0 / 128.0; // of full scale: the board's converters
+    auto events = job.collisions.events;
+    std::erase_if(events, isMeanCompensation);
     std::string words = counted(events.size(), "collision");
     if (events.empty()) return words;
     const PhantomPanner panner = job.panner();
     PhantomPanner::Gains gains{};
-    double least = HUGE_VAL, most = 0.0;
-    std::size_t under = 0;
+    double minG = HUGE_VAL, maxG = 0.0;
+    std::size_t belowStep = 0;
     for (const CollisionEvent& e : events) {
         panner.gainsAt(e, gains);
         double level = 0.0, g = 0.0;
         for (std::size_t j = 0;
-             j < std::min(static_cast<std::size_t>(panner.channels()), job.layout.enchanters.size()); ++j) {
+             j < std::min(static_cast<std::size_t>(panner.channels()), job.layout.actuators.size()); ++j) {
             level = std::max(level, std::abs(e.amplitude * gains[j]));
-            g = std::max(g, std::abs(e.amplitude * gains[j]) * job.layout.enchanters[j].fullScaleG);
+            g = std::max(g, std::abs(e.amplitude * gains[j]) * job.layout.actuators[j].fullScaleG);
         }
-        least = std::min(least, g);
-        most = std::max(most, g);
-        under += level < step ? 1 : 0;
+        minG = std::min(minG, g);
+        maxG = std::max(maxG, g);
+        belowStep += level < converterStep ? 1 : 0;
     }
-    return words + ", " + inG(least) + " to " + inG(most) + ", " + std::to_string(under) +
+    return words + ", " + inG(minG) + " to " + inG(maxG) + ", " + std::to_string(belowStep) +
            " under one step of an 8-bit converter";
 }
 
 namespace {
 
 /// Opens the file if its path is not empty.
-std::string open(auto& file, const std::string& path, const auto&... of) {
-    return path.empty() ? std::string{} : file.emplace(path, of...).error();
+std::string open(auto& file, const std::string& path, const auto&... arguments) {
+    return path.empty() ? std::string{} : file.emplace(path, arguments...).error();
 }
 
 } // namespace
 
 RenderOutputs::RenderOutputs(const LoadedRender& job)
     : job_{job}
-    , pattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
-    , whole_{job.channels(), 0, job.frames()} {}
+    , onOffPattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
+    , envelope_{job.channels(), 0, job.frames()} {}
 
 std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
@@ -93,67 +94,70 @@ std::string RenderOutputs::open() {
                       : openMotors();
     const std::string text = provenanceText();
     if (error.empty())
-        error = physvib::open(contactWav_, o.contactSound, o.contactSoundEars, o.sampleRateHz,
+        error = physvib::open(contactWav_, o.contactSound, o.contactSoundChannels, o.sampleRateHz,
                               text + " heard=contact_sound");
     if (error.empty())
         error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz,
-                              text + " marked=" + std::string{nameOf(o.marked)});
+                              text + " marked=" + std::string{nameOf(o.markedOnsets)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath},
                                      {&pictureFile_, &o.picturePath},
                                      {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
-    if (error.empty()) error = physvib::open(movie_, o.moviePath, o.sampleRateHz, o.contactSoundEars);
+    if (error.empty()) error = physvib::open(movie_, o.moviePath, o.sampleRateHz, o.contactSoundChannels);
     return error;
 }
 
 std::string RenderOutputs::openMotors() {
     auto pad = findPad(job_.options.pad);
     if (!pad) return "--pad: " + pad.error;
-    pad_ = std::move(pad.value);
+    padProfile_ = std::move(pad.value);
     return physvib::open(motorsFile_, job_.options.wavPath);
 }
 
-void RenderOutputs::takeMotors(const std::vector<RenderControl>& controls) {
-    if (motorsFile_) motors_ = padCommands(pad_.law, job_.made.events, controls, job_.panner(), job_.endNs());
+void RenderOutputs::computeMotorCommands(const std::vector<RenderControl>& controls) {
+    if (motorsFile_)
+        motorCommands_ =
+            padCommands(padProfile_.law, job_.collisions.events, controls, job_.panner(), job_.endNs());
 }
 
 void RenderOutputs::begin() {
-    const FrameWindow window = zoomWindow(job_.made.events, job_.options.sampleRateHz);
-    zoom_.emplace(job_.channels(), window.firstFrame, window.frameCount);
+    const FrameWindow window = zoomWindow(job_.collisions.events, job_.options.sampleRateHz);
+    zoomEnvelope_.emplace(job_.channels(), window.firstFrame, window.frameCount);
 }
 
-bool RenderOutputs::take(const float* const* channels, int frames) {
-    framesTaken_ += frames;
-    whole_.add(channels, frames);
-    zoom_->add(channels, frames);
+bool RenderOutputs::write(const float* const* channels, int frames) {
+    framesWritten_ += frames;
+    envelope_.add(channels, frames);
+    zoomEnvelope_->add(channels, frames);
     showProgress();
-    if (patternFile_) pattern_.convert(channels, frames);
+    if (patternFile_) onOffPattern_.convert(channels, frames);
     return !wav_ || writeWav(channels, frames);
 }
 
 bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
-    return wav_->write(inVolts_.scaled(channels, job_.channels(), frames, job_.actuators.voltageScale),
+    return wav_->write(voltBlock_.scaled(channels, job_.channels(), frames, job_.actuators.voltageScale),
                        frames);
 }
 
-bool RenderOutputs::takeContactSound(const float* const* channels, int frames) {
-    if (movie_ && movie_->hasSound() && !movie_->takeSound(channels, frames)) return false;
+bool RenderOutputs::writeContactSound(const float* const* channels, int frames) {
+    if (movie_ && movie_->hasSound() && !movie_->writeSound(channels, frames)) return false;
     return !contactWav_ || contactWav_->write(channels, frames);
 }
 
-void RenderOutputs::tellMarks(const OnsetMarks& marks) { markWords_ = physvib::markWords(marks); }
+void RenderOutputs::setMarkSummary(const OnsetMarks& marks) { markSummary_ = physvib::markSummary(marks); }
 
 std::string RenderOutputs::finish() {
     std::string error;
     for (auto* wav : {&wav_, &contactWav_, &markerWav_})
         if (error.empty() && *wav) error = (*wav)->complete();
     if (error.empty() && eventsFile_)
-        error = eventsFile_->write(eventsCsv(job_.made.events, job_.saidField(), provenance(), job_.names()));
+        error = eventsFile_->write(
+            eventsCsv(job_.collisions.events, job_.statedField(), provenance(), job_.names()));
     if (error.empty() && movie_) error = movie_->draw(pictureInput(), poses());
     if (error.empty() && pictureFile_) error = writePictureFile();
-    if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
-    if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
+    if (error.empty() && patternFile_) error = patternFile_->write(onOffPattern_.csv(provenance()));
+    if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motorCommands_, provenance()));
     for (auto* wav : {&wav_, &contactWav_, &markerWav_})
         if (error.empty() && *wav) error = (*wav)->finish();
     for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_, &motorsFile_})
@@ -174,25 +178,25 @@ Provenance RenderOutputs::provenance() const {
     if (o.levelDb != 0.0) add("level_db", numberText(o.levelDb));
     if (o.isWeighted) add("perceived_level", "on");
     for (const RecordedSound& sound : o.sounds)
-        add("sound", sound.name() + '=' + leafOf(sound.path) + (o.matchesStrength ? ":rms" : ""));
-    if (o.actuator != "none") add("actuator", leafOf(o.actuator));
+        add("sound", sound.name() + '=' + fileNameOf(sound.path) + (o.matchesStrength ? ":rms" : ""));
+    if (o.actuator != "none") add("actuator", fileNameOf(o.actuator));
     if (o.actuator != "none" && !o.isEqualised) add("equalise", "off");
-    if (!o.pad.empty()) add("pad", pad_.name);
+    if (!o.pad.empty()) add("pad", padProfile_.name);
     if (o.interfaceVolts > 0.0) add("interface_volts", numberText(o.interfaceVolts));
     if (o.isRemapped) add("remap", "on");
-    if (!o.coupling.empty()) add("coupling", leafOf(o.coupling));
+    if (!o.coupling.empty()) add("coupling", fileNameOf(o.coupling));
     return p;
 }
 
 Provenance RenderOutputs::inputProvenance() const {
     const RenderJob& o = job_.options;
-    if (job_.clip) return {PHYSVIB_VERSION, {{"clip", leafOf(o.scene)}}};
-    if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
+    if (job_.clip) return {PHYSVIB_VERSION, {{"clip", fileNameOf(o.scene)}}};
+    if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.collisions.events.size())}}};
     Provenance p{PHYSVIB_VERSION,
                  {{"scene", job_.scene->name},
-                  {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
+                  {"seed", std::to_string(job_.session ? job_.session->log.runs.front().seed : o.seed)},
                   {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
-    if (job_.session) p.entries.emplace_back("session", leafOf(o.scene));
+    if (job_.session) p.entries.emplace_back("session", fileNameOf(o.scene));
     if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
     if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
     for (const SceneVariable& variable : job_.scene->variables)
@@ -209,33 +213,33 @@ std::string RenderOutputs::provenanceText() const {
 
 RunSettings RenderOutputs::sceneRun() const {
     RunSettings run = job_.run();
-    if (job_.session) run.seed = job_.session->log.takes.front().seed;
+    if (job_.session) run.seed = job_.session->log.runs.front().seed;
     return run;
 }
 
 PoseSource RenderOutputs::poses() const {
     if (!job_.scene) return {};
-    return [this](std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
-        if (job_.session) return followTakes(job_.session->log.takes, sceneRun(), 0, everyNs, endNs, see);
+    return [this](std::int64_t intervalNs, std::int64_t endNs, const RunPoseWatch& onPose) {
+        if (job_.session) return followRuns(job_.session->log.runs, sceneRun(), 0, intervalNs, endNs, onPose);
         followPoses(
-            *job_.scene, sceneRun(), everyNs, endNs,
-            [&](std::int64_t timeNs, const WorldPoses& poses) { return see(timeNs, *job_.scene, poses); });
+            *job_.scene, sceneRun(), intervalNs, endNs,
+            [&](std::int64_t timeNs, const WorldPoses& poses) { return onPose(timeNs, *job_.scene, poses); });
     };
 }
 
 PictureInput RenderOutputs::pictureInput() const {
-    const auto& events = job_.made.events;
+    const auto& events = job_.collisions.events;
     PictureInput picture;
-    picture.title = job_.scene ? job_.scene->name : leafOf(job_.source());
+    picture.title = job_.scene ? job_.scene->name : fileNameOf(job_.source());
     picture.subtitle = job_.scene ? job_.scene->description : job_.clip ? "a clip" : "an event list";
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();
     picture.scene = job_.scene ? &*job_.scene : nullptr;
     picture.events = events;
     picture.layout = job_.layout.geometry;
-    for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);
-    picture.waveform = &whole_;
-    picture.zoom = &*zoom_;
+    for (const auto& actuator : job_.layout.actuators) picture.labels.push_back(actuator.label);
+    picture.waveform = &envelope_;
+    picture.zoom = &*zoomEnvelope_;
     picture.sampleRateHz = job_.options.sampleRateHz;
     picture.durationSeconds = job_.seconds();
     picture.law = std::string{nameOf(job_.panner().law())} + " law";
@@ -245,15 +249,15 @@ PictureInput RenderOutputs::pictureInput() const {
 
 std::string RenderOutputs::writePictureFile() {
     PictureInput picture = pictureInput();
-    if (job_.scene) picture.poses = posesAtStrongest(*job_.scene, sceneRun(), job_.made.events);
+    if (job_.scene) picture.poses = posesAtStrongest(*job_.scene, sceneRun(), job_.collisions.events);
     return pictureFile_->write(picturePng(picture));
 }
 
 void RenderOutputs::showProgress() {
     static const bool isTerminal = isErrorTerminal();
-    const int percent = static_cast<int>(100 * framesTaken_ / job_.frames());
-    if (!isTerminal || percent == percentShown_) return;
-    percentShown_ = percent;
+    const int percent = static_cast<int>(100 * framesWritten_ / job_.frames());
+    if (!isTerminal || percent == lastPercent_) return;
+    lastPercent_ = percent;
     std::fprintf(stderr, percent < 100 ? "\rrendering %d %%" : "\r                \r", percent);
 }
 
@@ -262,19 +266,19 @@ void RenderOutputs::summarise(std::ostream& out) const {
     out << std::fixed << std::setprecision(1);
     if (wav_) {
         out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ")
-            << job_.seconds() << " s at " << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
+            << job_.seconds() << " s at " << o.sampleRateHz << " Hz, " << peakText(job_, envelope_) << '\n';
     }
     if (motorsFile_)
-        out << o.wavPath << "  what two motors of " << pad_.name << " would get: " << motors_.size()
-            << " commands\n";
-    if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
+        out << o.wavPath << "  what two motors of " << padProfile_.name
+            << " would get: " << motorCommands_.size() << " commands\n";
+    if (eventsFile_) out << o.eventsPath << "  " << collisionText(job_) << '\n';
     if (patternFile_)
         out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_)
-        out << o.contactSound << "  what is heard of each hit: " << o.contactSoundEars
-            << (o.contactSoundEars == 1 ? " channel" : " channels") << ", at full scale "
+        out << o.contactSound << "  what is heard of each hit: " << o.contactSoundChannels
+            << (o.contactSoundChannels == 1 ? " channel" : " channels") << ", at full scale "
             << numberText(o.contactSoundDb) << " dBFS\n";
-    if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markWords_ << '\n';
+    if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markSummary_ << '\n';
     if (movie_)
         out << o.moviePath << "  the world, its impacts and every channel in time, "
             << RenderMovie::picturesPerSecond << " pictures per second\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Output files of a render: WAV, event list, picture, movie, on/off pattern. They appear together at the end,
-// or not at all.
+// Output files of a render: WAV, event list, picture, movie, motor commands, on/off pattern. They appear
+// together at the end, or not at all.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Calls/MovieOutput.h"
@@ -20,7 +20,7 @@ namespace physvib {
 
 // A render as on and off times, for motors without other states.
 
-/// Collects the pattern; csv() is `channel,on_s,off_s`, a line per pulse, channels from 1. M only.
+/// Collects the pattern; csv() is `channel,on_s,off_s`, a line per pulse, channels from 1. Message thread.
 class OnOffPattern final : public VibrationConverter {
 public:
     OnOffPattern(int channels, int sampleRateHz, double threshold)
@@ -30,7 +30,7 @@ public:
     bool convert(const float* const* channels, int frames) override {
         for (std::size_t j = 0; j < steps_.size(); ++j)
             for (int n = 0; n < frames; ++n)
-                steps_[j].take(channels[j][n], [&](long long step, bool isOn) { addEdge(j, step, isOn); });
+                steps_[j].add(channels[j][n], [&](long long step, bool isOn) { addEdge(j, step, isOn); });
         return true;
     }
 
@@ -54,28 +54,28 @@ private:
     std::vector<std::string> rows_;
 };
 
-/// A block of samples, each channel times a scale of its own. M only.
+/// A copy of a block of samples, each channel multiplied by its own scale. Message thread.
 class ScaledBlock {
 public:
     /// Valid until the next call.
     const float* const* scaled(const float* const* channels, int count, int frames, const auto& scales) {
         samples_.resize(static_cast<std::size_t>(count));
-        at_.clear();
+        pointers_.clear();
         for (std::size_t j = 0; j < samples_.size(); ++j) {
             const auto scale = static_cast<float>(scales[j]);
             samples_[j].assign(channels[j], channels[j] + frames);
             for (float& sample : samples_[j]) sample *= scale;
-            at_.push_back(samples_[j].data());
+            pointers_.push_back(samples_[j].data());
         }
-        return at_.data();
+        return pointers_.data();
     }
 
 private:
     std::vector<std::vector<float>> samples_;
-    std::vector<const float*> at_;
+    std::vector<const float*> pointers_;
 };
 
-/// Writes all output files of a render. Errors are one line each; after one, no file is left. M only.
+/// Writes all output files of a render. Errors are one line each; after one, no file is left. Message thread.
 class RenderOutputs {
 public:
     /// `job` outlives this object; its layout is known, its events need not be.
@@ -88,21 +88,21 @@ public:
     void begin();
 
     /// Computes the commands of a game controller from the events and these controls, if requested.
-    void takeMotors(const std::vector<RenderControl>& controls);
+    void computeMotorCommands(const std::vector<RenderControl>& controls);
 
     /// Writes the next frames of all actuators; false after an error.
-    bool take(const float* const* channels, int frames);
+    bool write(const float* const* channels, int frames);
 
     /// True if an output needs the contact sound: --contact-sound, or a movie.
-    bool wantsContactSound() const noexcept { return contactWav_ || (movie_ && movie_->hasSound()); }
+    bool needsContactSound() const noexcept { return contactWav_ || (movie_ && movie_->hasSound()); }
 
     /// Writes the next frames of the contact sound; false after an error.
-    bool takeContactSound(const float* const* channels, int frames);
+    bool writeContactSound(const float* const* channels, int frames);
 
     /// Writes the next frames of the onset markers; false after an error.
-    bool takeMarks(const float* samples, int frames) { return markerWav_->write(&samples, frames); }
+    bool writeMarks(const float* samples, int frames) { return markerWav_->write(&samples, frames); }
 
-    void tellMarks(const OnsetMarks& marks); ///< for the summary
+    void setMarkSummary(const OnsetMarks& marks); ///< text for summarise()
 
     /// Completes all files and puts them in place. Returns an empty string or one error line.
     std::string finish();
@@ -115,7 +115,7 @@ private:
     Provenance provenance() const;
     Provenance inputProvenance() const;
     std::string provenanceText() const;
-    RunSettings sceneRun() const; ///< of the first scene that is drawn
+    RunSettings sceneRun() const; ///< of the session's first scene, for pictures and movies
     PoseSource poses() const;
     PictureInput pictureInput() const;
     std::string writePictureFile();
@@ -124,17 +124,17 @@ private:
 
     const LoadedRender& job_;
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
-    PadProfile pad_;
-    std::vector<PadCommand> motors_;
+    PadProfile padProfile_;
+    std::vector<PadCommand> motorCommands_;
     std::optional<WavSink> wav_, contactWav_, markerWav_;
-    ScaledBlock inVolts_;
-    std::string markWords_;
-    OnOffPattern pattern_;
-    WaveformEnvelope whole_;
+    ScaledBlock voltBlock_;
+    std::string markSummary_;
+    OnOffPattern onOffPattern_;
+    WaveformEnvelope envelope_;
     std::optional<MovieOutput> movie_;
-    std::optional<WaveformEnvelope> zoom_;
-    std::int64_t framesTaken_ = 0;
-    int percentShown_ = -1;
+    std::optional<WaveformEnvelope> zoomEnvelope_;
+    std::int64_t framesWritten_ = 0;
+    int lastPercent_ = -1;
 };
 
 } // namespace physvib

@@ -24,7 +24,6 @@
 namespace physvib {
 namespace {
 
-/// Command-line options.
 struct StudyOptions {
     std::string protocol;    ///< name of a built-in protocol, or path of a protocol file
     std::string observer;    ///< name of the simulated observer
@@ -41,13 +40,13 @@ struct StudyOptions {
     double paceSeconds = 0.0;        ///< delay per trial, to watch or interrupt it
 };
 
-int list() {
+int listProtocols() {
     for (const Protocol& protocol : knownProtocols())
         std::cout << protocol.name << "  " << protocol.title << '\n';
     return exitDone;
 }
 
-std::string codeOf(const StudyOptions& o, int number) {
+std::string participantCode(const StudyOptions& o, int number) {
     if (!o.participant.empty()) return o.participant;
     const std::string digits = std::to_string(number);
     return std::string("P").append(digits.size() < 2 ? "0" : "").append(digits);
@@ -61,93 +60,100 @@ void showProgress(const Participant& participant, int trials) {
 
 /// Runs one participant from the first unanswered trial to the end. Returns an error or an empty string.
 std::string runParticipant(const StudyRun& run, const ObserverSettings& settings, double paceSeconds) {
-    if (auto fault = faultOf(run); !fault.empty()) return fault;
+    if (auto error = studyRunError(run); !error.empty()) return error;
     StudyInProgress study{run};
     if (!study.error().empty()) return study.error();
     const Experiment& experiment = study.experiment();
     const SimulatedObserver observer{settings, run.protocol, run.participant};
     while (!experiment.isDone()) {
         if (paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(paceSeconds));
-        if (!study.take(observer.answer(experiment))) return study.error();
-        showProgress(run.participant, experiment.trialsTaken());
+        if (!study.acceptAnswer(observer.answer(experiment))) return study.error();
+        showProgress(run.participant, experiment.answeredTrials());
     }
-    const int before = study.trialsBefore();
-    std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials"
-              << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{})
+    const int resumedTrials = study.resumedTrials();
+    std::cout << study.path().string() << "  " << experiment.answeredTrials() << " trials"
+              << (resumedTrials > 0 ? ", " + std::to_string(resumedTrials) + " of them there before"
+                                    : std::string{})
               << '\n';
     return {};
 }
 
 /// Applies the recordings of the call to the protocol. One error line if a recording is invalid.
-std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
-    for (const RecordedSound& given : sounds) {
-        if (!given.material.empty())
+std::string applyRecordings(const RecordedSounds& sounds, Protocol& protocol) {
+    for (const RecordedSound& chosen : sounds) {
+        if (!chosen.material.empty())
             return "--sound: expected HZ=FILE.wav, the frequency of a study's stimuli, found " +
-                   inQuotes(given.material);
+                   inQuotes(chosen.material);
         std::erase_if(protocol.sounds,
-                      [&](const StudySoundFile& sound) { return sound.frequencyHz == given.frequencyHz; });
-        protocol.sounds.push_back({given.frequencyHz, given.path});
+                      [&](const StudySoundFile& sound) { return sound.frequencyHz == chosen.frequencyHz; });
+        protocol.sounds.push_back({chosen.frequencyHz, chosen.path});
     }
     for (const StudySoundFile& sound : protocol.sounds)
-        if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)});
+        if (auto contact = loadContact({sound.frequencyHz, resolveProtocolPath(protocol.folder, sound.file)});
             !contact)
             return contact.error;
         else if (!contact.value.note.empty())
-            tell(contact.value.note);
+            printMessage(contact.value.note);
     return {};
 }
 
 Result<Protocol> protocolWithSounds(const StudyOptions& o) {
-    auto protocol = protocolNamed(o.protocol);
+    auto protocol = loadCheckedProtocol(o.protocol);
     if (!protocol) return protocol;
-    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return Failure{fault};
-    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return Failure{fault};
+    if (auto error = applyRecordings(o.sounds, protocol.value); !error.empty()) return Failure{error};
+    if (auto error = protocolError(protocol.value, o.protocol); !error.empty()) return Failure{error};
     return protocol;
 }
 
 /// Opens the mixer, in which a person answers, with the options of this call.
 int runForPerson(const StudyOptions& o) {
     if (o.participants > 1)
-        return leave(exitUsage, "study run: --participants: expected one at a time where a person answers");
+        return reportExit(exitUsage,
+                          "study run: --participants: expected one at a time where a person answers");
     if (!hasDisplay())
-        return leave(exitUsage, "study run: expected --observer, or a display where physvib-mixer shows a "
-                                "person what to answer; its tab Studies has the protocol " +
-                                    inQuotes(o.protocol));
-    std::vector<std::string> words{"--study",           o.protocol, "--participant",
-                                   codeOf(o, o.number), "--number", std::to_string(o.number)};
+        return reportExit(exitUsage,
+                          "study run: expected --observer, or a display where physvib-mixer shows a "
+                          "person what to answer; its tab Studies has the protocol " +
+                              inQuotes(o.protocol));
+    std::vector<std::string> words{"--study",       o.protocol,
+                                   "--participant", participantCode(o, o.number),
+                                   "--number",      std::to_string(o.number)};
     if (!o.folder.empty()) words.insert(words.end(), {"--out", o.folder});
-    tell("opening physvib-mixer, where a person answers; --observer simulated is answered by the computer");
-    const auto ran = runProgram(ownProgram("physvib-mixer"), std::move(words));
-    if (!ran) return leave(exitFailed, ran.error + "; expected the package of the mixer to be installed");
+    printMessage(
+        "opening physvib-mixer, where a person answers; --observer simulated is answered by the computer");
+    const auto ran = runProgram(siblingProgram("physvib-mixer"), std::move(words));
+    if (!ran)
+        return reportExit(exitFailed, ran.error + "; expected the package of the mixer to be installed");
     return ran.value ? exitDone : exitFailed;
 }
 
-int run(const StudyOptions& o) {
+int runStudyFor(const StudyOptions& o) {
     const std::string expected = "study run: --observer: expected " + std::string(observerNames);
-    const bool isPerson = o.observer.empty() || o.observer == "person";
-    const auto settings = isPerson ? std::optional<ObserverSettings>{} : observerNamed(o.observer);
-    if (!isPerson && !settings) return leave(exitUsage, expected + ", found " + inQuotes(o.observer));
-    if (!isStudyCode(o.participant))
-        return leave(exitUsage,
-                     "study run: --participant: expected at most 32 letters, digits, - and _, found " +
-                         inQuotes(o.participant));
-    if (isPerson) return runForPerson(o);
+    const bool isPersonAnswering = o.observer.empty() || o.observer == "person";
+    const auto settings = isPersonAnswering ? std::optional<ObserverSettings>{} : observerNamed(o.observer);
+    if (!isPersonAnswering && !settings)
+        return reportExit(exitUsage, expected + ", found " + inQuotes(o.observer));
+    if (!isParticipantCode(o.participant))
+        return reportExit(exitUsage,
+                          "study run: --participant: expected at most 32 letters, digits, - and _, found " +
+                              inQuotes(o.participant));
+    if (isPersonAnswering) return runForPerson(o);
     if (!o.participant.empty() && o.participants > 1)
-        return leave(exitUsage,
-                     "study run: --participant: expected one participant with a code, found several");
+        return reportExit(exitUsage,
+                          "study run: --participant: expected one participant with a code, found several");
     const auto protocol = protocolWithSounds(o);
-    if (!protocol) return leave(exitFailed, protocol.error);
-    if (auto fault = studyFault(protocol.value); !fault.empty())
-        return leave(exitFailed, o.protocol + ": " + fault);
-    std::error_code fault;
-    std::filesystem::create_directories(o.folder, fault);
-    if (fault) return leave(exitFailed, o.folder + ": cannot be made: " + fault.message());
+    if (!protocol) return reportExit(exitFailed, protocol.error);
+    if (auto error = findStudyError(protocol.value); !error.empty())
+        return reportExit(exitFailed, o.protocol + ": " + error);
+    std::error_code folderError;
+    std::filesystem::create_directories(o.folder, folderError);
+    if (folderError) return reportExit(exitFailed, o.folder + ": cannot be made: " + folderError.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
-        const StudyRun one{protocol.value, {codeOf(o, number), number, o.observer}, o.folder};
+        const StudyRun one{protocol.value, {participantCode(o, number), number, o.observer}, o.folder};
         if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty())
-            return leave(exitFailed, error);
+            return reportExit(exitFailed, error);
     }
-    tellIfSimulated(true);
+    printIfSimulated(true);
     return exitDone;
 }
 
@@ -155,13 +161,13 @@ int run(const StudyOptions& o) {
 bool isChangedAsPublished(const Protocol& protocol) {
     return protocol.name.ends_with(thesisSuffix) &&
            std::ranges::any_of(deviationsOf(protocol), [](const ThesisDeviation& one) {
-               return one.part == ThesisPart::limiter || one.part == ThesisPart::guard;
+               return one.property == HitProperty::limiter || one.property == HitProperty::guard;
            });
 }
 
-int check(const StudyOptions& o) {
+int checkProtocol(const StudyOptions& o) {
     const auto protocol = protocolWithSounds(o);
-    if (!protocol) return leave(exitFailed, protocol.error);
+    if (!protocol) return reportExit(exitFailed, protocol.error);
     const StudyCheck found = checkStudy(protocol.value, o.participants);
     if (const int code =
             writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}});
@@ -169,23 +175,23 @@ int check(const StudyOptions& o) {
         return code;
     std::cout << textOf(found, protocol.value);
     if (!o.acceptsDeviations && isChangedAsPublished(protocol.value))
-        return leave(exitFailed,
-                     "study check: limiter or guard change what is published, as deviations above "
-                     "say: expected --accept-deviations");
+        return reportExit(exitFailed,
+                          "study check: limiter or guard change what is published, as deviations above "
+                          "say: expected --accept-deviations");
     return found.errors.empty() ? exitDone : exitFailed;
 }
 
-int plan(const StudyOptions& o) {
-    const auto protocol = protocolNamed(o.protocol);
-    if (!protocol) return leave(exitFailed, protocol.error);
-    if (auto fault = studyFault(protocol.value); !fault.empty())
-        return leave(exitFailed, o.protocol + ": " + fault);
+int planStudy(const StudyOptions& o) {
+    const auto protocol = loadCheckedProtocol(o.protocol);
+    if (!protocol) return reportExit(exitFailed, protocol.error);
+    if (auto error = findStudyError(protocol.value); !error.empty())
+        return reportExit(exitFailed, o.protocol + ": " + error);
     const auto planned = plannedStudy(protocol.value, o.participants, runAnalysisScript);
-    if (!planned) return leave(exitFailed, planned.error);
+    if (!planned) return reportExit(exitFailed, planned.error);
     const auto script = std::filesystem::path{o.planPath}.replace_filename(analysisScriptName);
     const bool hasScript = !o.planPath.empty() && !planned.value.script.empty();
-    if (const std::string fault = hasScript ? keptScriptFault(script) : ""; !fault.empty())
-        return leave(exitFailed, fault);
+    if (const std::string error = hasScript ? scriptOverwriteError(script) : ""; !error.empty())
+        return reportExit(exitFailed, error);
     if (const int code = writeStudyFiles({StudyFile{o.planPath, planned.value.text},
                                           StudyFile{hasScript ? script.string() : "", planned.value.script}});
         code != exitDone)
@@ -196,19 +202,19 @@ int plan(const StudyOptions& o) {
     return exitDone;
 }
 
-int levels(const StudyOptions& o) {
-    const auto protocol = protocolNamed(o.protocol);
-    if (!protocol) return leave(exitFailed, protocol.error);
+int averageAdjustments(const StudyOptions& o) {
+    const auto protocol = loadCheckedProtocol(o.protocol);
+    if (!protocol) return reportExit(exitFailed, protocol.error);
     const auto session = std::ranges::find_if(protocol.value.sessions,
                                               [](const SessionPlan& s) { return s.adjustment.has_value(); });
     if (session == protocol.value.sessions.end())
-        return leave(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
+        return reportExit(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
     const auto data = readStudyFiles(StudySources{o.trials},
                                      [](const std::vector<NamedText>& files) { return readLevels(files); });
-    if (!data) return leave(exitFailed, data.error);
-    const auto averages =
-        averageLevels(data.value.conditions.front().trials, session->adjustment->alternative);
-    if (averages.empty()) return leave(exitFailed, o.trials.front() + ": expected adjustments, found none");
+    if (!data) return reportExit(exitFailed, data.error);
+    const auto averages = averageLevels(data.value.groups.front().trials, session->adjustment->alternative);
+    if (averages.empty())
+        return reportExit(exitFailed, o.trials.front() + ": expected adjustments, found none");
     Provenance provenance{PHYSVIB_VERSION,
                           {{"protocol", protocol.value.name}, {"hash", protocolHash(protocol.value)}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
@@ -217,7 +223,7 @@ int levels(const StudyOptions& o) {
         return code;
     std::cout << o.levelsPath << "  " << averages.size() << " levels of "
               << counted(averages.front().participants, "participant") << '\n';
-    tellIfSimulated(data.value.isSimulated);
+    printIfSimulated(data.value.isSimulated);
     return exitDone;
 }
 
@@ -231,13 +237,13 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
                                     "takes, how orders balance; nobody feels anything");
     OptionTable& levels = command.addCommand(
         "levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
-    levels.add("--out", o.levelsPath, "a level per stimulus").written("FILE.csv").required();
+    levels.add("--out", o.levelsPath, "a level per stimulus").outputFile("FILE.csv").required();
     OptionTable& plan = command.addCommand(
         "plan", "design, number of participants, stop rules, exclusions, tests and corrections, as text to "
                 "register before the study; nobody feels anything");
     plan.add("--participants", o.participants, "how many are to take part").in(1, 1000).required();
     plan.add("--out", o.planPath, "the same text, for report --plan; beside it analysis.R, the tests in R")
-        .written("PLAN.txt");
+        .outputFile("PLAN.txt");
     for (OptionTable* const one : {&show, &run, &check, &levels, &plan})
         one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
@@ -246,7 +252,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
         .as("CODE");
     run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
-    check.add("--page", o.pagePath, "the check as a page of HTML").written("FILE.html");
+    check.add("--page", o.pagePath, "the check as a page of HTML").outputFile("FILE.html");
     check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
     check.add("--accept-deviations", o.acceptsDeviations, "limiter and guard may change what is published");
     for (OptionTable* const one : {&run, &check})
@@ -259,14 +265,14 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
 }
 
 int runStudy(const OptionTable& command, const StudyOptions& o) {
-    if (command.isCalled("list")) return list();
+    if (command.isCalled("list")) return listProtocols();
     if (command.isCalled("schema")) return std::cout << protocolSchema(), exitDone;
-    if (command.isCalled("run")) return run(o);
-    if (command.isCalled("check")) return check(o);
-    if (command.isCalled("levels")) return levels(o);
-    if (command.isCalled("plan")) return plan(o);
-    const auto protocol = protocolNamed(o.protocol);
-    if (!protocol) return leave(exitFailed, protocol.error);
+    if (command.isCalled("run")) return runStudyFor(o);
+    if (command.isCalled("check")) return checkProtocol(o);
+    if (command.isCalled("levels")) return averageAdjustments(o);
+    if (command.isCalled("plan")) return planStudy(o);
+    const auto protocol = loadCheckedProtocol(o.protocol);
+    if (!protocol) return reportExit(exitFailed, protocol.error);
     std::cout << protocolJson(protocol.value);
     return exitDone;
 }
@@ -274,7 +280,7 @@ int runStudy(const OptionTable& command, const StudyOptions& o) {
 } // namespace
 
 Command studyCommand() {
-    return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy);
+    return makeCommand("study", "whole studies, from a protocol", declareStudy, runStudy);
 }
 
 } // namespace physvib

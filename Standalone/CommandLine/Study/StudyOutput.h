@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Helpers of the study commands: warnings and output files.
+// Helpers of the study commands: warnings, output files, the option --columns, and tests by R.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Lab/Analysis/Analysis.h"
@@ -13,44 +13,44 @@
 #include <vector>
 
 namespace physvib {
-inline void warn(const std::string& words) { tell("warning: " + words); }
+inline void warn(const std::string& words) { printMessage("warning: " + words); }
 
 /// Marks results of a simulated observer, so that they cannot be mistaken for a person's.
-inline void tellIfSimulated(bool isSimulated) {
+inline void printIfSimulated(bool isSimulated) {
     if (isSimulated) std::cout << "SIMULATED: a simulated observer answered, not a person\n";
 }
 
 /// An output file; its contents are created only if it is requested.
 struct StudyFile {
     std::string path; ///< empty: not requested
-    std::function<std::string()> bytes;
-    StudyFile(std::string where, std::function<std::string()> make)
-        : path{std::move(where)}
-        , bytes{std::move(make)} {}
-    StudyFile(std::string where, std::string text)
-        : path{std::move(where)}
-        , bytes{[text = std::move(text)] { return text; }} {}
+    std::function<std::string()> makeBytes;
+    StudyFile(std::string filePath, std::function<std::string()> make)
+        : path{std::move(filePath)}
+        , makeBytes{std::move(make)} {}
+    StudyFile(std::string filePath, std::string text)
+        : path{std::move(filePath)}
+        , makeBytes{[text = std::move(text)] { return text; }} {}
 };
 
 /// Writes all files or none. Returns an exit code.
 inline int writeStudyFiles(const std::vector<StudyFile>& files) {
-    std::vector<std::unique_ptr<AtomicFile>> open;
+    std::vector<std::unique_ptr<AtomicFile>> openFiles;
     for (const StudyFile& file : files) {
         if (file.path.empty()) continue;
-        open.push_back(std::make_unique<AtomicFile>(file.path));
-        if (const auto& error = open.back()->write(file.bytes()); !error.empty())
-            return leave(exitFailed, error);
+        openFiles.push_back(std::make_unique<AtomicFile>(file.path));
+        if (const auto& error = openFiles.back()->write(file.makeBytes()); !error.empty())
+            return reportExit(exitFailed, error);
     }
-    for (const auto& file : open)
-        if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
+    for (const auto& file : openFiles)
+        if (const auto& error = file->commit(); !error.empty()) return reportExit(exitFailed, error);
     return exitDone;
 }
 
-/// Writes all files into a folder, which is made, or none; never over `inputs`. Returns an exit code.
+/// Writes all files into `folder`, which it makes, or none; never over `inputs`. Returns an exit code.
 int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
                 const std::vector<std::string>& inputs);
 
-/// Runs analysis.R in a folder of its own, where R is there; else returns no files. Message thread.
+/// Runs analysis.R in a temporary folder; returns its tables (none without R) or an error. Message thread.
 Result<StudyFiles> runAnalysisScript(const StudyFiles& files);
 
 // The option `--columns`, shared by commands that read tables of other programs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens the device, checks devices that may disappear and return, and reports strips without an output.
+// Opens the device and headphones, assigns outputs, applies monitor and markers, and sums the exposure.
 // Computes falling peaks, held peaks, and the decimated samples of the spectrum.
 #include "Mixer/Model/MixerDevice.h"
 #include "Live/Devices/AudioDevice.h"
@@ -10,9 +10,9 @@ namespace physvib {
 
 namespace {
 
-constexpr double maintainMs = 1000.0;
+constexpr double maintainIntervalMs = 1000.0;
 
-bool isWithout(const Mix& mix, std::size_t strip) {
+bool hasNoOutput(const Mix& mix, std::size_t strip) {
     return strip < mix.strips.size() && mix.strips[strip].output < 0;
 }
 
@@ -22,39 +22,47 @@ juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& s
     return labels.joinIntoString(", ");
 }
 
-void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
-    const auto inUse = model.device().choice().inUse();
-    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+void assignFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
+    const auto reserved = model.device().choice().reservedOutputs();
+    const int outputCount = model.device().outputCount() > 0 ? model.device().outputCount() : maxStripOutputs;
     model.change("Free outputs", [&](Mix& mix) {
         for (const std::size_t j : strips)
-            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
+            if (hasNoOutput(mix, j)) mix.strips[j].output = freeOutput(mix.strips, reserved, outputCount);
     });
-    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
+    if (std::ranges::any_of(strips, [&](std::size_t j) { return hasNoOutput(model.mix(), j); }))
         model.report("The device has no other free output");
 }
 
-int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
+int headphoneOutputOf(std::size_t strip) {
+    return strip < DeviceChoice::earCount ? static_cast<int>(strip) : -1;
+}
 
-constexpr double holdMs = 1500.0;
+constexpr double peakHoldMs = 1500.0;
 
 } // namespace
 
 std::string MixerDevice::open(const DeviceChoice& choice) {
-    AudioOutputSettings settings{
-        choice.name,  outputMap(), choice.sampleRateHz,     choice.blockFrames, masterGain(mix_),
-        mix_.count(), true,        listening_.ofStudyOnly()};
+    AudioOutputSettings settings{choice.name,
+                                 outputMap(),
+                                 choice.sampleRateHz,
+                                 choice.blockFrames,
+                                 masterGain(mix_),
+                                 mix_.count(),
+                                 true,
+                                 listening_.resetToStudySettings()};
     const auto error = rig_.openDevice(settings);
     choice_ = choice;
-    listening_.hearWanted();
+    listening_.applyRequested();
     return error;
 }
 
-bool MixerDevice::isNone() const { return rig_.output().device().starts_with(noDeviceType); }
+bool MixerDevice::hasNoDevice() const { return rig_.output().device().starts_with(nullDeviceType); }
 
 bool MixerDevice::isPlayed(std::size_t actuator) const {
-    if (!choice_.sinks.empty() || isNone()) return true;
+    if (!choice_.sinks.empty() || hasNoDevice()) return true;
     const int output = mix_.strips[actuator].output;
-    return output >= 0 && (output < outputs() || outputs() == 0); // a device that is gone may come back
+    return output >= 0 && (output < outputCount() || outputCount() == 0); // a device that is gone may come
+                                                                          // back
 }
 
 std::vector<int> MixerDevice::outputMap() const {
@@ -63,14 +71,15 @@ std::vector<int> MixerDevice::outputMap() const {
     return map;
 }
 
-std::string MixerDevice::assign() {
-    rig_.output().hear(listening_.ofStudyOnly()); // first, as an actuator may get a monitor output
+std::string MixerDevice::assignOutputs() {
+    rig_.output().setListening(listening_.resetToStudySettings()); // first, as an actuator may get a monitor
+                                                                   // output
     auto error = rig_.output().assign(outputMap(), mix_.count());
-    listening_.hearWanted();
+    listening_.applyRequested();
     return error;
 }
 
-juce::String MixerDevice::withoutClips() const {
+juce::String MixerDevice::sinkWithoutClips() const {
     for (const SinkState& sink : rig_.sinkStates())
         if (!sink.playsClips) return utf8(sink.name);
     return {};
@@ -78,15 +87,15 @@ juce::String MixerDevice::withoutClips() const {
 
 void MixerDevice::maintain() {
     const double now = nowMs();
-    if (now - maintainedAtMs_ <= maintainMs && coversSinks(rig_.session())) return;
+    if (now - maintainedAtMs_ <= maintainIntervalMs && coversSinks(rig_.session())) return;
     maintainedAtMs_ = now;
-    listening_.hearWanted(); // the device may have disappeared or returned
+    listening_.applyRequested(); // the device may have disappeared or returned
     rig_.maintain();
 }
 
-juce::String MixerDevice::trouble() const {
-    const auto all = rig_.troubles();
-    return all.empty() ? juce::String{} : utf8(all.front().words);
+juce::String MixerDevice::error() const {
+    const auto all = rig_.errors();
+    return all.empty() ? juce::String{} : utf8(all.front().text);
 }
 
 bool MixerListening::isFree(int output) const {
@@ -95,88 +104,91 @@ bool MixerListening::isFree(int output) const {
 }
 
 // Audio outputs must never prevent the haptic output: outputs that the device lacks are not requested.
-ListeningSettings MixerListening::wanted() const {
-    ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
-    if (!ofStudy_ && std::ranges::all_of(choice_.monitor, [this](int output) { return isFree(output); }))
-        wanted.contacts = choice_.monitor;
-    wanted.contactDb = choice_.monitorDb;
-    const auto has = [&](const std::vector<int>& those) {
-        return std::ranges::find(those, choice_.marker) != those.end();
+ListeningSettings MixerListening::requestedSettings() const {
+    ListeningSettings requested = studySettings_.value_or(ListeningSettings{});
+    if (!studySettings_ &&
+        std::ranges::all_of(choice_.monitorOutputs, [this](int output) { return isFree(output); }))
+        requested.contacts = choice_.monitorOutputs;
+    requested.contactDb = choice_.monitorDb;
+    const auto hasMarker = [&](const std::vector<int>& outputs) {
+        return std::ranges::find(outputs, choice_.markerOutput) != outputs.end();
     };
-    if (isFree(choice_.marker) && !has(wanted.noise) && !has(wanted.contacts))
-        wanted.marks = {choice_.marker};
-    return wanted;
+    if (isFree(choice_.markerOutput) && !hasMarker(requested.noise) && !hasMarker(requested.contacts))
+        requested.marks = {choice_.markerOutput};
+    return requested;
 }
 
-std::string MixerListening::hearWanted() {
-    const auto wanted = this->wanted();
-    if (wanted == sent_) return {};
-    auto error = output_.hear(wanted);
-    if (error.empty()) sent_ = wanted;
+std::string MixerListening::applyRequested() {
+    const auto requested = this->requestedSettings();
+    if (requested == appliedSettings_) return {};
+    auto error = output_.setListening(requested);
+    if (error.empty()) appliedSettings_ = requested;
     return error;
 }
 
-std::string MixerListening::hear(const ListeningSettings& ofStudy) {
-    const auto before = std::exchange(ofStudy_, ofStudy);
-    auto error = hearWanted();
-    if (!error.empty()) ofStudy_ = before;
+std::string MixerListening::beginStudy(const ListeningSettings& studySettings) {
+    const auto before = std::exchange(studySettings_, studySettings);
+    auto error = applyRequested();
+    if (!error.empty()) studySettings_ = before;
     return error;
 }
 
 void MixerListening::endStudy() {
-    ofStudy_.reset();
-    hearWanted();
+    studySettings_.reset();
+    applyRequested();
 }
 
-std::string MixerListening::listen(const ListeningSettings& wanted, const DeviceChoice& choice) {
-    if (auto error = output_.hear(wanted); !error.empty()) return error;
-    sent_ = wanted;
+std::string MixerListening::applyAndStore(const ListeningSettings& requested, const DeviceChoice& choice) {
+    if (auto error = output_.setListening(requested); !error.empty()) return error;
+    appliedSettings_ = requested;
     choice_ = choice;
     onChange_();
     return {};
 }
 
-std::string MixerListening::monitor(std::vector<int> outputs, double db) {
-    auto wanted = sent_;
+std::string MixerListening::setMonitor(std::vector<int> outputs, double levelDb) {
+    auto requested = appliedSettings_;
     auto choice = choice_;
-    wanted.contacts = choice.monitor = std::move(outputs);
-    wanted.contactDb = choice.monitorDb = db;
-    return listen(wanted, choice);
+    requested.contacts = choice.monitorOutputs = std::move(outputs);
+    requested.contactDb = choice.monitorDb = levelDb;
+    return applyAndStore(requested, choice);
 }
 
-std::string MixerListening::mark(int output) {
-    auto wanted = sent_;
+std::string MixerListening::setMarker(int output) {
+    auto requested = appliedSettings_;
     auto choice = choice_;
-    choice.marker = output;
-    wanted.marks = output < 0 ? std::vector<int>{} : std::vector{output};
-    return listen(wanted, choice);
+    choice.markerOutput = output;
+    requested.marks = output < 0 ? std::vector<int>{} : std::vector{output};
+    return applyAndStore(requested, choice);
 }
 
-void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips) {
-    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].output = j < played.size() ? played[j] : -1;
+void setStripOutputs(const std::vector<int>& outputs, std::span<Strip> strips) {
+    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].output = j < outputs.size() ? outputs[j] : -1;
 }
 
-std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first) {
-    std::vector<std::size_t> without;
-    const auto inUse = choice.inUse();
-    const int outputs = choice.isHeadphones ? DeviceChoice::ears : mostStripOutputs;
-    for (std::size_t j = first; j < strips.size(); ++j) {
+std::vector<std::size_t> assignNewStrips(const DeviceChoice& choice, std::span<Strip> strips,
+                                         std::size_t firstNew) {
+    std::vector<std::size_t> withoutOutput;
+    const auto reserved = choice.reservedOutputs();
+    const int outputCount = choice.isHeadphones ? DeviceChoice::earCount : maxStripOutputs;
+    for (std::size_t j = firstNew; j < strips.size(); ++j) {
         int& output = strips[j].output;
-        if (output < 0 || (output < outputs && std::ranges::find(inUse, output) == inUse.end())) continue;
-        output = freeOutput(strips, inUse, outputs);
-        if (output < 0) without.push_back(j);
+        if (output < 0 || (output < outputCount && std::ranges::find(reserved, output) == reserved.end()))
+            continue;
+        output = freeOutput(strips, reserved, outputCount);
+        if (output < 0) withoutOutput.push_back(j);
     }
-    return without;
+    return withoutOutput;
 }
 
-void fitLayoutTo(int outputs, Mix& mix, std::string_view device) {
-    const bool isFirst = mix.layout.name == MixerModel::firstMix().layout.name; // nobody has chosen it
-    if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
-    mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
+void fitLayoutTo(int outputCount, Mix& mix, std::string_view device) {
+    const bool isDefault = mix.layout.name == MixerModel::defaultMix().layout.name; // not chosen by the user
+    if (mix.count() <= outputCount && !(isPico(device) && isDefault)) return;
+    mix.layout = presetLayout(layoutPresetFor(outputCount, device), mix.layout.actuators);
     mix.resizeStrips();
 }
 
-void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
+void reportNoHeadphoneOutput(MixerModel& model, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
     model.messages().add(
         {labelsOf(model, strips) + (strips.size() == 1 ? " has no output: " : " have no output: ") +
@@ -184,74 +196,75 @@ void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
          false,
          {"Use two",
           [&model] {
-              model.change("Two actuators", [](Mix& mix) { fitLayoutTo(DeviceChoice::ears, mix); });
+              model.change("Two actuators", [](Mix& mix) { fitLayoutTo(DeviceChoice::earCount, mix); });
           }},
-         noEarLabel});
+         noHeadphoneOutputLabel});
 }
 
-std::string useHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
+std::string openHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
     if (!model.device().choice().isHeadphones)
-        choice.beforeEars = before ? std::move(*before) : model.device().outputMap();
+        choice.outputsBeforeHeadphones = before ? std::move(*before) : model.device().outputMap();
     choice.isHeadphones = true;
-    choice.monitor.clear();
-    if (choice.marker < DeviceChoice::ears) choice.marker = -1;
-    std::vector<std::size_t> others;
+    choice.monitorOutputs.clear();
+    if (choice.markerOutput < DeviceChoice::earCount) choice.markerOutput = -1;
+    std::vector<std::size_t> withoutOutput;
     Mix mix = model.mix();
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
-        mix.strips[j].output = earOf(j);
-        if (earOf(j) < 0) others.push_back(j);
+        mix.strips[j].output = headphoneOutputOf(j);
+        if (headphoneOutputOf(j) < 0) withoutOutput.push_back(j);
     }
-    mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    if (mix.levelDb != model.mix().levelDb || // else a step of undo would show nothing
+    mix.levelDb = std::min(mix.levelDb, defaultContactDb);
+    if (mix.levelDb != model.mix().levelDb || // otherwise an undo step would change nothing
         !std::ranges::equal(mix.strips, model.mix().strips, {}, &Strip::output, &Strip::output))
         model.edit("Headphones", mix);
     auto error = model.open(choice);
-    reportNoEar(model, others);
+    reportNoHeadphoneOutput(model, withoutOutput);
     return error;
 }
 
-void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip> strips, std::size_t first) {
-    const auto& before = choice.beforeEars;
-    std::vector<std::size_t> as;
+void restoreOutputs(const DeviceChoice& choice, int outputCount, std::span<Strip> strips, std::size_t first) {
+    const auto& before = choice.outputsBeforeHeadphones;
+    std::vector<std::size_t> restored;
     for (std::size_t j = first; j < strips.size(); ++j)
-        if (strips[j].output == earOf(j)) as.push_back(j), strips[j].output = -1;
-    for (const std::size_t j : as)
-        if (j >= before.size()) // it has come meanwhile
-            strips[j].output = freeOutput(strips, choice.inUse(), outputs);
-        else if (before[j] < outputs && std::ranges::find(strips, before[j], &Strip::output) == strips.end())
+        if (strips[j].output == headphoneOutputOf(j)) restored.push_back(j), strips[j].output = -1;
+    for (const std::size_t j : restored)
+        if (j >= before.size()) // the strip was added meanwhile
+            strips[j].output = freeOutput(strips, choice.reservedOutputs(), outputCount);
+        else if (before[j] < outputCount &&
+                 std::ranges::find(strips, before[j], &Strip::output) == strips.end())
             strips[j].output = std::max(-1, before[j]);
 }
 
-void leaveHeadphones(MixerModel& model, const DeviceChoice& ears) {
-    const int there = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+void leaveHeadphones(MixerModel& model, const DeviceChoice& headphones) {
+    const int outputCount = model.device().outputCount() > 0 ? model.device().outputCount() : maxStripOutputs;
     Mix mix = model.mix();
-    takeOffHeadphones(ears, there, mix.strips);
+    restoreOutputs(headphones, outputCount, mix.strips);
     if (!std::ranges::equal(mix.strips, model.mix().strips, {}, &Strip::output, &Strip::output))
         model.edit("Outputs as before headphones", mix);
 }
 
-void reportWithout(MixerModel& model, const std::vector<std::size_t>& strips) {
+void reportNoOutput(MixerModel& model, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
     const bool isOne = strips.size() == 1;
     model.messages().add({labelsOf(model, strips) + (isOne ? " has no output: another actuator has it"
                                                            : " have no outputs: other actuators have them"),
                           false,
                           {isOne ? "Give a free output" : "Give free outputs",
-                           [&model, strips] { giveFreeOutputs(model, strips); }},
+                           [&model, strips] { assignFreeOutputs(model, strips); }},
                           noOutputLabel});
 }
 
-void MixerExposure::use(const LayoutDescription& layout) {
+void MixerExposure::setLayout(const LayoutDescription& layout) {
     update();
     fullScaleG_.fill(0.0);
-    std::ranges::transform(layout.enchanters, fullScaleG_.begin(), &EnchanterDescription::fullScaleG);
+    std::ranges::transform(layout.actuators, fullScaleG_.begin(), &ActuatorDescription::fullScaleG);
 }
 
 void MixerExposure::update() {
-    const ExposureSums& now = output_.exposure();
+    const ExposureSums& latest = output_.exposure();
     for (std::size_t j = 0; j < fullScaleG_.size(); ++j)
-        squareGSeconds_ += (now.weighted[j] - sums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
-    sums_ = now;
+        squareGSeconds_ += (latest.weighted[j] - lastSums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
+    lastSums_ = latest;
 }
 
 void MixerSignals::setRate(int sampleRateHz) {
@@ -260,82 +273,82 @@ void MixerSignals::setRate(int sampleRateHz) {
     sampleRateHz_ = std::max(1, sampleRateHz);
 }
 
-// Time advances by frames; differences from lost frames are corrected.
-void MixerSignals::follow(std::size_t run, double seconds, int slowness) {
-    constexpr double maxOffSeconds = 0.1;
-    if (run != run_.run()) run_.begin(run);
-    scenePerFrame_ = slowness > 0 && seconds >= 0.0 ? 1.0 / slowness / sampleRateHz_ : 0.0;
-    if (std::abs(seconds - run_.seconds()) > maxOffSeconds) run_.moveTo(seconds);
+// The time advances by frames; a larger difference, from lost frames, is corrected.
+void MixerSignals::setSceneTime(std::size_t runNumber, double seconds, int slowness) {
+    constexpr double maxDriftSeconds = 0.1;
+    if (runNumber != run_.runNumber()) run_.begin(runNumber);
+    sceneSecondsPerFrame_ = slowness > 0 && seconds >= 0.0 ? 1.0 / slowness / sampleRateHz_ : 0.0;
+    if (std::abs(seconds - run_.seconds()) > maxDriftSeconds) run_.seek(seconds);
 }
 
-float MixerSignals::read(MixerMoment& moment, int enchanters, const Played& played) {
-    const double now = nowMs(), passed = std::min(1000.0, now - readAtMs_);
-    readAtMs_ = now;
-    const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
+float MixerSignals::updatePeaks(MixerSnapshot& snapshot, int actuators, const PlayedFlags& played) {
+    const double timeMs = nowMs(), passedMs = std::min(1000.0, timeMs - readAtMs_);
+    readAtMs_ = timeMs;
+    const auto decay = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passedMs / 20'000.0));
     for (std::size_t j = 0; j < played.size(); ++j) {
-        float& peak = moment.meters.peaks[j];
-        peak = !played[j] || peak * fall < 1e-4f ? 0.0f : peak * fall;
-        if (!played[j]) moment.holds[j] = 0.0f;
+        float& peak = snapshot.meters.peaks[j];
+        peak = !played[j] || peak * decay < 1e-4f ? 0.0f : peak * decay;
+        if (!played[j]) snapshot.heldPeaks[j] = 0.0f;
     }
     tap_.read([&](const float* const* block, int frames) {
         zeros_.resize(std::max(zeros_.size(), static_cast<std::size_t>(frames)));
-        std::array<const float*, limits::maxEnchanters> shown{};
-        for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j)
-            shown[j] = played[j] ? block[j] : zeros_.data();
-        measure(shown.data(), frames, moment, enchanters);
+        std::array<const float*, limits::maxActuators> channels{};
+        for (std::size_t j = 0; j < static_cast<std::size_t>(actuators); ++j)
+            channels[j] = played[j] ? block[j] : zeros_.data();
+        addBlock(channels.data(), frames, snapshot, actuators);
     });
     float loudest = 0.0f;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
-        const float peak = moment.meters.peaks[j];
-        if (peak >= moment.holds[j] || now - heldAtMs_[j] > holdMs)
-            moment.holds[j] = peak, heldAtMs_[j] = now;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(actuators); ++j) {
+        const float peak = snapshot.meters.peaks[j];
+        if (peak >= snapshot.heldPeaks[j] || timeMs - heldAtMs_[j] > peakHoldMs)
+            snapshot.heldPeaks[j] = peak, heldAtMs_[j] = timeMs;
         loudest = std::max(loudest, peak);
     }
     return loudest;
 }
 
-// The samples are those before the master gain, so they are there while the output is silenced.
-void MixerSignals::measure(const float* const* block, int frames, MixerMoment& moment, int enchanters) {
-    scope_.add(block, enchanters, frames);
-    spectrum_.add(block, enchanters, frames);
-    if (scenePerFrame_ > 0.0) run_.add(block, enchanters, frames, frames * scenePerFrame_);
-    for (int j = 0; j < enchanters; ++j) {
+// The samples precede the master gain, so the traces go on while the output is muted.
+void MixerSignals::addBlock(const float* const* block, int frames, MixerSnapshot& snapshot, int actuators) {
+    scope_.add(block, actuators, frames);
+    spectrum_.add(block, actuators, frames);
+    if (sceneSecondsPerFrame_ > 0.0) run_.add(block, actuators, frames, frames * sceneSecondsPerFrame_);
+    for (int j = 0; j < actuators; ++j) {
         const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
-        auto& peak = nth(moment.meters.peaks, j);
+        auto& peak = nth(snapshot.meters.peaks, j);
         peak = std::max({peak, -range.getStart(), range.getEnd()});
     }
 }
 
 void SpectrumTrace::setRate(int sampleRateHz) {
-    framesPerSample_ = std::max(1, sampleRateHz / keptRateHz);
-    keptRateHz_ = static_cast<double>(std::max(1, sampleRateHz)) / framesPerSample_;
-    lanes_.assign(limits::maxEnchanters, {std::vector<float>(window), 0.0f});
-    newest_ = summed_ = 0;
+    framesPerSample_ = std::max(1, sampleRateHz / minRateHz);
+    rateHz_ = static_cast<double>(std::max(1, sampleRateHz)) / framesPerSample_;
+    lanes_.assign(limits::maxActuators, {std::vector<float>(windowSize), 0.0f});
+    writeIndex_ = framesSummed_ = 0;
 }
 
 // Decimates by averaging consecutive frames.
-void SpectrumTrace::add(const float* const* channels, int count, int frames) {
+void SpectrumTrace::add(const float* const* channels, int channelCount, int frames) {
     for (int done = 0; done < frames;) {
-        const int part = std::min(frames - done, framesPerSample_ - summed_);
-        const bool isFull = summed_ + part == framesPerSample_;
-        for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+        const int part = std::min(frames - done, framesPerSample_ - framesSummed_);
+        const bool isFull = framesSummed_ + part == framesPerSample_;
+        for (std::size_t j = 0; j < static_cast<std::size_t>(channelCount); ++j) {
             Lane& lane = lanes_[j];
             for (int k = done; k < done + part; ++k) lane.sum += channels[j][k];
             if (isFull)
-                nth(lane.kept, newest_) =
+                nth(lane.ring, writeIndex_) =
                     std::exchange(lane.sum, 0.0f) / static_cast<float>(framesPerSample_);
         }
         done += part;
-        summed_ = isFull ? 0 : summed_ + part;
-        if (isFull) newest_ = (newest_ + 1) % window;
+        framesSummed_ = isFull ? 0 : framesSummed_ + part;
+        if (isFull) writeIndex_ = (writeIndex_ + 1) % windowSize;
     }
 }
 
-std::vector<double> SpectrumTrace::recent(int channel) const {
-    const auto& kept = nth(lanes_, channel).kept;
-    if (std::ranges::all_of(kept, [](float x) { return std::abs(x) < 1e-4f; })) return {};
-    std::vector<double> samples(kept.begin() + newest_, kept.end());
-    samples.insert(samples.end(), kept.begin(), kept.begin() + newest_);
+std::vector<double> SpectrumTrace::windowSamples(int channel) const {
+    const auto& ring = nth(lanes_, channel).ring;
+    if (std::ranges::all_of(ring, [](float x) { return std::abs(x) < 1e-4f; })) return {};
+    std::vector<double> samples(ring.begin() + writeIndex_, ring.end());
+    samples.insert(samples.end(), ring.begin(), ring.begin() + writeIndex_);
     return samples;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reaches the mixer beside its window's controls: messages by OSC, test events, dropped clips.
+// Inputs beside the window's controls: the OSC port (MixerInputs), test events and clips (MixerEventPlayer).
 #pragma once
 #include "Host/Osc/OscPort.h"
 #include "Live/Devices/AudioOutput.h"
@@ -15,21 +15,21 @@ namespace physvib {
 
 class MixerModel;
 
-/// Whose messages are accepted.
-enum class OscUse { off, thisComputer, anyComputer };
+/// From whom OSC messages are accepted.
+enum class OscAccess { off, thisComputer, anyComputer };
 
 /// Addresses at which others reach this computer, "192.168.1.5"; empty without a network. Any thread.
-std::vector<std::string> ownAddresses();
+std::vector<std::string> localAddresses();
 
 struct OscChoice {
-    OscUse use = OscUse::off;
-    std::string receiver{};   ///< HOST:PORT that receives impacts and status; empty: none
-    double turnDegrees = 0.0; ///< counter-clockwise rotation of a phone from upright
+    OscAccess access = OscAccess::off;
+    std::string receiver{};        ///< HOST:PORT that receives impacts and status; empty: none
+    double phoneTurnDegrees = 0.0; ///< counter-clockwise rotation of a phone from upright
     bool operator==(const OscChoice&) const = default;
 };
 
 /// The mixer's OSC port. Events go to the session at once; changes of strips and world are applied by the
-/// mixer itself. With a receiver, played events are collected often, to be reported. Message thread.
+/// mixer itself. With a receiver, played events are collected every 10 ms and reported. Message thread.
 class MixerInputs final : private juce::AsyncUpdater, private juce::Timer {
 public:
     /// `model` outlives it.
@@ -38,16 +38,16 @@ public:
     ~MixerInputs() override { close(); }
 
     /// Sets the OSC port. Empty, or an error, and then the old port stays.
-    std::string use(const OscChoice& choice);
+    std::string configure(const OscChoice& choice);
     const OscChoice& choice() const noexcept { return choice_; }
     std::optional<OscStatus> status() const; ///< of the open port
 
-    bool haveCome(); ///< true if messages have come since the last call
+    bool hasNewMessages(); ///< true if messages have come since the last call
 
     void close(); ///< stops all input
 
 private:
-    struct Waiting {
+    struct PendingInput {
         LineInput input;
         OscOrigin origin;
     };
@@ -61,10 +61,11 @@ private:
     MixerModel& model_;
     OscChoice choice_;
     std::mutex mutex_; // guards the next member
-    std::vector<Waiting> waiting_;
-    // message thread, of the open port:
-    std::uint64_t come_ = 0, refused_ = 0; // messages as of the last haveCome(); refused by the mixer
-    std::string fault_;                    // last error of the mixer
+    std::vector<PendingInput> pending_;
+    // used by the message thread, counted for the open port:
+    std::uint64_t lastMessageCount_ = 0, refusedCount_ = 0; // messages as of the last hasNewMessages();
+                                                            // refused by the mixer
+    std::string lastError_;                                 // why the mixer refused the last of them
     std::optional<MessageRouter> messages_;
     std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
 };
@@ -74,47 +75,49 @@ bool isClipDrag(const juce::StringArray& files);
 
 /// Events that the mixer plays apart from the world: test pulses and sweeps of one actuator, auditions of
 /// materials, and clips, which a background thread reads and posts like messages. Message thread.
-class MixerStrikes final : private juce::AsyncUpdater {
+class MixerEventPlayer final : private juce::AsyncUpdater {
 public:
-    /// All references outlive it. `onStrike` is called for each event; `onClip` for each clip: with a note or
+    /// All references outlive it. `onEvent` is called for each event; `onClip` for each clip: with a note or
     /// an empty text if it plays, or with the reason if it was rejected.
-    MixerStrikes(Session& session, const AudioOutput& output, const Mix& mix, const MixerWorld& world,
-                 std::function<void()> onStrike, std::function<void(const Result<std::string>&)> onClip);
-    ~MixerStrikes() override;
+    MixerEventPlayer(Session& session, const AudioOutput& output, const Mix& mix, const MixerWorld& world,
+                     std::function<void()> onEvent, std::function<void(const Result<std::string>&)> onClip);
+    ~MixerEventPlayer() override;
 
     /// A pulse of one actuator, or a sweep over its range.
-    void testPulse(int enchanter);
-    void testSweep(int enchanter);
+    void testPulse(int actuator);
+    void testSweep(int actuator);
 
     /// An impact of that material of the scene at a place of the field, at the level of a test pulse. Empty,
     /// or an error.
     std::string audition(int material, double shareX, double shareY);
 
-    /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read: one
-    /// after the other.
-    void feelAt(const juce::StringArray& files, double shareX, double shareY) {
-        feel(files, onField(shareX, shareY), false);
+    /// Plays a dropped clip at a place of the field, or on one actuator only, as soon as it has been read.
+    /// Clips are read one after the other.
+    void playClipAt(const juce::StringArray& files, double shareX, double shareY) {
+        playClipFile(files, fieldPosition(shareX, shareY), false);
     }
-    void feelOn(const juce::StringArray& files, int enchanter) { feel(files, placeOf(enchanter), true); }
-    /// Plays a recording, each channel on the actuator of its number, when it has been read.
-    void playTake(const juce::File& file) {
-        read({"clip", {{"file", pathOf(file)}}}, "Playing " + file.getFileName().toStdString());
+    void playClipOn(const juce::StringArray& files, int actuator) {
+        playClipFile(files, actuatorPosition(actuator), true);
+    }
+    /// Plays a recording, each channel on the actuator of its number, as soon as it has been read.
+    void playRecording(const juce::File& file) {
+        queueClip({"clip", {{"file", pathOf(file)}}}, "Playing " + file.getFileName().toStdString());
     }
 
 private:
-    bool strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at);
-    EnchanterPlace onField(double shareX, double shareY) const;
-    EnchanterPlace placeOf(int enchanter) const;
-    void feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone);
-    void read(PlainMessage clip, std::string said = {});
-    Result<std::string> strike(const PlainMessage& clip);
+    bool playEvents(std::vector<CollisionEvent> events, const ActuatorPlace& place);
+    ActuatorPlace fieldPosition(double shareX, double shareY) const;
+    ActuatorPlace actuatorPosition(int actuator) const;
+    void playClipFile(const juce::StringArray& files, const ActuatorPlace& place, bool isSingleActuator);
+    void queueClip(PlainMessage clip, std::string note = {});
+    Result<std::string> playClip(const PlainMessage& clip);
     void handleAsyncUpdate() override;
 
     Session& session_;
     const AudioOutput& output_;
     const Mix& mix_;
     const MixerWorld& world_;
-    std::function<void()> onStrike_;
+    std::function<void()> onEvent_;
     std::function<void(const Result<std::string>&)> onClip_;
     MessageRouter messages_;
     std::mutex mutex_; // guards the members below

@@ -1,100 +1,102 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The queue of messages, words for impacts, and trials of materials in a world of their own.
+// The queue of messages, texts about impacts, and hints on materials, bodies and levels without vibration.
 #include "Mixer/Model/MixerMessages.h"
 #include "Core/NameNumbers.h"
 #include "Mixer/Model/MixerModel.h"
-#include "Scene/Drawing/FeltTrial.h"
+#include "Scene/Drawing/ImpactTrial.h"
 #include <ranges>
 
 namespace physvib {
 namespace {
 
-bool isOf(const MixerMessage& message, const juce::String& label) {
+bool hasLabel(const MixerMessage& message, const juce::String& label) {
     return label.isNotEmpty() && message.label == label;
 }
 
-constexpr const char *feltLabel = "felt", *makeFelt = "Make it felt";
+constexpr const char *hintLabel = "felt", *fixName = "Make it felt";
 
-void showHint(MixerModel& model, const std::string& name, const std::string& why,
-              std::function<void()> mend) {
-    if (why.empty()) return model.messages().withdraw(feltLabel);
-    MixerMessage message{utf8(name) + " is not felt at usual impacts: " + utf8(why), true, {}, feltLabel};
-    if (mend) message.act = {makeFelt, std::move(mend)};
+void showHint(MixerModel& model, const std::string& name, const std::string& reason,
+              std::function<void()> fix) {
+    if (reason.empty()) return model.messages().withdraw(hintLabel);
+    MixerMessage message{utf8(name) + " is not felt at usual impacts: " + utf8(reason), true, {}, hintLabel};
+    if (fix) message.action = {fixName, std::move(fix)};
     model.messages().show(std::move(message));
 }
 
-/// The scene starts anew.
-void giveSound(MixerModel& model, int material) {
-    model.change(makeFelt, [&](Mix& mix) {
-        mix.scene = std::make_shared<const Scene>(withSound(model.world().drawing().drawn(), material));
+/// Gives the material a sound, as an edit that restarts the scene.
+void addSound(MixerModel& model, int material) {
+    model.change(fixName, [&](Mix& mix) {
+        mix.scene = std::make_shared<const Scene>(sceneWithSound(model.world().drawing().drawn(), material));
     });
 }
 
 } // namespace
 
-void MixerMessages::put(MixerMessage message) {
-    const bool isSame = message.words == shown_.words && message.isNews == shown_.isNews &&
-                        message.act.name == shown_.act.name;
-    shown_ = std::move(message);
-    ++told_;
+void MixerMessages::display(MixerMessage message) {
+    const bool isSame = message.text == current_.text && message.isInfo == current_.isInfo &&
+                        message.action.name == current_.action.name;
+    current_ = std::move(message);
+    ++shownCount_;
     if (!isSame) onChange_();
 }
 
 void MixerMessages::show(MixerMessage message) {
-    const bool isDone = message.words.isEmpty();
-    std::erase_if(waiting_, [&](const MixerMessage& m) { return isOf(m, message.label); });
-    if (isDone && !waiting_.empty()) {
-        message = std::move(waiting_.front());
-        waiting_.pop_front();
-    } else if (!isDone && shown_.lasts() && shown_.words != message.words && !isOf(shown_, message.label))
-        waiting_.push_front(shown_); // there is still something to be done about it
-    put(std::move(message));
+    const bool isEmpty = message.text.isEmpty();
+    std::erase_if(queue_, [&](const MixerMessage& m) { return hasLabel(m, message.label); });
+    if (isEmpty && !queue_.empty()) {
+        message = std::move(queue_.front());
+        queue_.pop_front();
+    } else if (!isEmpty && current_.isPersistent() && current_.text != message.text &&
+               !hasLabel(current_, message.label))
+        queue_.push_front(current_); // its cause still exists
+    display(std::move(message));
 }
 
 void MixerMessages::add(MixerMessage message) {
-    if (shown_.words.isEmpty() || isOf(shown_, message.label)) return put(std::move(message));
+    if (current_.text.isEmpty() || hasLabel(current_, message.label)) return display(std::move(message));
     const auto same =
-        std::ranges::find_if(waiting_, [&](const MixerMessage& m) { return isOf(m, message.label); });
-    if (same != waiting_.end())
+        std::ranges::find_if(queue_, [&](const MixerMessage& m) { return hasLabel(m, message.label); });
+    if (same != queue_.end())
         *same = std::move(message);
     else
-        waiting_.push_back(std::move(message));
+        queue_.push_back(std::move(message));
 }
 
 void MixerMessages::withdraw(const juce::String& label) {
-    std::erase_if(waiting_, [&](const MixerMessage& m) { return isOf(m, label); });
-    if (isOf(shown_, label)) show({});
+    std::erase_if(queue_, [&](const MixerMessage& m) { return hasLabel(m, label); });
+    if (hasLabel(current_, label)) show({});
 }
 
-int materialOf(const Scene& scene, const CollisionEvent& hit) {
-    const auto sounds = [&hit](const Material& m) { return hit.sound == soundOfMaterial(m.name); };
-    const auto found = std::ranges::find_if(scene.materials, sounds);
+int materialIndexOf(const Scene& scene, const CollisionEvent& hit) {
+    const auto hasSound = [&hit](const Material& m) { return hit.sound == soundOfMaterial(m.name); };
+    const auto found = std::ranges::find_if(scene.materials, hasSound);
     return found == scene.materials.end() ? -1 : static_cast<int>(found - scene.materials.begin());
 }
 
 juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
-    const int index = materialOf(scene, hit);
+    const int index = materialIndexOf(scene, hit);
     return isClip(hit.sound) ? juce::String{"clip"}
            : index < 0       ? juce::String{"hit"}
                              : utf8(nth(scene.materials, index).name);
 }
 
-StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit) {
+StrongestActuator strongestActuatorFor(const MixerModel& model, const CollisionEvent& hit) {
     const Mix& mix = model.mix();
     PhantomPanner::Gains gains{};
     mix.panner().gainsAt(hit, gains);
     StrongestActuator strongest;
     for (int j = 0; j < mix.count(); ++j) {
         const auto i = static_cast<std::size_t>(j);
-        const double g =
-            std::abs(hit.amplitude) * gains[i] * mix.layout.enchanters[i].fullScaleG * masterGain(mix);
-        if (g > strongest.levelG && model.device().isPlayed(i) && !mix.isSilent(j)) strongest = {j, g};
+        const double levelG =
+            std::abs(hit.amplitude) * gains[i] * mix.layout.actuators[i].fullScaleG * masterGain(mix);
+        if (levelG > strongest.levelG && model.device().isPlayed(i) && !mix.isSilent(j))
+            strongest = {j, levelG};
     }
     return strongest;
 }
 
-juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit) {
-    if (model.isOnlySeen()) return "no device";
+juce::String reasonNotPlayed(const MixerModel& model, const CollisionEvent& hit) {
+    if (model.isVisualOnly()) return "no device";
     PhantomPanner::Gains gains{};
     model.mix().panner().gainsAt(hit, gains);
     const auto nearest = std::ranges::max_element(gains) - gains.begin();
@@ -120,60 +122,60 @@ juce::String placeText(const Scene& scene, const CollisionEvent& hit) {
 void hintOnMaterial(MixerModel& model, int material) {
     const Scene& scene = model.world().drawing().drawn();
     if (material < 0 || material >= static_cast<int>(scene.materials.size())) return;
-    const Material& asked = nth(scene.materials, material);
-    std::function<void()> mend;
-    if (asked.frequencyHz <= 0.0)
-        mend = [&model, material] {
-            giveSound(model, material);
+    const Material& current = nth(scene.materials, material);
+    std::function<void()> fix;
+    if (current.frequencyHz <= 0.0)
+        fix = [&model, material] {
+            addSound(model, material);
             hintOnMaterial(model, material);
         };
-    showHint(model, asked.name, whyNotFelt(scene, material), std::move(mend));
+    showHint(model, current.name, silentBodyReason(scene, material), std::move(fix));
 }
 
-juce::String lackingOf(const SavedSession& session) {
-    juce::StringArray lacking;
-    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) lacking.add("equalisers");
-    if (session.shaping != EventShaping{}) lacking.add("method, remapping and gain");
-    if (lacking.isEmpty()) return {};
-    return "This session has " + lacking.joinIntoString(", ") +
+juce::String unsupportedFeatures(const SavedSession& session) {
+    juce::StringArray unsupported;
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) unsupported.add("equalisers");
+    if (session.shaping != EventShaping{}) unsupported.add("method, remapping and gain");
+    if (unsupported.isEmpty()) return {};
+    return "This session has " + unsupported.joinIntoString(", ") +
            " of its own, which the mixer has not: it feels otherwise here; physvib render has them";
 }
 
-juce::String whySilent(const MixerModel& model) {
+juce::String silenceReason(const MixerModel& model) {
     const Mix& mix = model.mix();
     const auto all = std::views::iota(0, mix.count());
     const auto isPlayed = [&](int j) { return model.device().isPlayed(static_cast<std::size_t>(j)); };
-    if (masterGain(mix) == 0.0f) return "the master is at " + number(leastStripDb, 0) + " dB";
+    if (masterGain(mix) == 0.0f) return "the master is at " + number(minStripDb, 0) + " dB";
     if (std::ranges::all_of(all, [&](int j) { return mix.isSilent(j); })) return "every strip is muted";
-    const bool isHeard = !model.device().listening().settings().contacts.empty();
-    if (!isHeard && std::ranges::none_of(all, isPlayed)) return "no strip has an output";
-    if (!isHeard && std::ranges::none_of(all, [&](int j) { return isPlayed(j) && !mix.isSilent(j); }))
+    const bool hasMonitor = !model.device().listening().settings().contacts.empty();
+    if (!hasMonitor && std::ranges::none_of(all, isPlayed)) return "no strip has an output";
+    if (!hasMonitor && std::ranges::none_of(all, [&](int j) { return isPlayed(j) && !mix.isSilent(j); }))
         return "every strip is muted, or has no output";
-    const bool areDown = std::ranges::all_of(
-        all, [&](int j) { return loudestDb(mix, static_cast<std::size_t>(j)) <= leastStripDb; });
-    return areDown ? "every strip's fader is down" : "";
+    const bool areFadersDown = std::ranges::all_of(
+        all, [&](int j) { return maxGainDb(mix, static_cast<std::size_t>(j)) <= minStripDb; });
+    return areFadersDown ? "every strip's fader is down" : "";
 }
 
-void hintOnLevels(MixerModel& model, const juce::String& why) {
+void hintOnLevels(MixerModel& model, const juce::String& reason) {
     constexpr const char* label = "levels-silent";
-    if (why.isEmpty()) return model.messages().withdraw(label);
-    model.messages().show({"Nothing is felt: " + why, false, {}, label});
+    if (reason.isEmpty()) return model.messages().withdraw(label);
+    model.messages().show({"Nothing is felt: " + reason, false, {}, label});
 }
 
 void hintOnBody(MixerModel& model, const std::string& name) {
     const Scene& scene = model.world().drawing().drawn();
     const BodyDescription* const body = model.world().drawing().find(name);
     if (body == nullptr) return;
-    std::function<void()> mend;
-    if (!feltChanges(scene, *body).empty())
-        mend = [&model, name] {
-            const auto* there = model.world().drawing().find(name); // it may have been erased meanwhile
-            if (there == nullptr) return;
-            if (!model.reportFault(
-                    model.world().edit(makeFelt, feltChanges(model.world().drawing().drawn(), *there))))
+    std::function<void()> fix;
+    if (!actionsToVibrate(scene, *body).empty())
+        fix = [&model, name] {
+            const auto* found = model.world().drawing().find(name); // it may have been erased meanwhile
+            if (found == nullptr) return;
+            if (!model.reportIfError(
+                    model.world().edit(fixName, actionsToVibrate(model.world().drawing().drawn(), *found))))
                 hintOnBody(model, name);
         };
-    showHint(model, name, whyNotFelt(scene, *body), std::move(mend));
+    showHint(model, name, silentBodyReason(scene, *body), std::move(fix));
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's state, the session that plays it, and its output device.
+// Applies edits of the mixer state to session (SentMix) and output, opens the device, collects played events.
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneFile.h"
@@ -27,16 +27,16 @@ SessionSetup setupOf(const Mix& mix) {
     return setup;
 }
 
-/// Strips of new actuators are no louder than the quietest that is heard.
-void quietenNew(std::span<const Strip> before, std::span<Strip> strips) {
-    double most = mostStripDb;
+/// Limits the gains of new strips to the lowest gain of an existing strip that plays.
+void limitNewStrips(std::span<const Strip> before, std::span<Strip> strips) {
+    double maxDb = maxStripDb;
     for (const Strip& strip : before)
-        if (strip.gainDb > leastStripDb) most = std::min(most, strip.gainDb);
+        if (strip.gainDb > minStripDb) maxDb = std::min(maxDb, strip.gainDb);
     for (std::size_t j = before.size(); j < strips.size(); ++j)
-        strips[j].gainDb = std::min(strips[j].gainDb, most);
+        strips[j].gainDb = std::min(strips[j].gainDb, maxDb);
 }
 
-RigSettings rigOf(const Mix& mix, const DeviceChoice& device) {
+RigSettings rigSettingsOf(const Mix& mix, const DeviceChoice& device) {
     return {.setup = setupOf(mix), .sinks = device.sinks, .awaitsSinks = false};
 }
 
@@ -49,7 +49,7 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 
 } // namespace
 
-/// What of the mixer state the session has received. Message thread.
+/// The part of the mixer state that the session has received. Message thread.
 class SentMix {
 public:
     /// Initial state: the session was created with `panner` and default strips.
@@ -68,34 +68,34 @@ public:
             if (!post(Kind::panner, &panner)) return;
             panner_ = panner;
         }
-        const auto felt = feltStrips(mix);
-        for (std::size_t j = 0; j < follows_.size(); ++j)
-            if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // set by its lane
-        sendStrips(strips_, felt, [&session](const RenderControl& control) {
+        const auto effective = effectiveStrips(mix);
+        for (std::size_t j = 0; j < hasLanes_.size(); ++j)
+            if (hasLanes_[j]) strips_[j].gain = channelGain(effective[j]); // set by its lane
+        sendStrips(strips_, effective, [&session](const RenderControl& control) {
             return session.submit({control}).error.empty();
         });
     }
 
     /// Sends changed lanes; the session itself then controls strips with a lane.
-    void follow(Session& session, const Mix& mix) {
-        std::vector<bool> follows(mix.strips.size());
-        for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
-        for (std::size_t j = 0; j < follows_.size(); ++j) // the gain at the end of its lane is unknown here
-            if (follows_[j] && (j >= follows.size() || !follows[j]))
+    void sendLanes(Session& session, const Mix& mix) {
+        std::vector<bool> hasLanes(mix.strips.size());
+        for (std::size_t j = 0; j < hasLanes.size(); ++j) hasLanes[j] = hasLane(mix, j);
+        for (std::size_t j = 0; j < hasLanes_.size(); ++j) // the gain at the end of its lane is unknown here
+            if (hasLanes_[j] && (j >= hasLanes.size() || !hasLanes[j]))
                 strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
-        const bool any = std::ranges::find(follows, true) != follows.end(),
-                   wereAny = std::ranges::find(follows_, true) != follows_.end();
-        follows_ = std::move(follows);
-        if (any || wereAny) session.submit({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
+        const bool hasAny = std::ranges::find(hasLanes, true) != hasLanes.end(),
+                   hadAny = std::ranges::find(hasLanes_, true) != hasLanes_.end();
+        hasLanes_ = std::move(hasLanes);
+        if (hasAny || hadAny) session.submit({Lanes{hasAny ? std::make_shared<const Mix>(mix) : nullptr}});
     }
 
 private:
     PhantomPanner panner_;
-    std::vector<bool> follows_; // by strip
-    std::array<SentStrip, limits::maxEnchanters> strips_{};
+    std::vector<bool> hasLanes_; // by strip
+    std::array<SentStrip, limits::maxActuators> strips_{};
 };
 
-Mix MixerModel::firstMix() {
+Mix MixerModel::defaultMix() {
     Mix mix;
     mix.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
     mix.layout = presetLayout("phone4");
@@ -113,155 +113,154 @@ public:
     // JUCE keeps no step of an action that fails at first, but forgets all steps if one fails later
     bool perform() override {
         const bool isDone = history_.model->apply(after_);
-        return std::exchange(isRepeated_, true) || isDone;
+        return std::exchange(wasPerformed_, true) || isDone;
     }
     bool undo() override { return history_.model->apply(before_), true; }
     int getSizeInUnits() override { return 1; }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
-        const auto* other = dynamic_cast<MixEdit*>(next);
-        if (other == nullptr) return nullptr;
-        auto* both = new MixEdit{history_, before_, other->after_};
-        both->isRepeated_ = true;
-        return both;
+        const auto* nextEdit = dynamic_cast<MixEdit*>(next);
+        if (nextEdit == nullptr) return nullptr;
+        auto* merged = new MixEdit{history_, before_, nextEdit->after_};
+        merged->wasPerformed_ = true;
+        return merged;
     }
 
 private:
     MixerHistory& history_;
     Mix before_, after_;
-    bool isRepeated_ = false;
+    bool wasPerformed_ = false;
 };
 
 MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix, MixerStart start)
     : mix_{std::move(mix)}
-    , rig_{rigOf(mix_, device), drivers}
+    , rig_{rigSettingsOf(mix_, device), drivers}
     , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
     , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
     , history_{start.history ? std::move(start.history) : std::make_shared<MixerHistory>()}
-    , world_{session(), mix_, *history_, [this](bool isShown) { edited(isShown); },
-             [this](const std::string& fault) { report(utf8(fault)); }}
-    , lastSent_{std::make_unique<SentMix>(mix_.panner())}
-    , strikes_{session(),
-               output(),
-               mix_,
-               world_,
-               [this] { edited(true); },
-               [this](const Result<std::string>& note) { clipWasRead(note); }} {
+    , world_{session(), mix_, *history_, [this](bool changesDisplay) { countEdit(changesDisplay); },
+             [this](const std::string& error) { report(utf8(error)); }}
+    , sentMix_{std::make_unique<SentMix>(mix_.panner())}
+    , eventPlayer_{session(),
+                   output(),
+                   mix_,
+                   world_,
+                   [this] { countEdit(true); },
+                   [this](const Result<std::string>& note) { onClipRead(note); }} {
     history_->model = this;
-    const auto without = settleOutputs(mix_.strips);
+    const auto withoutOutput = removeSharedOutputs(mix_.strips);
     saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
     saved_.layout = mix_.layout;
-    maxEnchanters_ = mix_.count();
-    signals_.tap().hear(mix_.count());
-    exposure_.use(mix_.layout);
+    maxActuators_ = mix_.count();
+    signals_.tap().setActiveChannels(mix_.count());
+    exposure_.setLayout(mix_.layout);
     session().sinks().attach(signals_.tap());
-    const auto fault = rig_.connectSinks();
+    const auto error = rig_.connectSinks();
     setSilent(start.isSilent); // before anything can be felt
     session().world().setSlowness(start.isPaused ? 0 : 1);
     open(device);
-    if (!fault.empty()) messages_.show({utf8(fault), false, {}, "sinks"});
-    reportWithout(*this, without);
-    lastSent_->follow(session(), mix_);
-    lastSent_->send(session(), mix_);
-    edits_ = 0;
+    if (!error.empty()) messages_.show({utf8(error), false, {}, "sinks"});
+    reportNoOutput(*this, withoutOutput);
+    sentMix_->sendLanes(session(), mix_);
+    sentMix_->send(session(), mix_);
+    editCount_ = 0;
     rig_.start();
 }
 
 MixerModel::~MixerModel() {
     output().stop();
-    recording_.keep(); // first, since closing devices may hang
+    recording_.complete(); // first, since closing devices may hang
     inputs_.close();
     rig_.close();
 }
 
-void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit, bool returns) {
+void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit, bool restoresPoses) {
     auto& undo = history_->undo;
     if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
     if (const Scene& drawn = world_.drawing().drawn();
-        next.scene != mix_.scene && (returns || drawn != *mix_.scene)) {
-        auto left = std::make_shared<const Scene>(returns ? sceneNow(drawn, world_.posesNow()) : drawn);
-        const auto before = std::exchange(mix_.scene, std::move(left));
-        history_->drawn.emplace_back(before, mix_.scene);
+        next.scene != mix_.scene && (restoresPoses || drawn != *mix_.scene)) {
+        auto base = std::make_shared<const Scene>(restoresPoses ? sceneNow(drawn, world_.posesNow()) : drawn);
+        const auto before = std::exchange(mix_.scene, std::move(base));
+        history_->drawnScenes.emplace_back(before, mix_.scene);
     }
-    Mix settled = next;
-    quietenNew(mix_.strips, settled.strips);
-    const auto withoutEar = placeNew(device_.choice(), settled.strips, mix_.strips.size());
-    const auto without = settleOutputs(settled.strips);
-    undo.perform(new MixEdit{*history_, mix_, std::move(settled)});
-    reportWithout(*this, without);
-    reportNoEar(*this, withoutEar);
+    Mix adjusted = next;
+    limitNewStrips(mix_.strips, adjusted.strips);
+    const auto withoutHeadphone = assignNewStrips(device_.choice(), adjusted.strips, mix_.strips.size());
+    const auto withoutOutput = removeSharedOutputs(adjusted.strips);
+    undo.perform(new MixEdit{*history_, mix_, std::move(adjusted)});
+    reportNoOutput(*this, withoutOutput);
+    reportNoHeadphoneOutput(*this, withoutHeadphone);
 }
 
 bool MixerModel::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
-    if (history_->isSame(mix_.scene, before.scene)) mix_.scene = before.scene; // with what is drawn there
-    bool isRefused = false;
-    ++edits_;
-    maxEnchanters_ = std::max(maxEnchanters_, mix_.count());
+    if (history_->isSame(mix_.scene, before.scene)) mix_.scene = before.scene; // keeps the drawn bodies
+    bool isRejected = false;
+    ++editCount_;
+    maxActuators_ = std::max(maxActuators_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed)
-        reportFault(world_.begin(mix_.scene == before.scene));
-    signals_.tap().hear(mix_.count());
-    exposure_.use(mix_.layout);
-    lastSent_->follow(session(), mix_);
-    lastSent_->send(session(), mix_);
+        reportIfError(world_.restartScene(mix_.scene == before.scene));
+    signals_.tap().setActiveChannels(mix_.count());
+    exposure_.setLayout(mix_.layout);
+    sentMix_->sendLanes(session(), mix_);
+    sentMix_->send(session(), mix_);
     if (!mix_.strips.empty() &&
         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
-        if (const auto error = device_.assign(); !error.empty()) {
-            showPlayedOutputs(output().channelMap(), mix_.strips); // refused: neither shown nor saved
+        if (const auto error = device_.assignOutputs(); !error.empty()) {
+            setStripOutputs(output().channelMap(), mix_.strips); // rejected: neither displayed nor saved
             report(utf8(error));
-            isRefused = isSame(mix_, before);
+            isRejected = isSame(mix_, before);
         }
     if (std::ranges::none_of(mix_.strips, [](const Strip& strip) { return strip.output < 0; }))
-        for (const char* label : {noOutputLabel, noEarLabel}) messages_.withdraw(label);
+        for (const char* label : {noOutputLabel, noHeadphoneOutputLabel}) messages_.withdraw(label);
     output().setLevel(masterGain(mix_));
-    if (isRefused) --edits_;
+    if (isRejected) --editCount_;
     sendChangeMessage();
-    return !isRefused;
+    return !isRejected;
 }
 
 bool MixerModel::attach(double shareX, double shareY) {
-    if (mix_.count() >= limits::maxEnchanters) return false;
+    if (mix_.count() >= limits::maxActuators) return false;
     change("Attach an actuator", [&](Mix& mix) {
         auto& layout = mix.layout;
         const auto label = [](int n) {
-            return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label;
+            return describeLayout("", ActuatorLayout{1, 1, n + 1, {}}).actuators.back().label;
         };
         int n = 0;
-        while (std::ranges::any_of(layout.enchanters, [&](const auto& e) { return e.label == label(n); }))
-            ++n;
+        while (std::ranges::any_of(layout.actuators, [&](const auto& e) { return e.label == label(n); })) ++n;
         layout.name = "own";
-        layout.enchanters.push_back(
-            {label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
+        layout.actuators.push_back(
+            {label(n), layout.actuators.back().actuator, layout.actuators.back().fullScaleG});
         auto& geometry = layout.geometry;
         const double x = shareX * geometry.extentWidthMetres, y = shareY * geometry.extentHeightMetres;
-        // in space: as deep as, and on the part of, the one that is nearest in the view
+        // depth and part of the body are those of the nearest actuator in the view
         const auto others = std::span{geometry.places}.first(static_cast<std::size_t>(geometry.count));
         const auto nearest = *std::ranges::min_element(
             others, {}, [=](const ActuatorPlace& at) { return std::hypot(at.xMetres - x, at.yMetres - y); });
         geometry.places[others.size()] = {x, y, nearest.zMetres, nearest.part};
         ++geometry.count;
-        mix.strips.push_back(nextStrip(mix.strips));
+        mix.strips.push_back(makeNextStrip(mix.strips));
         mix.strips.back().gainDb = newStripDb;
     });
     return true;
 }
 
-void MixerModel::detach(int enchanter) {
+void MixerModel::detach(int actuator) {
     if (mix_.count() < 2) return;
-    change("Detach " + labelOf(mix_, enchanter), [&](Mix& mix) {
+    change("Detach " + labelOf(mix_, actuator), [&](Mix& mix) {
         auto& layout = mix.layout;
         auto& places = layout.geometry.places;
-        std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count,
-                  places.begin() + enchanter);
+        std::copy(places.begin() + actuator + 1, places.begin() + layout.geometry.count,
+                  places.begin() + actuator);
         --layout.geometry.count;
         layout.name = "own";
-        layout.enchanters.erase(layout.enchanters.begin() + enchanter);
-        mix.strips.erase(mix.strips.begin() + enchanter);
+        layout.actuators.erase(layout.actuators.begin() + actuator);
+        mix.strips.erase(mix.strips.begin() + actuator);
     });
 }
 
-const SavedSession& MixerModel::saved() {
-    saved_.channels = maxEnchanters_;
+const SavedSession& MixerModel::savedSession() {
+    saved_.channels = maxActuators_;
     saved_.lengthNs = session().status().sessionNs;
     session().readLog(saved_.log);
     saved_.mix = mix_;
@@ -273,7 +272,7 @@ std::string MixerModel::open(const DeviceChoice& choice) {
     const DeviceChoice before = device_.choice();
     auto error = device_.open(choice);
     if (!choice.isHeadphones) {
-        messages_.withdraw(noEarLabel);
+        messages_.withdraw(noHeadphoneOutputLabel);
         if (before.isHeadphones) leaveHeadphones(*this, before);
     }
     session().world().setSlowness(slowness); // the first device resets it
@@ -282,41 +281,41 @@ std::string MixerModel::open(const DeviceChoice& choice) {
     else
         messages_.withdraw(deviceLabel);
     signals_.setRate(output().sampleRateHz());
-    sendChangeMessage(); // it may have other outputs, or name them otherwise
+    sendChangeMessage(); // outputs or their names may have changed
     return error;
 }
 
-std::string MixerModel::monitorInstead(std::vector<int> outputs, double db) {
+std::string MixerModel::moveOutputsToMonitor(std::vector<int> outputs, double levelDb) {
     if (!std::ranges::all_of(outputs, [this](int output) {
-            return output >= device_.outputs() || device_.listening().isFree(output);
+            return output >= device_.outputCount() || device_.listening().isFree(output);
         }))
         change("Listen instead of feeling", [&](Mix& mix) {
             for (Strip& strip : mix.strips)
                 if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
         });
-    return device_.listening().monitor(std::move(outputs), db);
+    return device_.listening().setMonitor(std::move(outputs), levelDb);
 }
 
-void MixerModel::watchOutput() {
-    lastSent_->send(session(), mix_); // retries controls for which the queue was full
+void MixerModel::checkOutput() {
+    sentMix_->send(session(), mix_); // retries controls for which the queue was full
     if (isSilent_ != output().isSilent()) showSilence();
     const int slowness = session().world().slowness();
     device_.maintain();
     session().world().setSlowness(slowness);
     // each source of errors has a message of its own
-    const auto before = std::exchange(troubles_, rig_.troubles());
-    for (const RigTrouble& old : before)
-        if (std::ranges::find(troubles_, old.source, &RigTrouble::source) == troubles_.end())
-            messages_.withdraw(utf8(old.source));
-    for (const RigTrouble& trouble : troubles_)
-        if (std::ranges::find(before, trouble) == before.end())
-            messages_.show({utf8(trouble.words), false, {}, utf8(trouble.source)});
+    const auto before = std::exchange(rigErrors_, rig_.errors());
+    for (const RigError& previous : before)
+        if (std::ranges::find(rigErrors_, previous.source, &RigError::source) == rigErrors_.end())
+            messages_.withdraw(utf8(previous.source));
+    for (const RigError& error : rigErrors_)
+        if (std::ranges::find(before, error) == before.end())
+            messages_.show({utf8(error.text), false, {}, utf8(error.source)});
 }
 
 void MixerModel::restart(std::uint32_t seed) {
     if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
-    reportFault(world_.begin(true));
-    edited();
+    reportIfError(world_.restartScene(true));
+    countEdit();
 }
 
 void MixerModel::setSlowness(int slowness) {
@@ -324,23 +323,23 @@ void MixerModel::setSlowness(int slowness) {
     sendChangeMessage();
 }
 
-void MixerModel::edited(bool isShown) {
-    ++edits_;
-    if (isShown) sendChangeMessage(); // lets idle views repaint
+void MixerModel::countEdit(bool changesDisplay) {
+    ++editCount_;
+    if (changesDisplay) sendChangeMessage(); // lets idle views repaint
 }
 
-void MixerModel::clipWasRead(const Result<std::string>& note) {
+void MixerModel::onClipRead(const Result<std::string>& note) {
     if (!note) return report(utf8(note.error));
-    const auto mute = device_.withoutClips();
+    const auto cliplessSink = device_.sinkWithoutClips();
     if (!note.value.empty()) announce(utf8(note.value));
-    if (mute.isNotEmpty())
-        messages_.add({"The " + mute + " plays no clips: it is felt on the device alone", true});
-    edited();
+    if (cliplessSink.isNotEmpty())
+        messages_.add({"The " + cliplessSink + " plays no clips: it is felt on the device alone", true});
+    countEdit();
 }
 
-bool MixerModel::reportFault(const std::string& fault) {
-    if (!fault.empty()) report(utf8(fault));
-    return !fault.empty();
+bool MixerModel::reportIfError(const std::string& error) {
+    if (!error.empty()) report(utf8(error));
+    return !error.empty();
 }
 
 void MixerModel::setSilent(bool silent) {
@@ -348,8 +347,8 @@ void MixerModel::setSilent(bool silent) {
     showSilence();
 }
 
-bool MixerModel::isOnlySeen() const {
-    return device_.isNone() && session().sinks().states().empty() && inputs_.choice().receiver.empty();
+bool MixerModel::isVisualOnly() const {
+    return device_.hasNoDevice() && session().sinks().states().empty() && inputs_.choice().receiver.empty();
 }
 
 void MixerModel::showSilence() {
@@ -362,44 +361,45 @@ void MixerModel::setDisplayWidth(double metres) {
     sendChangeMessage();
 }
 
-MixerMoment MixerModel::look() {
+MixerSnapshot MixerModel::poll() {
     const WorldRunner& world = session().world();
-    signals_.follow(world.take(),
-                    1e-9 * static_cast<double>(world.sceneNs()) - device_.outputLatencySeconds(),
-                    world.slowness());
-    MixerSignals::Played played{};
+    signals_.setSceneTime(world.runNumber(),
+                          1e-9 * static_cast<double>(world.sceneNs()) - device_.outputLatencySeconds(),
+                          world.slowness());
+    MixerSignals::PlayedFlags played{};
     for (std::size_t j = 0; j < mix_.strips.size(); ++j) played[j] = !isSilent_ && device_.isPlayed(j);
-    const float loudest = signals_.read(now_, mix_.count(), played);
-    now_.session = session().status();
-    now_.device = output().status();
+    const float loudest = signals_.updatePeaks(snapshot_, mix_.count(), played);
+    snapshot_.session = session().status();
+    snapshot_.device = output().status();
     exposure_.update();
-    now_.dailyExposure = exposure_.daily();
+    snapshot_.dailyExposure = exposure_.dailyA8();
     collectPlayed();
-    now_.hits.clear();
-    now_.hits.swap(hits_);
-    recording_.look(now_.device);
-    lanes_.look();
-    now_.meters.limiterGain = now_.session.render.limiterGain;
-    now_.meters.guardGain = now_.device.guardGain;
-    now_.meters.enchanters = mix_.count();
+    snapshot_.hits.clear();
+    snapshot_.hits.swap(hits_);
+    recording_.poll(snapshot_.device);
+    lanes_.poll();
+    snapshot_.meters.limiterGain = snapshot_.session.render.limiterGain;
+    snapshot_.meters.guardGain = snapshot_.device.guardGain;
+    snapshot_.meters.enchanters = mix_.count();
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j)
-        now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
-    now_.masterPeak = loudest * masterGain(mix_);
-    now_.sessionNs = session().world().readPoses(now_.poses);
-    now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.outputLatencySeconds());
-    watchOutput();
-    if (const auto words = world_.tooMuch(now_.session.sessionNs, now_.sessionNs, now_.poses);
+        snapshot_.meters.isConnected[j] = mix_.strips[j].output >= 0;
+    snapshot_.masterPeak = loudest * masterGain(mix_);
+    snapshot_.posesNs = session().world().readPoses(snapshot_.poses);
+    snapshot_.latencyNs = static_cast<std::int64_t>(1e9 * device_.outputLatencySeconds());
+    checkOutput();
+    if (const auto words =
+            world_.overloadWarning(snapshot_.session.sessionNs, snapshot_.posesNs, snapshot_.poses);
         words.isNotEmpty())
         report(words);
-    script_.look();
-    if (inputs_.haveCome()) ++edits_; // events from messages are part of the saved session
-    return now_;
+    script_.poll();
+    if (inputs_.hasNewMessages()) ++editCount_; // events from messages are part of the saved session
+    return snapshot_;
 }
 
 void MixerModel::collectPlayed() {
-    rig_.takePlayed([this](const PlayedEvent& played) {
+    rig_.drainPlayed([this](const PlayedEvent& played) {
         hits_.push_back(played.event);
-        recent_.add(played.event);
+        recentContacts_.add(played.event);
         recording_.add(played);
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Model of the mixer's window: a live session on a device, the mixer state, and the undo history. Its parts
-// are the other files of this folder; views look at it and change it, it knows no view.
+// are in the other files of this folder. Views read and change it; it does not depend on them.
 #pragma once
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerDevice.h"
@@ -14,20 +14,22 @@ class SentMix;
 /// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: the most actuators
+    static constexpr int channels = limits::maxActuators; ///< of the session: the maximum of actuators
 
-    /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
-    /// until another device is opened.
-    MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix = firstMix(), MixerStart start = {});
-    static Mix firstMix(); ///< *Shake the box* on PHONE4 at a safe level
+    /// Plays `mix` on `device`, one of `drivers`; messageText() reports a failure. Sample rate and block size
+    /// stay until another device is opened.
+    MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix = defaultMix(),
+               MixerStart start = {});
+    static Mix defaultMix(); ///< *Shake the box* on PHONE4 at a safe level
     ~MixerModel() override;
 
     const Mix& mix() const noexcept { return mix_; }
     /// Applies another mixer state as an undoable edit named `name`. In a series of edits with
     /// `continuesEdit`, such as those of a held fader, only the first starts a new undo step. An actuator
-    /// whose output another one has gets none, which is reported. Undo has bodies where they were drawn, or
-    /// with `returns` where they were.
-    void edit(const juce::String& name, const Mix& next, bool continuesEdit = false, bool returns = false);
+    /// whose output another one has gets none, which is reported. Undo moves bodies to their drawn poses, or
+    /// with `restoresPoses` to those before the edit.
+    void edit(const juce::String& name, const Mix& next, bool continuesEdit = false,
+              bool restoresPoses = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool continuesEdit = false) {
         Mix next = mix_;
@@ -35,13 +37,13 @@ public:
         edit(name, next, continuesEdit);
     }
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
-    /// For a model that begins with this one's mix and drawing.
+    /// The undo steps, which another model with the same mix and drawing can take over.
     std::shared_ptr<MixerHistory> history() const { return history_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no channel is left
-    void detach(int enchanter);                ///< the last actuator cannot be detached
+    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false: no channel
+    void detach(int actuator);                 ///< the last actuator cannot be detached
 
-    std::uint64_t edits() const noexcept { return edits_; } ///< inputs included; for unsaved changes
-    const SavedSession& saved(); ///< the session until now; rendering it reproduces what was played
+    std::uint64_t editCount() const noexcept { return editCount_; } ///< inputs included; for unsaved changes
+    const SavedSession& savedSession(); ///< the session until now; rendering it reproduces what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
     Rig& rig() noexcept { return rig_; }
@@ -49,7 +51,7 @@ public:
     const Session& session() const noexcept { return rig_.session(); }
     MixerWorld& world() noexcept { return world_; }
     const MixerWorld& world() const noexcept { return world_; }
-    MixerStrikes& strikes() noexcept { return strikes_; }
+    MixerEventPlayer& eventPlayer() noexcept { return eventPlayer_; }
     MixerDevice& device() noexcept { return device_; }
     const MixerDevice& device() const noexcept { return device_; }
     AudioOutput& output() noexcept { return rig_.output(); }
@@ -60,34 +62,36 @@ public:
     MixerExposure& exposure() noexcept { return exposure_; }
     MixerScript& script() noexcept { return script_; }
     const MixerSignals& signals() const noexcept { return signals_; }
-    const RecentContacts& recent() const noexcept { return recent_; } ///< the last contacts that were played
+    /// The last contacts that were played.
+    const RecentContacts& recentContacts() const noexcept { return recentContacts_; }
     std::string open(const DeviceChoice& choice);
     /// As MixerListening::monitor. Actuators on these outputs lose them, which can be undone.
-    std::string monitorInstead(std::vector<int> outputs, double db);
-    void setSilent(bool silent);                         ///< set by the user at the machine
-    bool isSilent() const noexcept { return isSilent_; } ///< as displayed: keys refer to what users see
-    bool isOnlySeen() const; ///< there is neither a device nor a board or controller
+    std::string moveOutputsToMonitor(std::vector<int> outputs, double levelDb);
+    void setSilent(bool silent);                         ///< mutes the output at once, or lifts that
+    bool isSilent() const noexcept { return isSilent_; } ///< as displayed, which is what keys toggle
+    bool isVisualOnly() const;                           ///< no device, sink or OSC receiver plays
 
     void setDisplayWidth(double metres); ///< of the display, to scale drags; 0: as the system reports
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
-    MixerMoment look(); ///< changes since the last call; at most about 30 times a second
+    MixerSnapshot poll(); ///< changes since the last call; at most about 30 times a second
     MixerMessages& messages() noexcept { return messages_; }
-    const juce::String& trouble() const noexcept { return messages_.shown().words; } ///< one line, or empty
-    bool isNews() const noexcept { return messages_.shown().isNews; }
-    void report(const juce::String& trouble) { messages_.show({trouble}); }
-    bool reportFault(const std::string& fault); ///< empty: none, and false; nothing changes then
+    /// One line, or empty.
+    const juce::String& messageText() const noexcept { return messages_.current().text; }
+    bool isInfo() const noexcept { return messages_.current().isInfo; }
+    void report(const juce::String& error) { messages_.show({error}); }
+    bool reportIfError(const std::string& error); ///< true if there is one; else nothing changes
     void announce(const juce::String& news) { messages_.show({news, true}); } ///< a success
 
 private:
     class MixEdit;
     friend class MixerInputs; // calls showSilence() and, often, collectPlayed()
-    void edited(bool isShown = true);
+    void countEdit(bool changesDisplay = true);
 
-    void watchOutput();
-    bool apply(const Mix& next); // false: it was refused, and nothing has changed
+    void checkOutput();
+    bool apply(const Mix& next); // false: it was rejected, and nothing has changed
     void showSilence();
     void collectPlayed();
-    void clipWasRead(const Result<std::string>& note);
+    void onClipRead(const Result<std::string>& note);
 
     Mix mix_;
     Rig rig_;
@@ -98,19 +102,19 @@ private:
     std::shared_ptr<MixerHistory> history_;
     MixerWorld world_;
     MixerMessages messages_{[this] { sendChangeMessage(); }};
-    std::vector<RigTrouble> troubles_; // as shown
+    std::vector<RigError> rigErrors_; // as shown
     double displayWidthMetres_ = 0.0;
     bool isSilent_ = false;
-    std::uint64_t edits_ = 0;
-    std::unique_ptr<SentMix> lastSent_;
+    std::uint64_t editCount_ = 0;
+    std::unique_ptr<SentMix> sentMix_;
     SavedSession saved_;
-    int maxEnchanters_ = 0;
-    RecentContacts recent_;
-    MixerMoment now_;
+    int maxActuators_ = 0;
+    RecentContacts recentContacts_;
+    MixerSnapshot snapshot_;
     MixerScript script_{*this};
     MixerLanes lanes_{*this};
-    std::vector<CollisionEvent> hits_; // played since the last look()
-    MixerStrikes strikes_;             // destroyed before the members above, because its threads use them
+    std::vector<CollisionEvent> hits_; // played since the last poll()
+    MixerEventPlayer eventPlayer_;     // destroyed before the members above, because its threads use them
     MixerInputs inputs_{*this};
 };
 

@@ -4,7 +4,7 @@
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
-#include "Scene/World/SceneCast.h"
+#include "Scene/World/BodyLists.h"
 #include <map>
 
 namespace physvib {
@@ -17,83 +17,85 @@ public:
         , edit_{std::move(edit)} {}
     // false if the session refuses it, so that JUCE keeps no step
     bool perform() override {
-        const bool isDone = run(true);
-        return std::exchange(isRepeated_, true) || isDone;
+        const bool isDone = submit(true);
+        return std::exchange(wasPerformed_, true) || isDone;
     }
     bool undo() override { // always true: JUCE would forget all steps if one failed
-        if (!run(false)) world().onFault_("Undo: " + std::exchange(world().refused_, {}));
+        if (!submit(false)) world().onError_("Undo: " + std::exchange(world().editError_, {}));
         return true;
     }
     int getSizeInUnits() override { return 1; }
     // merges successive changes of a sound or texture by one control
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
-        const auto* other = dynamic_cast<Edit*>(next);
-        if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other)))
+        const auto* nextEdit = dynamic_cast<Edit*>(next);
+        if (nextEdit == nullptr ||
+            !(changesSameMaterial<SoundAction>(*nextEdit) || changesSameMaterial<TextureAction>(*nextEdit)))
             return nullptr;
-        auto* both = new Edit{history_, edit_.followedBy(other->edit_)};
-        both->isRepeated_ = true;
-        return both;
+        auto* merged = new Edit{history_, edit_.mergedWith(nextEdit->edit_)};
+        merged->wasPerformed_ = true;
+        return merged;
     }
 
 private:
-    template <class Turned>
-    bool isTurned(const Edit& next) const {
-        const auto &here = edit_.forth(), &there = next.edit_.forth();
-        if (here.size() != 1 || there.size() != 1) return false;
-        const auto *before = std::get_if<Turned>(&here.front()), *after = std::get_if<Turned>(&there.front());
+    template <class ChangeAction>
+    bool changesSameMaterial(const Edit& next) const {
+        const auto &actions = edit_.actions(), &nextActions = next.edit_.actions();
+        if (actions.size() != 1 || nextActions.size() != 1) return false;
+        const auto *before = std::get_if<ChangeAction>(&actions.front()),
+                   *after = std::get_if<ChangeAction>(&nextActions.front());
         return before != nullptr && after != nullptr && before->material == after->material;
     }
-    // Submits all actions at once: in a slow world each would wait for a step, and Esc for all of them.
-    bool run(bool isForth) {
+    // Submits all actions at once: in a slow world each would wait for a step, and Esc would wait for all.
+    bool submit(bool isForward) {
         MixerWorld& world = this->world();
         const SceneDrawing before = world.drawing_;
         std::vector<Action> actions;
-        edit_.run(isForth, world.drawing_, world.posesNow(), [&](std::span<const Action> some) {
-            world.drawing_.take(some);
-            actions.insert(actions.end(), some.begin(), some.end());
+        edit_.perform(isForward, world.drawing_, world.posesNow(), [&](std::span<const Action> part) {
+            world.drawing_.apply(part);
+            actions.insert(actions.end(), part.begin(), part.end());
         });
-        if (auto fault = world.session_.submit({std::span<const Action>{actions}}).error; !fault.empty()) {
+        if (auto error = world.session_.submit({std::span<const Action>{actions}}).error; !error.empty()) {
             world.drawing_ = before;
-            return world.refused_ = std::move(fault), false;
+            return world.editError_ = std::move(error), false;
         }
-        for (const Action& action : actions) world.acted(isLasting(action));
+        for (const Action& action : actions) world.reportInput(isLasting(action));
         return true;
     }
     MixerWorld& world() const { return history_.model->world(); }
     MixerHistory& history_;
     SceneEdit edit_;
-    bool isRepeated_ = false;
+    bool wasPerformed_ = false;
 };
 
 MixerWorld::MixerWorld(Session& session, const Mix& mix, MixerHistory& history,
-                       std::function<void(bool isShown)> onInput,
-                       std::function<void(const std::string&)> onFault)
+                       std::function<void(bool changesDisplay)> onInput,
+                       std::function<void(const std::string&)> onError)
     : session_{session}
     , mix_{mix}
     , history_{history}
     , onInput_{std::move(onInput)}
-    , onFault_{std::move(onFault)}
+    , onError_{std::move(onError)}
     , drawing_{*mix.scene} {}
 
-std::string MixerWorld::act(const Action& action) {
-    auto fault = session_.submit({action}).error;
-    if (!fault.empty()) return fault;
-    drawing_.take(action);
-    acted(isLasting(action));
-    return fault;
+std::string MixerWorld::apply(const Action& action) {
+    auto error = session_.submit({action}).error;
+    if (!error.empty()) return error;
+    drawing_.apply(action);
+    reportInput(isLasting(action));
+    return error;
 }
 
-void MixerWorld::acted(bool isShown) {
-    if (isShown) ++edits_;
-    onInput_(isShown);
+void MixerWorld::reportInput(bool changesDisplay) {
+    if (changesDisplay) ++editCount_;
+    onInput_(changesDisplay);
 }
 
-PoseNow MixerWorld::posesNow() const {
+CurrentPose MixerWorld::posesNow() const {
     std::vector<BodyPose> poses;
     session_.world().readPoses(poses);
     std::map<std::string, std::optional<BodyPose>> last; // last body of each name
-    for (std::size_t i = 0; const BodyDescription& body : sceneCast(scene())) {
-        last[body.name] = i < poses.size() && poses[i].isPresent ? drawable(poses[i]) : std::nullopt;
+    for (std::size_t i = 0; const BodyDescription& body : allBodies(scene())) {
+        last[body.name] = i < poses.size() && poses[i].isPresent ? poseWithinLimits(poses[i]) : std::nullopt;
         ++i;
     }
     return [last = std::move(last)](const std::string& body) {
@@ -105,35 +107,35 @@ PoseNow MixerWorld::posesNow() const {
 std::string MixerWorld::edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit) {
     for (Action& action : actions)
         if (auto* spawn = std::get_if<SpawnAction>(&action); spawn != nullptr && spawn->body.name.empty())
-            spawn->body.name = drawing_.freeName("added");
+            spawn->body.name = drawing_.unusedName("added");
     if (actions.empty()) return {};
-    if (auto fault = drawing_.check(actions); !fault.empty()) return fault;
+    if (auto error = drawing_.check(actions); !error.empty()) return error;
     auto& undo = history_.undo;
     if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
-    refused_.clear();
+    editError_.clear();
     undo.perform(new Edit{history_, SceneEdit{std::move(actions)}});
-    return std::exchange(refused_, {});
+    return std::exchange(editError_, {});
 }
 
-juce::String MixerWorld::tooMuch(std::int64_t sessionNs, std::int64_t posesNs,
-                                 const std::vector<BodyPose>& poses) {
+juce::String MixerWorld::overloadWarning(std::int64_t sessionNs, std::int64_t posesNs,
+                                         const std::vector<BodyPose>& poses) {
     const auto share =
-        pace_.look(sessionNs, session_.world().slippedNs() + std::max<std::int64_t>(0, sessionNs - posesNs));
+        pace_.poll(sessionNs, session_.world().stalledNs() + std::max<std::int64_t>(0, sessionNs - posesNs));
     if (!share) return {};
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
-    const bool wasTooMuch =
-        std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::minBodies);
-    if (wasTooMuch || !isTooMuch_) return {};
+    const bool wasOverloaded =
+        std::exchange(isOverloaded_, *share < PaceWatch::minShare && bodies >= PaceWatch::minBodies);
+    if (wasOverloaded || !isOverloaded_) return {};
     const int percent = juce::roundToInt(100.0 * *share);
     return utf8(readable::number(static_cast<double>(bodies), 0)) +
            " bodies: " + (percent < 1 ? juce::String{"less than 1"} : juce::String{percent}) +
            " % of real time; the physics takes it. Fewer bodies or slow motion help";
 }
 
-std::string MixerWorld::begin(bool isSameScene) {
+std::string MixerWorld::restartScene(bool isSameScene) {
     auto scene = std::make_shared<Scene>(isSameScene ? drawing_.drawn() : *mix_.scene);
     drawing_ = SceneDrawing{*scene};
-    ++edits_;
+    ++editCount_;
     const SessionState state{std::move(scene), mix_.seed};
     if (!(state == session_.world().state())) return session_.world().setState(state);
     session_.world().restart();
@@ -142,14 +144,14 @@ std::string MixerWorld::begin(bool isSameScene) {
 
 namespace {
 
-const juce::String editName{"Record a script"};
+const juce::String scriptEditName{"Record a script"};
 
-constexpr const char* compareStep = "Compare A and B";
+constexpr const char* compareEditName = "Compare A and B";
 
-/// The contacts played last; before there are any, one at each of 15 places.
-std::vector<CollisionEvent> contactsOf(const MixerModel& model) {
+/// The contacts played last; if there are none, one at each of 15 places of the field.
+std::vector<CollisionEvent> contactsToMatch(const MixerModel& model) {
     std::vector<CollisionEvent> events;
-    for (const RecentContact& contact : model.recent().newestFirst()) events.push_back(contact.event);
+    for (const RecentContact& contact : model.recentContacts().newestFirst()) events.push_back(contact.event);
     if (!events.empty()) return events;
     const Scene& scene = model.world().scene();
     for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9})
@@ -163,7 +165,7 @@ std::vector<CollisionEvent> contactsOf(const MixerModel& model) {
     return events;
 }
 
-/// `mix` with the world of `now`: only the rest is compared.
+/// `mix` with the world of `now`, since the world is not part of the comparison.
 Mix withWorldOf(Mix mix, const Mix& now) {
     mix.scene = now.scene;
     mix.seed = now.seed;
@@ -176,131 +178,133 @@ Mix withWorldOf(Mix mix, const Mix& now) {
 void MixerScript::start() {
     if (isRecording_) return;
     auto scene = std::make_shared<const Scene>(sceneToRecord(model_.world().drawing().drawn()));
-    runsBefore_ = model_.saved().log.takes.size();
-    model_.change(editName, [&scene](Mix& mix) { mix.scene = scene; });
-    recordedIn_ = model_.mix().scene;
-    worldEdits_ = model_.world().edits();
+    runsBefore_ = model_.savedSession().log.runs.size();
+    model_.change(scriptEditName, [&scene](Mix& mix) { mix.scene = scene; });
+    recordedScene_ = model_.mix().scene;
+    worldEditCount_ = model_.world().editCount();
     seconds_ = 0.0;
-    inputs_ = 0;
+    inputCount_ = 0;
     isRecording_ = true;
     if (model_.session().world().slowness() == 0) model_.setSlowness(1);
 }
 
-void MixerScript::look() {
+void MixerScript::poll() {
     if (!isRecording_) return;
-    if (model_.mix().scene != recordedIn_) { // another scene was chosen
+    if (model_.mix().scene != recordedScene_) { // another scene was chosen
         isRecording_ = false;
         return model_.report(
             "The recording of hands has ended: another scene was chosen. No script was kept");
     }
-    const auto& runs = model_.saved().log.takes;
+    const auto& runs = model_.savedSession().log.runs;
     if (runs.size() <= runsBefore_) return; // the world has not restarted yet
     const SceneRun& run = runs[runsBefore_];
     seconds_ = 1e-9 * static_cast<double>(run.worldEndNs);
-    inputs_ = run.inputs.size();
+    inputCount_ = run.inputs.size();
     const bool isFull =
-        seconds_ >= maxRecordedSeconds(*recordedIn_) || inputs_ >= maxRecordedInputs(*recordedIn_);
-    const bool isOver = runs.size() > runsBefore_ + 1 || model_.world().edits() != worldEdits_;
-    if (isFull || isOver) stop();
+        seconds_ >= maxRecordedSeconds(*recordedScene_) || inputCount_ >= maxRecordedInputs(*recordedScene_);
+    const bool hasEnded = runs.size() > runsBefore_ + 1 || model_.world().editCount() != worldEditCount_;
+    if (isFull || hasEnded) stop();
     if (isFull)
         model_.announce("The script is full: the recording of hands ended after " +
-                        utf8(readable::number(hands_.lengthSeconds, 1)) + " s");
+                        utf8(readable::number(recording_.lengthSeconds, 1)) + " s");
 }
 
 void MixerScript::stop() {
     if (!isRecording_) return;
     isRecording_ = false;
-    applied_.clear();
-    const auto& runs = model_.saved().log.takes;
+    trimsOfScenes_.clear();
+    const auto& runs = model_.savedSession().log.runs;
     if (runs.size() > runsBefore_)
-        hands_ = recordedHands(runs[runsBefore_]);
+        recording_ = recordedInputs(runs[runsBefore_]);
     else
-        hands_ = {};
-    if (hands_.inputs.empty()) return model_.announce("Nothing was recorded: no hand did anything");
-    apply({0.0, hands_.lengthSeconds, false}, true);
+        recording_ = {};
+    if (recording_.inputs.empty()) return model_.announce("Nothing was recorded: no hand did anything");
+    apply({0.0, recording_.lengthSeconds, false}, true);
 }
 
-// Keeps bodies that were drawn meanwhile.
+// Keeps the bodies that were drawn since the recording.
 void MixerScript::apply(const ScriptTrim& trim, bool continuesEdit) {
     Scene scene = model_.world().drawing().drawn();
-    scene.script = recordedIn_->script;
-    scene.scriptPeriodSeconds = recordedIn_->scriptPeriodSeconds;
-    scene = withHands(std::move(scene), hands_, trim);
-    if (const auto fault = validate(scene); !fault.empty())
-        return model_.report("The script: " + utf8(fault));
+    scene.script = recordedScene_->script;
+    scene.scriptPeriodSeconds = recordedScene_->scriptPeriodSeconds;
+    scene = sceneWithInputs(std::move(scene), recording_, trim);
+    if (const auto error = validate(scene); !error.empty())
+        return model_.report("The script: " + utf8(error));
     auto next = std::make_shared<const Scene>(std::move(scene));
-    std::erase_if(applied_, [](const auto& one) { return one.first.expired(); });
-    applied_.emplace_back(next, trim);
+    std::erase_if(trimsOfScenes_, [](const auto& entry) { return entry.first.expired(); });
+    trimsOfScenes_.emplace_back(next, trim);
     model_.change(
-        editName, [&next](Mix& mix) { mix.scene = next; }, continuesEdit);
+        scriptEditName, [&next](Mix& mix) { mix.scene = next; }, continuesEdit);
 }
 
-const HandScript* MixerScript::hands() const {
-    const bool isOurs = !isRecording_ && std::ranges::any_of(applied_, [this](const auto& one) {
-        return one.first.lock() == model_.mix().scene;
+const RecordedInputs* MixerScript::recording() const {
+    const bool isRecorded = !isRecording_ && std::ranges::any_of(trimsOfScenes_, [this](const auto& entry) {
+        return entry.first.lock() == model_.mix().scene;
     });
-    return isOurs ? &hands_ : nullptr;
+    return isRecorded ? &recording_ : nullptr;
 }
 
 ScriptTrim MixerScript::trim() const {
-    const auto now = std::ranges::find_if(
-        applied_, [this](const auto& one) { return one.first.lock() == model_.mix().scene; });
-    return now == applied_.end() ? ScriptTrim{} : now->second;
+    const auto found = std::ranges::find_if(
+        trimsOfScenes_, [this](const auto& entry) { return entry.first.lock() == model_.mix().scene; });
+    return found == trimsOfScenes_.end() ? ScriptTrim{} : found->second;
 }
 
 void MixerScript::setTrim(const ScriptTrim& trim, bool continuesEdit) {
-    if (hands() == nullptr || trim == this->trim()) return;
+    if (recording() == nullptr || trim == this->trim()) return;
     apply(trim, continuesEdit);
 }
 
-double energyOf(const Mix& mix, std::span<const CollisionEvent> events) {
-    const auto strips = feltStrips(mix);
+double contactEnergyG2(const Mix& mix, std::span<const CollisionEvent> events) {
+    const auto strips = effectiveStrips(mix);
     const PhantomPanner panner = mix.panner();
-    double sum = 0.0;
+    double sumG2 = 0.0;
     for (const CollisionEvent& event : events) {
         PhantomPanner::Gains gains{};
         panner.gainsAt(event, gains);
         for (std::size_t j = 0; j < strips.size(); ++j) {
             if (strips[j].output < 0 || isSilent(strips, j)) continue;
-            const double g = std::abs(event.amplitude) * static_cast<double>(gains[j]) *
-                             static_cast<double>(channelGain(strips[j])) *
-                             mix.layout.enchanters[j].fullScaleG;
-            sum += g * g;
+            const double levelG = std::abs(event.amplitude) * static_cast<double>(gains[j]) *
+                                  static_cast<double>(channelGain(strips[j])) *
+                                  mix.layout.actuators[j].fullScaleG;
+            sumG2 += levelG * levelG;
         }
     }
-    return sum * static_cast<double>(masterGain(mix)) * static_cast<double>(masterGain(mix));
+    return sumG2 * static_cast<double>(masterGain(mix)) * static_cast<double>(masterGain(mix));
 }
 
-bool MixerCompare::isOn() const { return other_ && model_.undoManager().getRedoDescription() != compareStep; }
+bool MixerCompare::isOn() const {
+    return otherMix_ && model_.undoManager().getRedoDescription() != compareEditName;
+}
 
-// Without the lowering by toggle(), unless the user has set the level since.
-Mix MixerCompare::own() const {
+// The current mix without the lowering by toggle(), unless the user has set the level since.
+Mix MixerCompare::userMix() const {
     Mix mix = model_.mix();
-    if (mix.levelDb == setDb_) mix.levelDb = std::min(0.0, mix.levelDb + loweredDb_);
+    if (mix.levelDb == appliedLevelDb_) mix.levelDb = std::min(0.0, mix.levelDb + loweredDb_);
     return mix;
 }
 
 void MixerCompare::toggle() {
     if (!isOn()) {
         end();
-        setDb_ = model_.mix().levelDb;
-        other_ = model_.mix();
+        appliedLevelDb_ = model_.mix().levelDb;
+        otherMix_ = model_.mix();
     }
-    const Mix before = own();
-    Mix next = withWorldOf(*other_, model_.mix());
-    const auto events = contactsOf(model_);
-    const double here = energyOf(before, events), there = energyOf(next, events);
-    loweredDb_ = here > 0.0 && there > here ? 10.0 * std::log10(there / here) : 0.0;
-    if (next.levelDb > leastStripDb) next.levelDb = std::max(leastStripDb, next.levelDb - loweredDb_);
-    setDb_ = next.levelDb;
-    isB_ = !isB_;
-    other_ = before;
-    model_.edit(compareStep, next, true); // changes back and forth are one step
+    const Mix before = userMix();
+    Mix next = withWorldOf(*otherMix_, model_.mix());
+    const auto events = contactsToMatch(model_);
+    const double beforeG2 = contactEnergyG2(before, events), nextG2 = contactEnergyG2(next, events);
+    loweredDb_ = beforeG2 > 0.0 && nextG2 > beforeG2 ? 10.0 * std::log10(nextG2 / beforeG2) : 0.0;
+    if (next.levelDb > minStripDb) next.levelDb = std::max(minStripDb, next.levelDb - loweredDb_);
+    appliedLevelDb_ = next.levelDb;
+    isBActive_ = !isBActive_;
+    otherMix_ = before;
+    model_.edit(compareEditName, next, true); // changes back and forth are one step
 }
 
 void MixerCompare::end() {
-    other_.reset();
-    isB_ = false;
+    otherMix_.reset();
+    isBActive_ = false;
     loweredDb_ = 0.0;
 }
 

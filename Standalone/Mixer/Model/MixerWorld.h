@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world of the mixer: input and undoable edits, the recording of a script, two mixes compared in it.
+// The mixer's world: its pace (PaceWatch), input and undoable edits (MixerWorld, MixerHistory), the recorded
+// script (MixerScript), and the comparison of two mixes (MixerCompare).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Session/Session.h"
-#include "Scene/Drawing/HandScript.h"
+#include "Scene/Drawing/RecordedInputs.h"
 #include "Scene/Drawing/SceneDrawing.h"
 #include <algorithm>
 #include <cstdint>
@@ -24,18 +25,18 @@ class MixerModel;
 /// Whether the simulation keeps up with real time. To be polled a few times a second; one thread at a time.
 class PaceWatch {
 public:
-    static constexpr std::int64_t everyNs = 500'000'000;
-    static constexpr double leastShare = 0.9; ///< below this share the world is too slow,
-    static constexpr int minBodies = 300; ///< and has so many bodies; a smaller one is delayed by other load
+    static constexpr std::int64_t intervalNs = 500'000'000;
+    static constexpr double minShare = 0.9; ///< of real time; below it the world is too slow
+    static constexpr int minBodies = 300;   ///< fewer are delayed by other load, not by the world
 
     /// Share of real time at which the world ran since the last result, twice a second; nullopt in between.
     /// Arguments: session time, and the time by which the world is behind it (skipped after stalls, or not
     /// simulated yet). If session time decreases, a new session has begun.
-    std::optional<double> look(std::int64_t sessionNs, std::int64_t behindNs) noexcept {
+    std::optional<double> poll(std::int64_t sessionNs, std::int64_t behindNs) noexcept {
         if (sessionNs < sessionNs_) sessionNs_ = sessionNs, behindNs_ = behindNs;
-        const std::int64_t passed = sessionNs - sessionNs_;
-        if (passed < everyNs) return std::nullopt;
-        const double share = 1.0 - static_cast<double>(behindNs - behindNs_) / static_cast<double>(passed);
+        const std::int64_t passedNs = sessionNs - sessionNs_;
+        if (passedNs < intervalNs) return std::nullopt;
+        const double share = 1.0 - static_cast<double>(behindNs - behindNs_) / static_cast<double>(passedNs);
         sessionNs_ = sessionNs;
         behindNs_ = behindNs;
         return std::clamp(share, 0.0, 1.0);
@@ -45,12 +46,12 @@ private:
     std::int64_t sessionNs_ = 0, behindNs_ = 0;
 };
 
-/// The undo steps. They act on `model`, which may be another than the one that made them: a model with
+/// The undo steps. They act on `model`, which need not be the one that made them: a model that is opened with
 /// another output takes them over. Message thread.
 struct MixerHistory {
     MixerModel* model = nullptr;
-    /// A scene, and the same scene as drawn later.
-    std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawn;
+    /// Pairs of a scene and the same scene after later drawing.
+    std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawnScenes;
     juce::UndoManager undo{1000, 30};
 
     bool isSame(const std::shared_ptr<const Scene>& a, const std::shared_ptr<const Scene>& b) const {
@@ -59,7 +60,7 @@ struct MixerHistory {
 
 private:
     const Scene* latest(std::shared_ptr<const Scene> scene) const {
-        for (const auto& [before, after] : drawn) // in the order in which they were drawn
+        for (const auto& [before, after] : drawnScenes) // in the order in which they were drawn
             if (before == scene) scene = after;
         return scene.get();
     }
@@ -71,13 +72,14 @@ public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes
     /// the display.
     MixerWorld(Session& session, const Mix& mix, MixerHistory& history,
-               std::function<void(bool isShown)> onInput, std::function<void(const std::string&)> onFault);
+               std::function<void(bool changesDisplay)> onInput,
+               std::function<void(const std::string&)> onError);
 
     /// The scene with the bodies spawned since its start, indexed as in events.
-    const Scene& scene() const noexcept { return drawing_.cast(); }
+    const Scene& scene() const noexcept { return drawing_.sceneWithAllBodies(); }
     const SceneDrawing& drawing() const noexcept { return drawing_; } ///< bodies as drawn, at their start
-    std::uint64_t edits() const noexcept { return edits_; }           ///< increments when scene() changes
-    std::string act(const Action& action);                            ///< empty, or an error
+    std::uint64_t editCount() const noexcept { return editCount_; }   ///< increments when scene() changes
+    std::string apply(const Action& action);                          ///< empty, or an error
 
     /// Undoable edit: adds, removes or changes a body, joins two bodies, or changes a sound. `continuesEdit`
     /// as for MixerModel::edit. Empty, or an error. A body without a name gets one.
@@ -86,31 +88,32 @@ public:
     }
     std::string edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit = false);
 
-    /// Poses of all bodies at the last simulated step; nullopt of one that is not present.
-    PoseNow posesNow() const;
+    /// Looks up poses at the last simulated step by the name of a body; nullopt: it is not present.
+    CurrentPose posesNow() const;
 
-    /// A warning, once each time the world becomes too slow for real time; else empty. `poses` are the last
+    /// A warning, once each time the world becomes too slow for real time; else empty. `poses` are the newest
     /// ones, of session time `posesNs`.
-    juce::String tooMuch(std::int64_t sessionNs, std::int64_t posesNs, const std::vector<BodyPose>& poses);
+    juce::String overloadWarning(std::int64_t sessionNs, std::int64_t posesNs,
+                                 const std::vector<BodyPose>& poses);
 
     /// Restarts the mixer's scene. If it is the same scene, measured, tuned and drawn values stay. Empty, or
     /// an error.
-    std::string begin(bool isSameScene);
+    std::string restartScene(bool isSameScene);
 
 private:
     class Edit;
-    void acted(bool isShown);
+    void reportInput(bool changesDisplay);
 
     Session& session_;
     const Mix& mix_;
     MixerHistory& history_;
-    std::function<void(bool isShown)> onInput_;
-    std::function<void(const std::string&)> onFault_;
+    std::function<void(bool changesDisplay)> onInput_;
+    std::function<void(const std::string&)> onError_;
     SceneDrawing drawing_;
-    std::string refused_; // why the last edit was refused
-    std::uint64_t edits_ = 0;
+    std::string editError_; // why the last edit failed; empty: it did not
+    std::uint64_t editCount_ = 0;
     PaceWatch pace_;
-    bool isTooMuch_ = false;
+    bool isOverloaded_ = false;
 };
 
 /// Records user input in the world as the scene's script, and trims it. Message thread.
@@ -125,18 +128,18 @@ public:
     /// Makes the recorded input the scene's script, as an edit, and restarts the world with it.
     void stop();
     bool isRecording() const noexcept { return isRecording_; }
-    double seconds() const noexcept { return seconds_; }    ///< recorded world time so far
-    std::size_t inputs() const noexcept { return inputs_; } ///< recorded so far
+    double seconds() const noexcept { return seconds_; }        ///< recorded world time so far
+    std::size_t inputs() const noexcept { return inputCount_; } ///< recorded so far
 
     /// To be called often. Ends a recording when the drawing changes, the world restarts, or the script is
     /// full.
-    void look();
+    void poll();
 
     /// The recording that the scene's current script is a part of; null if the scene has another script or
     /// none.
-    const HandScript* hands() const;
-    ScriptTrim trim() const; ///< of hands()
-    /// Selects another part of hands() as an edit, and restarts the world. `continuesEdit` as for
+    const RecordedInputs* recording() const;
+    ScriptTrim trim() const; ///< of recording()
+    /// Selects another part of recording() as an edit, and restarts the world. `continuesEdit` as for
     /// MixerModel::edit.
     void setTrim(const ScriptTrim& trim, bool continuesEdit = false);
 
@@ -146,41 +149,42 @@ private:
     MixerModel& model_;
     bool isRecording_ = false;
     double seconds_ = 0.0;
-    std::size_t inputs_ = 0, runsBefore_ = 0;
-    std::uint64_t worldEdits_ = 0;
-    std::shared_ptr<const Scene> recordedIn_;
-    HandScript hands_;
-    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> applied_; // so that undo restores them
+    std::size_t inputCount_ = 0, runsBefore_ = 0;
+    std::uint64_t worldEditCount_ = 0;
+    std::shared_ptr<const Scene> recordedScene_;
+    RecordedInputs recording_;
+    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> trimsOfScenes_; // so that undo restores
+                                                                                   // them
 };
 
-/// The level, in g^2, that a mixer state gives these events: the sum over its actuators, behind strips and
-/// master. Any thread.
-double energyOf(const Mix& mix, std::span<const CollisionEvent> events);
+/// The energy of these events in a mix, in g^2: the sum of their squared levels at all actuators, after
+/// strips and master. Any thread.
+double contactEnergyG2(const Mix& mix, std::span<const CollisionEvent> events);
 
-/// Two states of panning law, layout and mix, A and B, of which one plays; one key changes between them, at
-/// matched levels. Message thread.
+/// Compares two states of panning law, layout and mix, A and B, at matched levels. One of them plays; a key
+/// switches to the other. Message thread.
 class MixerCompare {
 public:
     explicit MixerCompare(MixerModel& model)
         : model_{model} {}
 
-    /// Plays the other state. The first call makes B, a copy of A, and plays it. The louder of both is turned
-    /// down to the other by the master, at the contacts played last; nothing is turned up.
+    /// Plays the other state. The first call makes B, a copy of A, and plays it. The master lowers the louder
+    /// state until both have the same energy at the contacts played last; it raises neither.
     void toggle();
-    /// Keeps what plays, and forgets the other.
+    /// Keeps the state that plays, and discards the other.
     void end();
-    /// False again after a change between them was undone.
+    /// Whether there are two states; false after the switch between them was undone.
     bool isOn() const;
-    char shown() const noexcept { return isB_ ? 'B' : 'A'; }
-    double loweredDb() const noexcept { return loweredDb_; } ///< of what plays, so that the levels match
+    char activeState() const noexcept { return isBActive_ ? 'B' : 'A'; }
+    double loweredDb() const noexcept { return loweredDb_; } ///< by how much the state that plays is lowered
 
 private:
-    Mix own() const;
+    Mix userMix() const;
 
     MixerModel& model_;
-    std::optional<Mix> other_; // as set by the user
-    bool isB_ = false;
-    double loweredDb_ = 0.0, setDb_ = 0.0; // master level that was set with it
+    std::optional<Mix> otherMix_; // as set by the user
+    bool isBActive_ = false;
+    double loweredDb_ = 0.0, appliedLevelDb_ = 0.0; // master level set by toggle()
 };
 
 } // namespace physvib

@@ -13,85 +13,87 @@ namespace physvib {
 namespace {
 
 constexpr int eventRowPixels = 22, eventHeadPixels = 18, formatPixels = 26, footPixels = formatPixels + 6;
-constexpr double showMs = 250.0;
-constexpr std::size_t mostListed = 1000; // a minute of many hits
+constexpr double listIntervalMs = 250.0;
+constexpr std::size_t maxListedContacts = 1000; // a minute of many hits
 
-constexpr int wideRow = 560; // has room for every column
+constexpr int minWideRow = 560; // pixels at which every column has room
 
 struct Columns {
-    juce::Rectangle<int> time, dot, name, frequency, decay, level, enchanter, place;
+    juce::Rectangle<int> time, dot, name, frequency, decay, level, actuator, place;
     explicit Columns(juce::Rectangle<int> row) {
         row.reduce(10, 0);
-        row.getWidth() < wideRow ? placeNarrow(row) : placeWide(row);
+        row.getWidth() < minWideRow ? placeNarrow(row) : placeWide(row);
     }
 
 private:
     void placeWide(juce::Rectangle<int> row) {
-        const int each = row.getWidth() / 8;
-        time = row.removeFromLeft(each);
+        const int columnWidth = row.getWidth() / 8;
+        time = row.removeFromLeft(columnWidth);
         dot = row.removeFromLeft(20);
-        place = row.removeFromRight(each + 24);
-        enchanter = row.removeFromRight(each - 12);
-        level = row.removeFromRight(each - 22);
-        decay = row.removeFromRight(each - 6);
-        frequency = row.removeFromRight(each - 6);
+        place = row.removeFromRight(columnWidth + 24);
+        actuator = row.removeFromRight(columnWidth - 12);
+        level = row.removeFromRight(columnWidth - 22);
+        decay = row.removeFromRight(columnWidth - 6);
+        frequency = row.removeFromRight(columnWidth - 6);
         name = row;
     }
-    // Numbers as wide as they are; where names would have no room, decay is left out, then the place.
+    // Number columns are of fixed width. If names had too little room, decay is left out, then the place.
     void placeNarrow(juce::Rectangle<int> row) {
-        constexpr int number = 50, mostWidth = 64, placeWidth = 92, minName = 96;
+        constexpr int numberWidth = 50, actuatorWidth = 64, placeWidth = 92, minNameWidth = 96;
         time = row.removeFromLeft(60);
         dot = row.removeFromLeft(20);
-        const auto hasRoom = [&row](int more) {
-            return row.getWidth() - 2 * number - mostWidth - more >= minName;
+        const auto hasRoom = [&row](int extraWidth) {
+            return row.getWidth() - 2 * numberWidth - actuatorWidth - extraWidth >= minNameWidth;
         };
-        const bool hasPlace = hasRoom(placeWidth), hasDecay = hasRoom(number + (hasPlace ? placeWidth : 0));
+        const bool hasPlace = hasRoom(placeWidth),
+                   hasDecay = hasRoom(numberWidth + (hasPlace ? placeWidth : 0));
         if (hasPlace) place = row.removeFromRight(placeWidth);
-        enchanter = row.removeFromRight(mostWidth);
-        level = row.removeFromRight(number);
-        if (hasDecay) decay = row.removeFromRight(number);
-        frequency = row.removeFromRight(number);
+        actuator = row.removeFromRight(actuatorWidth);
+        level = row.removeFromRight(numberWidth);
+        if (hasDecay) decay = row.removeFromRight(numberWidth);
+        frequency = row.removeFromRight(numberWidth);
         name = row;
     }
 };
 
 juce::String timeText(std::int64_t ns) { return number(1e-9 * static_cast<double>(ns), 3) + " s"; }
-/// What sounds; of what rolls or slides also how, and how many grains it has passed.
+/// The material's name; for a rolling or sliding contact also its kind and its number of grains.
 juce::String nameOf(const Scene& scene, const RecentContact& contact) {
     const auto name = materialName(scene, contact.event);
     const auto kind = contact.event.source.kind;
     if (kind == ContactKind::hit) return name;
-    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + countOf(contact.grains, "grain");
+    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") +
+           countText(contact.grainCount, "grain");
 }
 
-juce::String placeNumbers(const CollisionEvent& hit) {
+juce::String positionText(const CollisionEvent& hit) {
     return number(hit.x, 2) + ", " + number(hit.y, 2) + " m";
 }
 
 /// Sorts the hits and shifts their times, so that the first is at 0.
-void startAtFirst(std::vector<CollisionEvent>& hits) {
+void shiftToZero(std::vector<CollisionEvent>& hits) {
     std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
-    const std::int64_t first = hits.front().timeNs;
-    for (CollisionEvent& hit : hits) hit.timeNs -= first;
+    const std::int64_t firstNs = hits.front().timeNs;
+    for (CollisionEvent& hit : hits) hit.timeNs -= firstNs;
 }
 
 /// Creates a folder for this user alone. False: that failed, or the folder existed, maybe of another user.
-bool isMadeForUsAlone(const std::filesystem::path& folder) {
-    std::error_code fault;
-    if (!std::filesystem::create_directory(folder, fault)) return false;
-    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, fault);
-    return !fault;
+bool createPrivateFolder(const std::filesystem::path& folder) {
+    std::error_code code;
+    if (!std::filesystem::create_directory(folder, code)) return false;
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, code);
+    return !code;
 }
 
 Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner, const std::string& path,
                               ClipFormat format) {
-    StrikeClipSettings drawn;
-    drawn.channels = static_cast<std::size_t>(panner.channels());
-    drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
+    EventClipSettings settings;
+    settings.channels = static_cast<std::size_t>(panner.channels());
+    settings.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
         gains = {};
         panner.gainsAt(event, gains);
     };
-    const auto clip = clipOfHits(hits, drawn);
+    const auto clip = clipOfHits(hits, settings);
     if (!clip) return Failure{clip.error};
     const auto parts = partsOf(clip.value, path, format);
     WrittenHits written;
@@ -113,144 +115,150 @@ EventsTab::EventsTab(MixerModel& model)
     list_.setTitle("List of played events");
     list_.setRowHeight(eventRowPixels);
     list_.setMultipleSelectionEnabled(true);
-    choice_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
-    for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
-    std::vector<std::string_view> whole, parted;
-    for (const ClipFormatRow& row : clipFormats) (row.isMono ? parted : whole).push_back(row.ending);
+    selectionLabel_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
+    for (int k = 0; k < hitFileExtensions().size(); ++k)
+        format_.addItem("as " + hitFileExtensions()[k], k + 1);
+    std::vector<std::string_view> multichannel, mono;
+    for (const ClipFormatInfo& row : clipFormats) (row.isMono ? mono : multichannel).push_back(row.ending);
     describe(format_, "Dragged as",
-             hitEndings()[0] + ": a channel for each actuator. " + utf8(listed(whole)) +
-                 ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
-    format_.setSelectedItemIndex(files_->ending(), quietly);
-    format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
-    save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)",
-                        [this] { saveAs(); });
-    addAll(*this, {&list_, &choice_, &format_, save_.get()});
-    describeChoice();
+             hitFileExtensions()[0] + ": a channel for each actuator. " + utf8(listed(multichannel)) +
+                 ": channels and places. " + utf8(listed(mono)) + ": a file for each actuator");
+    format_.setSelectedItemIndex(files_->formatIndex(), dontNotify);
+    format_.onChange = [this] { files_->setFormatIndex(format_.getSelectedItemIndex()); };
+    save_ = makeLinkButton("Save as clip" + ellipsis(), "Save the chosen contacts as a clip (Return)",
+                           [this] { saveAs(); });
+    addAll(*this, {&list_, &selectionLabel_, &format_, save_.get()});
+    showSelection();
 }
 
-// While a mouse button is down, the rows stay.
-void EventsTab::refresh(const MixerMoment& moment) {
+// Rows do not change while a mouse button is down.
+void EventsTab::refresh(const MixerSnapshot& snapshot) {
     const double now = nowMs();
-    if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true))
+    if (snapshot.session.render.played == playedCount_ || now - shownAtMs_ < listIntervalMs ||
+        list_.isMouseButtonDown(true))
         return;
     shownAtMs_ = now;
-    seen_ = moment.session.render.played;
-    listRecent();
+    playedCount_ = snapshot.session.render.played;
+    updateRows();
 }
 
-// While contacts are selected, old ones stay in the list, up to its limit; selected ones stay beyond it.
-void EventsTab::listRecent() {
-    const auto& recent = model_.recent().newestFirst();
-    std::vector<RecentContact> shown(recent.begin(), recent.end());
-    const std::uint64_t oldest = recent.empty() ? 0 : recent.back().number;
-    std::ranges::copy_if(shown_, std::back_inserter(shown), [&](const RecentContact& c) {
-        return c.number < oldest && (isChosen(c) || (!chosen_.empty() && shown.size() < mostListed));
+// While contacts are selected, old contacts stay in the list up to its limit; selected ones stay beyond it.
+void EventsTab::updateRows() {
+    const auto& recent = model_.recentContacts().newestFirst();
+    std::vector<RecentContact> items(recent.begin(), recent.end());
+    const std::uint64_t oldestId = recent.empty() ? 0 : recent.back().id;
+    std::ranges::copy_if(contacts_, std::back_inserter(items), [&](const RecentContact& c) {
+        return c.id < oldestId &&
+               (isContactSelected(c) || (!selectedIds_.empty() && items.size() < maxListedContacts));
     });
-    const int before = rowOf(last_);
-    shown_ = std::move(shown);
+    const int rowBefore = rowOf(lastClickedId_);
+    contacts_ = std::move(items);
     {
-        const juce::ScopedValueSetter<bool> listing{isListing_, true};
+        const juce::ScopedValueSetter<bool> updating{isUpdatingRows_, true};
         list_.updateContent();
-        listChosen();
+        restoreSelection();
     }
-    if (const int now = rowOf(last_); before >= 0 && now >= 0) // it stays where it is seen
+    if (const int row = rowOf(lastClickedId_); rowBefore >= 0 && row >= 0) // its place on the screen stays
         list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
-                                                    (now - before) * eventRowPixels);
-    describeChoice();
+                                                    (row - rowBefore) * eventRowPixels);
+    showSelection();
     list_.repaint();
     repaint(0, 0, getWidth(), eventHeadPixels); // a scroll bar moves the columns
 }
 
-void EventsTab::listChosen() {
+void EventsTab::restoreSelection() {
     juce::SparseSet<int> rows;
     for (int row = 0; row < getNumRows(); ++row)
-        if (const auto& contact = nth(shown_, row); isChosen(contact) && contact.number != last_)
+        if (const auto& contact = nth(contacts_, row);
+            isContactSelected(contact) && contact.id != lastClickedId_)
             rows.addRange({row, row + 1});
-    list_.setSelectedRows(rows, quietly);
-    if (const int last = rowOf(last_); last >= 0) list_.selectRow(last, true, false); // from it Shift goes on
+    list_.setSelectedRows(rows, dontNotify);
+    if (const int last = rowOf(lastClickedId_); last >= 0)
+        list_.selectRow(last, true, false); // Shift extends the selection from it
 }
 
-int EventsTab::rowOf(std::uint64_t number) const {
-    const auto found = std::ranges::find(shown_, number, &RecentContact::number);
-    return found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin());
+int EventsTab::rowOf(std::uint64_t contactId) const {
+    const auto found = std::ranges::find(contacts_, contactId, &RecentContact::id);
+    return found == contacts_.end() ? -1 : static_cast<int>(found - contacts_.begin());
 }
 
 void EventsTab::selectedRowsChanged(int row) {
-    if (isListing_) return;
-    chosen_.clear();
+    if (isUpdatingRows_) return;
+    selectedIds_.clear();
     const auto rows = list_.getSelectedRows();
-    for (int k = 0; k < rows.size(); ++k) chosen_.insert(nth(shown_, rows[k]).number);
-    last_ = row >= 0 ? nth(shown_, row).number : 0;
-    describeChoice();
+    for (int k = 0; k < rows.size(); ++k) selectedIds_.insert(nth(contacts_, rows[k]).id);
+    lastClickedId_ = row >= 0 ? nth(contacts_, row).id : 0;
+    showSelection();
 }
 
-void EventsTab::describeChoice() {
-    save_->setEnabled(!chosen_.empty());
-    if (chosen_.empty())
-        return choice_.setText(isNarrow() ? "Choose some, then drag them out"
-                                          : "Choose contacts, then drag them into another program",
-                               quietly);
-    std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
-    for (const RecentContact& contact : shown_)
-        if (isChosen(contact))
-            first = std::min(first, contact.event.timeNs), last = std::max(last, contact.lastNs);
-    choice_.setText(countOf(chosen_.size(), "contact") +
-                        (last > first ? " within " + timeText(last - first) : juce::String{}) +
-                        (isNarrow() ? "" : ", to be dragged out"),
-                    quietly);
+void EventsTab::showSelection() {
+    save_->setEnabled(!selectedIds_.empty());
+    if (selectedIds_.empty())
+        return selectionLabel_.setText(isNarrow() ? "Choose some, then drag them out"
+                                                  : "Choose contacts, then drag them into another program",
+                                       dontNotify);
+    std::int64_t firstNs = std::numeric_limits<std::int64_t>::max(), lastNs = 0;
+    for (const RecentContact& contact : contacts_)
+        if (isContactSelected(contact))
+            firstNs = std::min(firstNs, contact.event.timeNs), lastNs = std::max(lastNs, contact.lastGrainNs);
+    selectionLabel_.setText(
+        countText(selectedIds_.size(), "contact") +
+            (lastNs > firstNs ? " within " + timeText(lastNs - firstNs) : juce::String{}) +
+            (isNarrow() ? "" : ", to be dragged out"),
+        dontNotify);
 }
 
 juce::String EventsTab::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto& contact = nth(shown_, row);
+    const auto& contact = nth(contacts_, row);
     const auto& hit = contact.event;
     const auto& scene = model_.world().scene();
     return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
-           number(strongestOf(model_, hit).levelG, 2) + " g " + placeText(scene, hit);
+           number(strongestActuatorFor(model_, hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void EventsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
-    const auto& contact = nth(shown_, row);
+    const auto& contact = nth(contacts_, row);
     const auto& hit = contact.event;
     const auto& model = model_;
-    if (isSelected) drawChosenRow(g, *this, width, height);
-    const Columns at{{width, height}};
-    const auto most = strongestOf(model, hit);
-    const int material = materialOf(model.world().scene(), hit);
-    g.setColour(material < 0 ? palette::other : palette::material(model.world().scene().materials, material));
-    g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
+    if (isSelected) drawSelectedRow(g, *this, width, height);
+    const Columns columns{{width, height}};
+    const auto strongest = strongestActuatorFor(model, hit);
+    const int material = materialIndexOf(model.world().scene(), hit);
+    g.setColour(material < 0 ? palette::grey : palette::material(model.world().scene().materials, material));
+    g.fillEllipse(columns.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
         g.setColour(shade(*this, which));
         g.drawText(words, area,
                    isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     };
     g.setFont(text::font(text::small));
-    cell(timeText(hit.timeNs), at.time, Shade::muted, false);
-    cell(nameOf(model.world().scene(), contact), at.name, Shade::text, false);
-    const bool isMode = !isClip(hit.sound);
-    cell(isMode ? number(hit.frequencyHz, 1) : "clip", at.frequency, Shade::text, true);
-    cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);
-    cell(number(most.levelG, 3), at.level, Shade::text, true);
-    cell(placeNumbers(hit), at.place, Shade::muted, true);
+    cell(timeText(hit.timeNs), columns.time, Shade::muted, false);
+    cell(nameOf(model.world().scene(), contact), columns.name, Shade::text, false);
+    const bool hasModes = !isClip(hit.sound);
+    cell(hasModes ? number(hit.frequencyHz, 1) : "clip", columns.frequency, Shade::text, true);
+    cell(hasModes ? number(hit.decayPerSecond, 1) : "", columns.decay, Shade::text, true);
+    cell(number(strongest.levelG, 3), columns.level, Shade::text, true);
+    cell(positionText(hit), columns.place, Shade::muted, true);
     g.setFont(text::font(text::small, juce::Font::bold));
-    g.setColour(enchanterColour(*this, most.enchanter));
-    g.drawText(labelOf(model.mix(), most.enchanter), at.enchanter, juce::Justification::centred, true);
+    g.setColour(actuatorColour(*this, strongest.actuator));
+    g.drawText(labelOf(model.mix(), strongest.actuator), columns.actuator, juce::Justification::centred,
+               true);
 }
 
 void EventsTab::paint(juce::Graphics& g) {
-    const Columns at{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
-    ink(g, *this, Shade::muted, text::small);
-    const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) {
-        g.drawText(words, area, where, true);
-    };
-    head("Contact", at.time, juce::Justification::centredLeft);
-    head("Material", at.name, juce::Justification::centredLeft);
-    head("f Hz", at.frequency, juce::Justification::centredRight);
-    head(juce::String::charToString(0x03c4) + " 1/s", at.decay, juce::Justification::centredRight);
-    head("g", at.level, juce::Justification::centredRight);
-    head("most on", at.enchanter, juce::Justification::centred);
-    head("x, y", at.place, juce::Justification::centredRight);
+    const Columns columns{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
+    setInk(g, *this, Shade::muted, text::small);
+    const auto drawTitle = [&](const juce::String& words, juce::Rectangle<int> area,
+                               juce::Justification where) { g.drawText(words, area, where, true); };
+    drawTitle("Contact", columns.time, juce::Justification::centredLeft);
+    drawTitle("Material", columns.name, juce::Justification::centredLeft);
+    drawTitle("f Hz", columns.frequency, juce::Justification::centredRight);
+    drawTitle(juce::String::charToString(0x03c4) + " 1/s", columns.decay, juce::Justification::centredRight);
+    drawTitle("g", columns.level, juce::Justification::centredRight);
+    drawTitle("most on", columns.actuator, juce::Justification::centred);
+    drawTitle("x, y", columns.place, juce::Justification::centredRight);
 }
 
 void EventsTab::resized() {
@@ -263,43 +271,43 @@ void EventsTab::resized() {
     foot.removeFromRight(between);
     format_.setBounds(foot.removeFromRight(button));
     foot.removeFromRight(between);
-    choice_.setBounds(foot.withTrimmedLeft(5));
-    describeChoice();
+    selectionLabel_.setBounds(foot.withTrimmedLeft(5));
+    showSelection();
 }
 
 void EventsTab::showMenu() {
     juce::PopupMenu menu;
-    menu.addItem("Save as clip" + dots(), [safe = juce::Component::SafePointer<EventsTab>{this}] {
+    menu.addItem("Save as clip" + ellipsis(), [safe = juce::Component::SafePointer<EventsTab>{this}] {
         if (safe != nullptr) safe->saveAs();
     });
     menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
 }
 
-/// From the scene's name and the time of the first contact.
+/// A file name from the scene's name and the time of the first selected contact.
 juce::String EventsTab::fileName() const {
-    std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    for (const RecentContact& contact : shown_)
-        if (isChosen(contact)) first = std::min(first, contact.event.timeNs);
+    std::int64_t firstNs = std::numeric_limits<std::int64_t>::max();
+    for (const RecentContact& contact : contacts_)
+        if (isContactSelected(contact)) firstNs = std::min(firstNs, contact.event.timeNs);
     return juce::File::createLegalFileName(utf8(model_.mix().scene->name) + "-" +
-                                           juce::String{1e-9 * static_cast<double>(first), 3} + "s") +
-           hitEndings()[files_->ending()];
+                                           juce::String{1e-9 * static_cast<double>(firstNs), 3} + "s") +
+           hitFileExtensions()[files_->formatIndex()];
 }
 
 void EventsTab::saveAs() {
-    if (chosen_.empty()) return;
+    if (selectedIds_.empty()) return;
     const auto folder = juce::SharedResourcePointer<UserFolder> {
-        } -> place();
+        } -> location();
     const auto name = juce::File::createFileWithoutCheckingPath("/" + fileName());
     askForFile(*this,
                {"Save the chosen contacts as a clip", name.getFileExtension(), folder, true,
-                name.getFileNameWithoutExtension(), hitEndings()},
+                name.getFileNameWithoutExtension(), hitFileExtensions()},
                [this](const juce::File& file) { saveTo(file); });
 }
 
-std::vector<juce::File> EventsTab::write(const juce::File& file, bool saysHow) {
+std::vector<juce::File> EventsTab::write(const juce::File& file, bool announcesResult) {
     std::vector<CollisionEvent> hits;
-    for (const RecentContact& contact : shown_)
-        if (isChosen(contact)) model_.recent().appendEvents(contact, hits);
+    for (const RecentContact& contact : contacts_)
+        if (isContactSelected(contact)) model_.recentContacts().appendEvents(contact, hits);
     const auto written =
         writeHits(std::move(hits), model_.mix(), std::max(8000, model_.output().sampleRateHz()), file);
     if (!written) return model_.report(utf8(written.error)), std::vector<juce::File>{};
@@ -310,14 +318,14 @@ std::vector<juce::File> EventsTab::write(const juce::File& file, bool saysHow) {
                                  ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more"
                                  : juce::String{})};
     for (const auto& loss : written.value.losses) words.add(utf8(loss));
-    if (saysHow) model_.announce(words.joinIntoString("; "));
+    if (announcesResult) model_.announce(words.joinIntoString("; "));
     return files;
 }
 
-// As escaped URLs, which the drop target receives.
+// The drop target receives escaped URLs.
 juce::StringArray EventsTab::filesToDrag() {
     juce::StringArray addresses;
-    if (chosen_.empty()) return addresses;
+    if (selectedIds_.empty()) return addresses;
     const auto folder = files_->makeFolder();
     if (!folder) return model_.report(utf8(folder.error)), addresses;
     for (const auto& file : write(folder.value.getChildFile(fileName()), false))
@@ -325,37 +333,37 @@ juce::StringArray EventsTab::filesToDrag() {
     return addresses;
 }
 
-// Writes clip formats as `physvib export` does, or samples.
+// Writes clip formats as `physvib export` does, or samples as .wav.
 
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path) {
     if (hits.empty()) return Failure{"Chosen contacts: expected one whose grains are still kept"};
     if (std::ranges::any_of(hits, [](const CollisionEvent& hit) { return isClip(hit.sound); }))
         return Failure{"Chosen contacts: expected hits, found a clip, which is a file already"};
-    startAtFirst(hits);
+    shiftToZero(hits);
     const auto panner = mix.panner();
     const auto name = pathOf(path);
-    const HitExport made{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
-                         mix.layout, mix.layout.name};
-    if (const auto format = clipFormatOf(name)) return writeClip(made, panner, name, *format);
-    if (!path.hasFileExtension(hitEndings()[0]))
+    const HitExport chosen{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
+                           mix.layout, mix.layout.name};
+    if (const auto format = clipFormatOf(name)) return writeClip(chosen, panner, name, *format);
+    if (!path.hasFileExtension(hitFileExtensions()[0]))
         return Failure{name + ": expected a name that ends in " +
-                       hitEndings().joinIntoString(", ").toStdString()};
-    const std::string error = writeHitsWav(made, panner, sampleRateHz, name, "physvib " PHYSVIB_VERSION);
+                       hitFileExtensions().joinIntoString(", ").toStdString()};
+    const std::string error = writeHitsWav(chosen, panner, sampleRateHz, name, "physvib " PHYSVIB_VERSION);
     return error.empty() ? Result<WrittenHits>{WrittenHits{{name}, {}}} : Result<WrittenHits>{Failure{error}};
 }
 
 Result<juce::File> DraggedFiles::makeFolder() {
-    const auto everyones = juce::File::getSpecialLocation(juce::File::tempDirectory);
+    const auto tempFolder = juce::File::getSpecialLocation(juce::File::tempDirectory);
     if (!folder_.isDirectory()) {
-        const auto own = everyones.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
-        if (!isMadeForUsAlone(pathOf(own)))
-            return Failure{pathOf(everyones) + ": expected a folder to write what is dragged into"};
-        folder_ = own;
+        const auto fresh = tempFolder.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
+        if (!createPrivateFolder(pathOf(fresh)))
+            return Failure{pathOf(tempFolder) + ": expected a folder to write what is dragged into"};
+        folder_ = fresh;
     }
-    const auto folder = folder_.getChildFile(juce::String{++drags_});
-    if (const auto made = folder.createDirectory(); made.failed())
-        return Failure{pathOf(folder) + ": " + made.getErrorMessage().toStdString()};
+    const auto folder = folder_.getChildFile(juce::String{++dragCount_});
+    if (const auto result = folder.createDirectory(); result.failed())
+        return Failure{pathOf(folder) + ": " + result.getErrorMessage().toStdString()};
     return folder;
 }
 

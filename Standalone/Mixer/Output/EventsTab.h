@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tab that lists the played contacts, newest first; writes selected ones to files, also for drags to others.
+// Tab that lists the played contacts, newest first, and writes selected ones to files, also to drag them out.
 #pragma once
 #include "Formats/ClipFile.h"
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 #include <set>
 
 namespace physvib {
 
-/// File extensions for impacts: samples, or a clip format.
-inline const juce::StringArray& hitEndings() {
+/// File extensions in which impacts can be written: .wav for samples, and the clip formats.
+inline const juce::StringArray& hitFileExtensions() {
     static const juce::StringArray all = [] {
-        juce::StringArray endings{".wav"}; // what most programs take
-        for (const auto ending : writtenEndings) endings.add(ending.data());
+        juce::StringArray endings{".wav"}; // most programs read it
+        for (const auto ending : writableEndings) endings.add(ending.data());
         return endings;
     }();
     return all;
@@ -28,8 +28,8 @@ struct WrittenHits {
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path);
 
-/// Files dragged to other programs. Some of these copy them late, so they exist until the mixer ends. Message
-/// thread only.
+/// Files dragged to other programs. Some programs copy them late, so the files exist until the mixer ends.
+/// Message thread only.
 class DraggedFiles {
 public:
     ~DraggedFiles() { folder_.deleteRecursively(); }
@@ -37,37 +37,38 @@ public:
     /// Creates an empty folder for the files of one drag; or one error line.
     Result<juce::File> makeFolder();
 
-    /// Selected format of drags, an index of hitEndings(); kept when another document is opened.
-    int ending() const noexcept { return ending_; }
-    void setEnding(int ending) noexcept { ending_ = ending; }
+    /// Selected format of drags, an index of hitFileExtensions(); kept when another document is opened.
+    int formatIndex() const noexcept { return formatIndex_; }
+    void setFormatIndex(int index) noexcept { formatIndex_ = index; }
 
 private:
     juce::File folder_;
-    int drags_ = 0, ending_ = 0;
+    int dragCount_ = 0, formatIndex_ = 0;
 };
 
 class EventsTab final : public Tab, private juce::ListBoxModel {
 public:
-    static constexpr const char* dragged = "chosen contacts"; ///< description of a drag
+    static constexpr const char* dragDescription = "chosen contacts"; ///< description of a drag
 
     explicit EventsTab(MixerModel& model);
-    void refresh(const MixerMoment& moment) override;
+    void refresh(const MixerSnapshot& snapshot) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
-    /// Writes the selected contacts to new files and returns their URLs. If there are none, the mixer reports
-    /// why.
+    /// Writes the selected contacts to new files and returns their URLs. If that fails, the list is empty and
+    /// the mixer reports why.
     juce::StringArray filesToDrag();
-    /// Saves them to that file in the format of its extension, or without one in the format of drags. The
-    /// mixer reports the result.
+    /// Saves the selected contacts to the file in the format of its extension; without an extension, in the
+    /// format of drags. The mixer reports the result.
     void saveTo(const juce::File& file) {
-        write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()])
-                                                : file,
+        write(file.getFileExtension().isEmpty()
+                  ? file.withFileExtension(hitFileExtensions()[files_->formatIndex()])
+                  : file,
               true);
     }
 
 private:
-    int getNumRows() override { return static_cast<int>(shown_.size()); }
+    int getNumRows() override { return static_cast<int>(contacts_.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
     juce::String getNameForRow(int row) override;
     void selectedRowsChanged(int row) override;
@@ -76,29 +77,29 @@ private:
     }
     void backgroundClicked(const juce::MouseEvent&) override { list_.deselectAllRows(); }
     void returnKeyPressed(int) override { saveAs(); }
-    juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragged; }
-    void listRecent();
-    void listChosen();
-    int rowOf(std::uint64_t number) const;
-    bool isChosen(const RecentContact& contact) const { return chosen_.contains(contact.number); }
-    void describeChoice();
+    juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragDescription; }
+    void updateRows();
+    void restoreSelection();
+    int rowOf(std::uint64_t contactId) const;
+    bool isContactSelected(const RecentContact& contact) const { return selectedIds_.contains(contact.id); }
+    void showSelection();
     bool isNarrow() const { return getWidth() < 420; }
     void showMenu();
     void saveAs();
     juce::String fileName() const;
-    std::vector<juce::File> write(const juce::File& file, bool saysHow);
+    std::vector<juce::File> write(const juce::File& file, bool announcesResult);
 
     MixerModel& model_;
-    std::vector<RecentContact> shown_;
-    std::set<std::uint64_t> chosen_; // selected contacts, regardless of their rows
-    std::uint64_t last_ = 0;         // the selected contact that was clicked last
-    bool isListing_ = false;
+    std::vector<RecentContact> contacts_;
+    std::set<std::uint64_t> selectedIds_; // selected contacts, regardless of their rows
+    std::uint64_t lastClickedId_ = 0;     // the selected contact that was clicked last
+    bool isUpdatingRows_ = false;
     juce::ListBox list_{"Events", this};
-    Caption choice_;
+    Caption selectionLabel_;
     juce::ComboBox format_;
     std::unique_ptr<juce::TextButton> save_;
     juce::SharedResourcePointer<DraggedFiles> files_;
-    std::uint64_t seen_ = 0;
+    std::uint64_t playedCount_ = 0;
     double shownAtMs_ = 0.0;
 };
 

@@ -1,48 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recordings in the user's folder: a list with what can be done with each.
+// Tab of the recordings (takes) in the user's folder: it plays, trims, copies and deletes them. TakeTrimmer
+// shows a take's levels and selects a part, which a file of its own stores (loadPart).
 #pragma once
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 #include <atomic>
 
 namespace physvib {
 
-/// The levels of a take over time, with its start and end to drag.
-/// Message thread.
-class TakeTrim final : public juce::Component,
-                       public juce::SettableTooltipClient,
-                       private juce::AsyncUpdater {
+/// The levels of a take over time, with handles for start and end. Message thread.
+class TakeTrimmer final : public juce::Component,
+                          public juce::SettableTooltipClient,
+                          private juce::AsyncUpdater {
 public:
-    TakeTrim();
-    ~TakeTrim() override;
+    TakeTrimmer();
+    ~TakeTrimmer() override;
 
-    /// Shows a take; its levels come when they have been read.
-    void show(const juce::File& take, double seconds, juce::Range<double> part);
-    /// Cuts the silence at both ends, as soon as the levels are there.
+    /// Shows a take of that length with the selected part, in s; a thread reads its levels.
+    void setTake(const juce::File& take, double seconds, juce::Range<double> part);
+    /// Deselects the silence at both ends, as soon as the levels have been read.
     void trimSilence();
-    void showAll() { changeAtOnce({0.0, seconds_}); }
-    /// How far it has been played, s; below 0: it does not play.
-    void showPlayed(double seconds) {
-        if (std::exchange(played_, seconds) != seconds) repaint();
+    void selectAll() { setPartAndEnd({0.0, seconds_}); }
+    /// Position of playback in s; below 0: the take does not play.
+    void setPlayhead(double seconds) {
+        if (std::exchange(playheadSeconds_, seconds) != seconds) repaint();
     }
     std::function<void(juce::Range<double> part)> onChange;
     std::function<void()> onEnd; ///< after the last change of a drag, a key or a click
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override {
-        movesEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
+        isDraggingEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
     }
-    void mouseDrag(const juce::MouseEvent& e) override { moveTo(seconds_ * e.position.x / getWidth()); }
+    void mouseDrag(const juce::MouseEvent& e) override { moveEdgeTo(seconds_ * e.position.x / getWidth()); }
     void mouseUp(const juce::MouseEvent& e) override {
-        if (e.mouseWasDraggedSinceMouseDown()) end();
+        if (e.mouseWasDraggedSinceMouseDown()) notifyEnd();
     }
-    void mouseDoubleClick(const juce::MouseEvent&) override { showAll(); }
+    void mouseDoubleClick(const juce::MouseEvent&) override { selectAll(); }
     bool keyPressed(const juce::KeyPress& key) override;
 
 private:
-    void moveTo(double seconds);
-    void change(juce::Range<double> part);
-    void changeAtOnce(juce::Range<double> part);
-    void end() {
+    void moveEdgeTo(double seconds);
+    void setPart(juce::Range<double> part);
+    void setPartAndEnd(juce::Range<double> part);
+    void notifyEnd() {
         if (onEnd) onEnd();
     }
     float pixelOf(double seconds) const {
@@ -51,14 +51,14 @@ private:
     void handleAsyncUpdate() override;
 
     juce::File take_;
-    double seconds_ = 0.0, played_ = -1.0;
+    double seconds_ = 0.0, playheadSeconds_ = -1.0;
     juce::Range<double> part_;
-    bool movesEnd_ = false, isWaiting_ = false; // for levels, to cut the silence
-    std::vector<float> levels_;                 // empty: not read yet
-    std::mutex mutex_;                          // guards what is read
-    std::vector<float> read_;
-    std::atomic<int> reading_{0}; // number of the take that is to be read
-    juce::ThreadPool reader_{1};  // destroyed first, because its thread uses the other members
+    bool isDraggingEnd_ = false, trimsSilenceWhenRead_ = false; // the latter calls trimSilence()
+    std::vector<float> levels_;                                 // empty: not read yet
+    std::mutex mutex_;                                          // guards newLevels_
+    std::vector<float> newLevels_;
+    std::atomic<int> requestedReadNumber_{0}; // increments with each take; cancels reading of earlier ones
+    juce::ThreadPool reader_{1};              // destroyed first, because its thread uses the other members
 };
 
 /// Message thread.
@@ -66,11 +66,11 @@ class TakesTab final : public Tab, private juce::ListBoxModel {
 public:
     explicit TakesTab(MixerModel& model);
 
-    void refresh(const MixerMoment&) override;
-    void visibilityChanged() override { look(); }
+    void refresh(const MixerSnapshot&) override;
+    void visibilityChanged() override { rescan(); }
     void resized() override;
 
-    void look(); ///< reads the folder again
+    void rescan(); ///< reads the folder again
     int chosen() const { return list_.getSelectedRow(); }
     void choose(int row) { list_.selectRow(row); }
     /// Plays the selected take as a clip of the session, each channel on the actuator of its number. Stops
@@ -79,17 +79,17 @@ public:
     /// Copies the take, or its selected part, with its events. Those of a replaced recording are deleted; a
     /// list of events without a recording is not replaced, which is reported as an error.
     void exportTo(const juce::File& file);
-    /// Cuts the silence at both ends, or takes all of a trimmed take again. The recording stays as it is.
+    /// Deselects the silence at both ends; a trimmed take is selected as a whole. The recording is unchanged.
     void trim();
     void erase(); ///< both files go to the system's bin
 
 private:
     struct Take {
         juce::File file;
-        juce::Time at;
+        juce::Time modifiedAt;
         double seconds = 0.0;
         int channels = 0;
-        juce::Range<double> part; // that was chosen, s
+        juce::Range<double> part; // selected part, s
         bool isTrimmed() const { return part != juce::Range{0.0, seconds}; }
         juce::String length() const; ///< as shown
     };
@@ -100,29 +100,29 @@ private:
     void returnKeyPressed(int) override { play(); }
     void deleteKeyPressed(int) override { askErase(); }
     juce::String getNameForRow(int row) override;
-    Take* take();
+    Take* selectedTake();
     void showChosen();
     void askExport();
     void askErase();
 
     MixerModel& model_;
     juce::SharedResourcePointer<UserFolder> folder_;
-    std::vector<Take> takes_;                            // the newest first
-    juce::Time seenAt_;                                  // last change of the folder that is listed
-    std::pair<juce::File, juce::Range<double>> playing_; // of the last call
-    double endsAtMs_ = 0.0, lookedAtMs_ = 0.0;
+    std::vector<Take> takes_;                               // the newest first
+    juce::Time folderChangedAt_;                            // last change of the folder that is listed
+    std::pair<juce::File, juce::Range<double>> lastPlayed_; // file and part of the last play()
+    double playsUntilMs_ = 0.0, folderCheckedAtMs_ = 0.0;
     juce::ListBox list_{"Takes", this};
-    Caption none_{"No recordings yet: Record, or Ctrl+R, makes one", Shade::text};
-    TakeTrim trimmer_;
-    std::unique_ptr<juce::TextButton> play_, trim_, export_, show_, erase_;
+    Caption emptyHint_{"No recordings yet: Record, or Ctrl+R, makes one", Shade::text};
+    TakeTrimmer trimmer_;
+    std::unique_ptr<juce::TextButton> playButton_, trimButton_, exportButton_, showButton_, eraseButton_;
 };
 
-/// From the first part of a take's levels that can be felt to the last, s; all of it if there is none. Any
+/// The part of a take from its first to its last perceptible level, s; all of it if there is none. Any
 /// thread.
-juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds);
+juce::Range<double> perceptiblePart(const std::vector<float>& levels, double seconds);
 
-/// The selected part of a take, s, from its file in the folder `parts`; all of it if there is none, or one
-/// for another length. Message thread.
-juce::Range<double> keptPart(const juce::File& take, double seconds);
+/// The selected part of a take, s, from its file in the folder `parts`; all of it without such a file, or if
+/// the file is for a take of another length. Message thread.
+juce::Range<double> loadPart(const juce::File& take, double seconds);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Formats counters of session and device; amber marks losses.
+// Formats counters of session and device, and draws the table that shows them; amber marks losses.
 #include "Core/Units.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Output/OutputTab.h"
@@ -8,51 +8,53 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t maxLoads = 300;   // ten seconds of updates
-constexpr double showFiguresMs = 500.0; // figures that change faster are illegible
+constexpr std::size_t maxLoads = 300;      // ten seconds of updates
+constexpr double updateIntervalMs = 500.0; // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
-juce::String hits(std::uint64_t n) { return countOf(n, "hit"); }
+juce::String hits(std::uint64_t n) { return countText(n, "hit"); }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
-Shade noneIsGood(std::uint64_t n) { return n > 0 ? Shade::now : Shade::text; }
+Shade lossShade(std::uint64_t n) { return n > 0 ? Shade::highlight : Shade::text; }
 
-Fact clockFact(const MixerModel& model, const MixerMoment& moment) {
+StatusRow clockRow(const MixerModel& model, const MixerSnapshot& snapshot) {
     const auto& output = model.output();
-    if (!moment.device.isRunning) return {"Clock", "none runs: the world waits", Shade::limit};
+    if (!snapshot.device.isRunning) return {"Clock", "none runs: the world waits", Shade::limit};
     const auto name = utf8(output.device());
-    const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
+    const bool isNone = name.startsWith(juce::String{nullDeviceType} + ":");
     return {"Clock",
             (isNone ? juce::String{"no device"} : name) + ", " + juce::String{output.sampleRateHz()} + " Hz",
-            isNone ? Shade::now : Shade::text};
+            isNone ? Shade::highlight : Shade::text};
 }
 
-Fact marginFact(const MixerMoment& moment, int rateHz) {
-    const auto frames = moment.session.leastMarginFrames;
+StatusRow marginRow(const MixerSnapshot& snapshot, int rateHz) {
+    const auto frames = snapshot.session.minMarginFrames;
     if (frames == noMargin || rateHz == 0) return {"Margin", "no hit yet", Shade::muted};
     return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least",
-            frames < 0 ? Shade::now : Shade::text};
+            frames < 0 ? Shade::highlight : Shade::text};
 }
 
-Fact guardFact(const AudioOutputStatus& device) {
+StatusRow guardRow(const AudioOutputStatus& device) {
     const double reduction = toDecibels(std::max(static_cast<double>(device.guardGain), 1e-3));
-    const auto times = device.guarded > 0 ? ", acted " + countOf(device.guarded, "time") : juce::String{};
+    const auto times =
+        device.guardEpisodes > 0 ? ", acted " + countText(device.guardEpisodes, "time") : juce::String{};
     return {"Guard", number(reduction, 1) + " dB" + times, reduction < -0.05 ? Shade::limit : Shade::text};
 }
 
-Fact exposureFact(double daily) {
-    const auto words = "A(8) " + number(daily, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) +
-                       ", limit " + number(exposureLimitValue, 0) + ")";
+StatusRow exposureRow(double a8) {
+    const auto words = "A(8) " + number(a8, 2) + " m/s^2 (action value " +
+                       number(exposureActionMetresPerSecond2, 1) + ", limit " +
+                       number(exposureLimitMetresPerSecond2, 0) + ")";
     return {"Exposure", words,
-            daily >= exposureLimitValue    ? Shade::limit
-            : daily >= exposureActionValue ? Shade::now
-                                           : Shade::text};
+            a8 >= exposureLimitMetresPerSecond2    ? Shade::limit
+            : a8 >= exposureActionMetresPerSecond2 ? Shade::highlight
+                                                   : Shade::text};
 }
 
-constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
+constexpr int minRowPixels = 18, maxRowPixels = 26, nameGap = 14;
 
-/// That the words need at that width, broken between words.
+/// The number of lines that the text needs at that width, broken between words.
 int linesOf(const juce::String& words, const juce::Font& font, int width) {
-    if (text::pixels(font, words) <= width) return 1;
+    if (text::pixelWidth(font, words) <= width) return 1;
     juce::AttributedString all;
     all.append(words, font);
     juce::TextLayout layout;
@@ -62,49 +64,50 @@ int linesOf(const juce::String& words, const juce::Font& font, int width) {
 
 } // namespace
 
-std::vector<Fact> telemetryFacts(const MixerModel& model, const MixerMoment& moment, float medianLoad) {
+std::vector<StatusRow> telemetryRows(const MixerModel& model, const MixerSnapshot& snapshot,
+                                     float medianLoad) {
     const auto& output = model.output();
-    const auto& r = moment.session.render;
+    const auto& r = snapshot.session.render;
     const auto& session = model.session();
-    const auto refused = moment.session.refused + r.rejected;
+    const auto refused = snapshot.session.refused + r.rejected;
     const double reduction = toDecibels(std::max(static_cast<double>(r.limiterGain), 1e-6));
-    std::vector<Fact> facts{
+    std::vector<StatusRow> rows{
         {"Played", hits(r.played) + ", " + juce::String{r.pending} + " waiting"},
-        {"Late", hits(r.late), noneIsGood(r.late)},
-        {"Dropped", hits(session.world().drops()) + " in a step", noneIsGood(session.world().drops())},
-        {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable",
-         noneIsGood(refused)},
-        {"Elsewhere", hits(r.withoutPart) + " of a part without an actuator", noneIsGood(r.withoutPart)},
-        marginFact(moment, output.sampleRateHz()),
-        {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
+        {"Late", hits(r.late), lossShade(r.late)},
+        {"Dropped", hits(session.world().drops()) + " in a step", lossShade(session.world().drops())},
+        {"Refused", count(snapshot.session.refused) + " without room, " + count(r.rejected) + " unplayable",
+         lossShade(refused)},
+        {"Elsewhere", hits(r.withoutPart) + " of a part without an actuator", lossShade(r.withoutPart)},
+        marginRow(snapshot, output.sampleRateHz()),
+        {"Stalls", number(1e-6 * static_cast<double>(session.world().stalledNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early",
-         noneIsGood(r.stolen)},
+         lossShade(r.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
-        guardFact(moment.device),
-        exposureFact(moment.dailyExposure),
-        clockFact(model, moment),
-        {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad),
-         moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
-        {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
+        guardRow(snapshot.device),
+        exposureRow(snapshot.dailyExposure),
+        clockRow(model, snapshot),
+        {"Render call", "median " + percent(medianLoad) + ", worst " + percent(snapshot.device.worstLoad),
+         snapshot.device.worstLoad > 1.0f ? Shade::highlight : Shade::text},
+        {"Blocks", count(snapshot.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
         {"Xruns",
-         moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
-                                       : juce::String{moment.device.deviceXruns},
-         moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", hits(r.untold) + ", " + count(model.signals().framesLost()) + " frames",
-         noneIsGood(r.untold)},
-        {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
+         snapshot.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
+                                         : juce::String{snapshot.device.deviceXruns},
+         snapshot.device.deviceXruns > 0 ? Shade::highlight : Shade::text},
+        {"Not told", hits(r.unsent) + ", " + count(model.signals().framesLost()) + " frames",
+         lossShade(r.unsent)},
+        {"Not finite", count(r.nonFinite) + " samples", lossShade(r.nonFinite)}};
     const auto sinks = model.session().sinks().states();
-    if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
+    if (sinks.empty()) rows.push_back({"Board", "none", Shade::muted});
     for (const SinkState& sink : sinks)
-        for (const auto& [name, value, isWrong] : sink.facts)
-            facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
-    return facts;
+        for (const auto& [name, value, isWrong] : sink.details)
+            rows.push_back({utf8(name), utf8(value), isWrong ? Shade::highlight : Shade::text});
+    return rows;
 }
 
 TelemetryTab::TelemetryTab(MixerModel& model)
     : model_{model} {
     setTitle("Telemetry");
-    addAndMakeVisible(facts_);
+    addAndMakeVisible(statusTable_);
 }
 
 float TelemetryTab::medianLoad() const {
@@ -115,69 +118,71 @@ float TelemetryTab::medianLoad() const {
     return *middle;
 }
 
-void TelemetryTab::refresh(const MixerMoment& moment) {
-    if (moment.device.isRunning) loads_.push_back(moment.device.load);
+void TelemetryTab::refresh(const MixerSnapshot& snapshot) {
+    if (snapshot.device.isRunning) loads_.push_back(snapshot.device.load);
     if (loads_.size() > maxLoads) loads_.pop_front();
     const double now = nowMs();
-    if (now - shownAtMs_ < showFiguresMs) return;
+    if (now - shownAtMs_ < updateIntervalMs) return;
     shownAtMs_ = now;
-    facts_.set(telemetryFacts(model_, moment, medianLoad()));
+    statusTable_.set(telemetryRows(model_, snapshot, medianLoad()));
 }
 
-FactList::FactList(const juce::String& title, int maxColumns)
+StatusTable::StatusTable(const juce::String& title, int maxColumns)
     : maxColumns_{maxColumns} {
     setTitle(title);
 }
 
-// As many columns as hold every value in one line; in a single one, a long value has several lines.
-FactList::Places FactList::placesIn(int width) const {
+// Uses as many columns as show every value in one line; in a single column, long values have several lines.
+StatusTable::Layout StatusTable::layoutFor(int width) const {
     const auto font = text::font(text::medium);
-    Places p;
-    int widest = 0;
-    for (const auto& fact : facts_) {
-        p.nameWidth = std::max(p.nameWidth, text::pixels(font, fact.name) + afterName);
-        widest = std::max(widest, text::pixels(font, fact.value) + 1);
+    Layout layout;
+    int maxValueWidth = 0;
+    for (const auto& row : rows_) {
+        layout.nameWidth = std::max(layout.nameWidth, text::pixelWidth(font, row.name) + nameGap);
+        maxValueWidth = std::max(maxValueWidth, text::pixelWidth(font, row.value) + 1);
     }
-    const auto room = [&](int columns) { return (width - (columns - 1) * gap) / columns - p.nameWidth; };
-    for (p.columns = maxColumns_; p.columns > 1 && room(p.columns) < widest;) --p.columns;
-    const int count = static_cast<int>(facts_.size());
-    p.rows = (count + p.columns - 1) / p.columns;
-    for (const auto& fact : facts_)
-        p.linesOf.push_back(p.columns > 1 ? 1 : linesOf(fact.value, font, room(1)));
-    p.lines = p.columns > 1 ? p.rows : std::accumulate(p.linesOf.begin(), p.linesOf.end(), 0);
-    return p;
+    const auto room = [&](int columns) { return (width - (columns - 1) * gap) / columns - layout.nameWidth; };
+    for (layout.columns = maxColumns_; layout.columns > 1 && room(layout.columns) < maxValueWidth;)
+        --layout.columns;
+    const int count = static_cast<int>(rows_.size());
+    layout.rows = (count + layout.columns - 1) / layout.columns;
+    for (const auto& row : rows_)
+        layout.rowLines.push_back(layout.columns > 1 ? 1 : linesOf(row.value, font, room(1)));
+    layout.lines =
+        layout.columns > 1 ? layout.rows : std::accumulate(layout.rowLines.begin(), layout.rowLines.end(), 0);
+    return layout;
 }
 
-int FactList::heightFor(int width) const { return placesIn(width).lines * lowestRow; }
+int StatusTable::heightFor(int width) const { return layoutFor(width).lines * minRowPixels; }
 
-void FactList::set(std::vector<Fact> facts) {
-    if (facts == facts_) return;
-    facts_ = std::move(facts);
+void StatusTable::set(std::vector<StatusRow> rows) {
+    if (rows == rows_) return;
+    rows_ = std::move(rows);
     juce::StringArray words;
-    for (const auto& fact : facts_) words.add(fact.name + ": " + fact.value);
+    for (const auto& row : rows_) words.add(row.name + ": " + row.value);
     setDescription(words.joinIntoString("; "));
     repaint();
 }
 
-void FactList::paint(juce::Graphics& g) {
-    if (facts_.empty()) return;
-    const auto p = placesIn(getWidth());
-    const int line = juce::jlimit(lowestRow, highestRow, getHeight() / p.lines),
-              width = (getWidth() - (p.columns - 1) * gap) / p.columns;
+void StatusTable::paint(juce::Graphics& g) {
+    if (rows_.empty()) return;
+    const auto layout = layoutFor(getWidth());
+    const int lineHeight = juce::jlimit(minRowPixels, maxRowPixels, getHeight() / layout.lines),
+              width = (getWidth() - (layout.columns - 1) * gap) / layout.columns;
     const auto font = text::font(text::medium);
     g.setFont(font);
     int y = 0;
-    for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {
-        const auto& fact = nth(facts_, i);
-        const int lines = nth(p.linesOf, i);
-        if (i % p.rows == 0) y = 0;
-        juce::Rectangle<int> row{i / p.rows * (width + gap), y, width, lines * line};
-        y = row.getBottom();
+    for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+        const auto& row = nth(rows_, i);
+        const int lines = nth(layout.rowLines, i);
+        if (i % layout.rows == 0) y = 0;
+        juce::Rectangle<int> area{i / layout.rows * (width + gap), y, width, lines * lineHeight};
+        y = area.getBottom();
         g.setColour(shade(*this, Shade::muted));
-        g.drawText(fact.name, row.removeFromLeft(p.nameWidth).withHeight(line),
+        g.drawText(row.name, area.removeFromLeft(layout.nameWidth).withHeight(lineHeight),
                    juce::Justification::centredLeft, true);
-        g.setColour(shade(*this, fact.shade));
-        g.drawFittedText(fact.value, row, juce::Justification::centredLeft, lines, 1.0f);
+        g.setColour(shade(*this, row.shade));
+        g.drawFittedText(row.value, area, juce::Justification::centredLeft, lines, 1.0f);
     }
 }
 

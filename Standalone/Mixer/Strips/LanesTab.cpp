@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows for all strips and groups, with a time axis.
+// Rows with the gain lanes of all strips and groups over a time axis, and the editing of their points.
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 
 namespace physvib {
 namespace {
 
-constexpr int labelWidth = 92, minRow = 34, betweenRows = 6, footHigh = 18;
+constexpr int labelWidth = 92, minRowHeight = 34, laneRowGap = 6, footHeight = 18;
 
-constexpr float pointSize = 8.0f, pointInset = 5.0f; // so that points at the edge are fully visible
-constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
+constexpr float pointSize = 8.0f, pointInset = 5.0f; // keeps points at the edge fully visible
+constexpr double pointStepSeconds = 0.05, pointStepDb = 0.5, largePointStepDb = 3.0;
 
-juce::String wordsOf(const GainPoint& point) {
-    return (point.db <= leastStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
+juce::String pointText(const GainPoint& point) {
+    return (point.db <= minStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
            number(point.seconds, 2) + " s";
 }
 
@@ -29,10 +29,10 @@ LanesTab::LanesTab(MixerModel& model)
 }
 
 void LanesTab::mixChanged() {
-    const std::size_t wanted = model_.mix().strips.size() + model_.mix().groups.size();
-    if (rows_.lanes.size() != wanted) {
+    const std::size_t laneCount = model_.mix().strips.size() + model_.mix().groups.size();
+    if (rows_.lanes.size() != laneCount) {
         rows_.lanes.clear();
-        for (std::size_t i = 0; i < wanted; ++i) {
+        for (std::size_t i = 0; i < laneCount; ++i) {
             rows_.lanes.push_back(std::make_unique<LaneRow>(model_, i));
             rows_.addAndMakeVisible(*rows_.lanes.back());
         }
@@ -44,9 +44,9 @@ void LanesTab::mixChanged() {
     rows_.repaint();
 }
 
-// Covers the scene so far and all points.
+// A round duration that covers the scene so far and all points.
 double LanesTab::spanSeconds() const {
-    double needed = model_.signals().run().seconds();
+    double needed = model_.signals().runTrace().seconds();
     const auto include = [&needed](const GainLane& lane) {
         if (!lane.empty()) needed = std::max(needed, lane.back().seconds);
     };
@@ -57,12 +57,12 @@ double LanesTab::spanSeconds() const {
     return span;
 }
 
-void LanesTab::refresh(const MixerMoment&) {
-    const double seconds = model_.signals().run().seconds(), span = spanSeconds();
+void LanesTab::refresh(const MixerSnapshot&) {
+    const double seconds = model_.signals().runTrace().seconds(), span = spanSeconds();
     if (seconds == shownSeconds_ && span == spanSeconds_) return;
     shownSeconds_ = seconds;
-    if (span != std::exchange(spanSeconds_, span)) repaint(foot_);
-    for (auto& lane : rows_.lanes) lane->show(span);
+    if (span != std::exchange(spanSeconds_, span)) repaint(axisArea_);
+    for (auto& lane : rows_.lanes) lane->setSpan(span);
 }
 
 void LanesTab::Rows::paint(juce::Graphics& g) {
@@ -70,64 +70,65 @@ void LanesTab::Rows::paint(juce::Graphics& g) {
     const auto& mix = model.mix();
     for (std::size_t i = 0; i < std::min(lanes.size(), mix.strips.size() + mix.groups.size()); ++i) {
         const bool isStrip = i < mix.strips.size();
-        g.setColour(isStrip ? enchanterColour(*this, static_cast<int>(i)) : shade(*this, Shade::text));
+        g.setColour(isStrip ? actuatorColour(*this, static_cast<int>(i)) : shade(*this, Shade::text));
         const auto words =
-            utf8(isStrip ? mix.layout.enchanters[i].label : mix.groups[i - mix.strips.size()].name);
+            utf8(isStrip ? mix.layout.actuators[i].label : mix.groups[i - mix.strips.size()].name);
         g.drawFittedText(words, lanes[i]->getBounds().withX(0).withWidth(labelWidth - 8),
                          juce::Justification::centredLeft, 1, 1.0f);
     }
 }
 
 void LanesTab::paint(juce::Graphics& g) {
-    ink(g, *this, Shade::muted, text::small);
-    const auto axis = foot_.withTrimmedLeft(labelWidth);
+    setInk(g, *this, Shade::muted, text::small);
+    const auto axis = axisArea_.withTrimmedLeft(labelWidth);
     g.drawText("0", axis, juce::Justification::centredLeft, false);
     g.drawText(number(std::max(10.0, spanSeconds_), 0) + " s of the scene", axis,
                juce::Justification::centredRight, false);
     const auto room = axis.withTrimmedLeft(20).withTrimmedRight(110);
     for (const char* words : {"Click adds a point. Record (Ctrl+R), and the faders you move are written.",
                               "Click adds a point. Ctrl+R records faders.", "Click adds a point."})
-        if (text::pixels(g.getCurrentFont(), words) <= room.getWidth())
+        if (text::pixelWidth(g.getCurrentFont(), words) <= room.getWidth())
             return g.drawText(words, room, juce::Justification::centred, false);
 }
 
 void LanesTab::resized() {
     auto area = getLocalBounds();
-    foot_ = area.removeFromBottom(footHigh);
+    axisArea_ = area.removeFromBottom(footHeight);
     area.removeFromBottom(2);
     viewport_.setBounds(area);
-    const int count = std::max(1, static_cast<int>(rows_.lanes.size()));
-    const int each = std::max(minRow, (area.getHeight() + betweenRows) / count - betweenRows),
-              high = count * (each + betweenRows) - betweenRows;
-    rows_.setSize(area.getWidth() - (high > area.getHeight() ? 10 : 0), high);
-    auto rest = rows_.getLocalBounds().withTrimmedLeft(labelWidth);
-    for (auto& lane : rows_.lanes) lane->setBounds(rest.removeFromTop(each)), rest.removeFromTop(betweenRows);
+    const int laneCount = std::max(1, static_cast<int>(rows_.lanes.size()));
+    const int laneHeight = std::max(minRowHeight, (area.getHeight() + laneRowGap) / laneCount - laneRowGap),
+              totalPixels = laneCount * (laneHeight + laneRowGap) - laneRowGap;
+    rows_.setSize(area.getWidth() - (totalPixels > area.getHeight() ? 10 : 0), totalPixels);
+    auto space = rows_.getLocalBounds().withTrimmedLeft(labelWidth);
+    for (auto& lane : rows_.lanes)
+        lane->setBounds(space.removeFromTop(laneHeight)), space.removeFromTop(laneRowGap);
 }
 
 // Mouse and keyboard editing of a gain lane; its vertical scale is that of a fader.
 
-LaneRow::LaneRow(MixerModel& model, std::size_t number)
+LaneRow::LaneRow(MixerModel& model, std::size_t index)
     : model_{model}
-    , number_{number} {
+    , index_{index} {
     setWantsKeyboardFocus(true);
     mixChanged();
 }
 
 juce::NormalisableRange<double> LaneRow::scale() {
-    juce::NormalisableRange<double> range{leastStripDb, mostStripDb};
-    range.setSkewForCentre(-15.0); // as in setUpFader
+    juce::NormalisableRange<double> range{minStripDb, maxStripDb};
+    range.setSkewForCentre(-15.0); // like the faders
     return range;
 }
 
 const GainLane& LaneRow::lane() const {
     static const GainLane none;
-    if (!isThere()) return none;
-    return isGroup() ? model_.mix().groups[group()].lane : model_.mix().strips[number_].lane;
+    if (!isValid()) return none;
+    return isGroup() ? model_.mix().groups[group()].lane : model_.mix().strips[index_].lane;
 }
 
 std::vector<int> LaneRow::channels() const {
-    if (!isThere()) return {};
-    if (!isGroup()) return {static_cast<int>(number_)};
+    if (!isValid()) return {};
+    if (!isGroup()) return {static_cast<int>(index_)};
     std::vector<int> all;
     for (int j = 0; j < model_.mix().count(); ++j)
         if (nth(model_.mix().strips, j).group == static_cast<int>(group())) all.push_back(j);
@@ -135,112 +136,112 @@ std::vector<int> LaneRow::channels() const {
 }
 
 void LaneRow::mixChanged() {
-    if (!isThere()) return;
-    name_ =
-        utf8(isGroup() ? model_.mix().groups[group()].name : model_.mix().layout.enchanters[number_].label);
+    if (!isValid()) return;
+    name_ = utf8(isGroup() ? model_.mix().groups[group()].name : model_.mix().layout.actuators[index_].label);
     setTitle("Gain lane of " + name_);
-    if (chosen_ >= static_cast<int>(lane().size())) chosen_ = -1;
-    describeChosen();
+    if (selectedPoint_ >= static_cast<int>(lane().size())) selectedPoint_ = -1;
+    describeSelectedPoint();
     repaint();
 }
 
-void LaneRow::describeChosen() {
-    const bool isOne = chosen_ >= 0;
+void LaneRow::describeSelectedPoint() {
+    const bool hasSelection = selectedPoint_ >= 0;
     setDescription(lane().empty() ? juce::String{"no points"}
-                   : isOne        ? wordsOf(nth(lane(), chosen_))
-                                  : countOf(lane().size(), "point"));
+                   : hasSelection ? pointText(nth(lane(), selectedPoint_))
+                                  : countText(lane().size(), "point"));
     setTooltip("Gain of " + name_ +
                " on top of its fader: click adds a point, drag moves it, right click takes it away. " +
                getDescription());
 }
 
-void LaneRow::show(double spanSeconds) {
+void LaneRow::setSpan(double spanSeconds) {
     spanSeconds_ = spanSeconds;
     repaint();
 }
 
-juce::Point<float> LaneRow::placeOf(const GainPoint& point) const {
+juce::Point<float> LaneRow::pixelOf(const GainPoint& point) const {
     const auto area = getLocalBounds().toFloat().reduced(pointInset);
     return {area.getX() + area.getWidth() * static_cast<float>(point.seconds / spanSeconds_),
             area.getBottom() - area.getHeight() * static_cast<float>(scale().convertTo0to1(
-                                                      std::clamp(point.db, leastStripDb, mostStripDb)))};
+                                                      std::clamp(point.db, minStripDb, maxStripDb)))};
 }
 
-GainPoint LaneRow::pointAt(juce::Point<float> place) const {
+GainPoint LaneRow::pointAt(juce::Point<float> pixel) const {
     const auto area = getLocalBounds().toFloat().reduced(pointInset);
-    const double x = std::clamp(static_cast<double>((place.x - area.getX()) / area.getWidth()), 0.0, 1.0),
-                 y = std::clamp(static_cast<double>((area.getBottom() - place.y) / area.getHeight()), 0.0,
+    const double x = std::clamp(static_cast<double>((pixel.x - area.getX()) / area.getWidth()), 0.0, 1.0),
+                 y = std::clamp(static_cast<double>((area.getBottom() - pixel.y) / area.getHeight()), 0.0,
                                 1.0);
     const double db = scale().convertFrom0to1(y);
     return {x * spanSeconds_, std::abs(db) < 0.7 ? 0.0 : std::round(10.0 * db) / 10.0}; // snaps to 0 dB
 }
 
-int LaneRow::nearest(juce::Point<float> place) const {
-    int found = -1;
-    float least = pointSize;
+int LaneRow::nearestPoint(juce::Point<float> pixel) const {
+    int nearest = -1;
+    float minDistance = pointSize;
     for (int i = 0; i < static_cast<int>(lane().size()); ++i)
-        if (const float d = placeOf(nth(lane(), i)).getDistanceFrom(place); d < least) least = d, found = i;
-    return found;
+        if (const float distance = pixelOf(nth(lane(), i)).getDistanceFrom(pixel); distance < minDistance)
+            minDistance = distance, nearest = i;
+    return nearest;
 }
 
 void LaneRow::edit(const GainLane& lane, bool continuesEdit) {
-    if (!isThere()) return;
+    if (!isValid()) return;
     model_.change(
         "Gain lane of " + name_,
-        [&](Mix& mix) { (isGroup() ? mix.groups[group()].lane : mix.strips[number_].lane) = lane; },
+        [&](Mix& mix) { (isGroup() ? mix.groups[group()].lane : mix.strips[index_].lane) = lane; },
         continuesEdit);
-    describeChosen();
+    describeSelectedPoint();
     repaint();
 }
 
 void LaneRow::add(const GainPoint& point) {
-    if (lane().size() >= mostGainPoints)
+    if (lane().size() >= maxGainPoints)
         return model_.report("Gain lane of " + name_ + ": at most " +
-                             juce::String{static_cast<int>(mostGainPoints)} + " points");
+                             juce::String{static_cast<int>(maxGainPoints)} + " points");
     GainLane next = lane();
     const auto at =
         next.insert(std::ranges::upper_bound(next, point.seconds, {}, &GainPoint::seconds), point);
-    chosen_ = static_cast<int>(at - next.begin());
+    selectedPoint_ = static_cast<int>(at - next.begin());
     edit(next);
 }
 
-// Limited to the times of its neighbours.
+// Moves the selected point, at most to the times of its neighbours.
 void LaneRow::move(GainPoint point, bool continuesEdit) {
     GainLane next = lane();
-    const auto i = static_cast<std::size_t>(chosen_);
+    const auto i = static_cast<std::size_t>(selectedPoint_);
     const double from = i > 0 ? next[i - 1].seconds : 0.0,
                  to = i + 1 < next.size() ? next[i + 1].seconds : spanSeconds_;
     next[i] = {std::clamp(point.seconds, from, std::max(from, to)),
-               std::clamp(point.db, leastStripDb, mostStripDb)};
+               std::clamp(point.db, minStripDb, maxStripDb)};
     if (next[i] != lane()[i]) edit(next, continuesEdit);
 }
 
-void LaneRow::removeChosen() {
-    if (chosen_ < 0) return;
+void LaneRow::removeSelectedPoint() {
+    if (selectedPoint_ < 0) return;
     GainLane next = lane();
-    next.erase(next.begin() + chosen_);
-    chosen_ = std::min(chosen_, static_cast<int>(next.size()) - 1);
+    next.erase(next.begin() + selectedPoint_);
+    selectedPoint_ = std::min(selectedPoint_, static_cast<int>(next.size()) - 1);
     edit(next);
 }
 
 void LaneRow::mouseDown(const juce::MouseEvent& e) {
     grabKeyboardFocus();
-    const int there = nearest(e.position);
+    const int point = nearestPoint(e.position);
     if (e.mods.isPopupMenu()) {
-        chosen_ = there;
-        return there >= 0 ? removeChosen() : showMenu();
+        selectedPoint_ = point;
+        return point >= 0 ? removeSelectedPoint() : showMenu();
     }
     isDragging_ = true;
-    isMoved_ = there < 0; // a move after adding continues the same edit
-    if (there >= 0)
-        chosen_ = there, describeChosen(), repaint();
+    hasMoved_ = point < 0; // a move after adding continues the same edit
+    if (point >= 0)
+        selectedPoint_ = point, describeSelectedPoint(), repaint();
     else
         add(pointAt(e.position));
 }
 
 void LaneRow::mouseDrag(const juce::MouseEvent& e) {
-    if (!isDragging_ || chosen_ < 0 || (!isMoved_ && !e.mouseWasDraggedSinceMouseDown())) return;
-    move(pointAt(e.position), std::exchange(isMoved_, true));
+    if (!isDragging_ || selectedPoint_ < 0 || (!hasMoved_ && !e.mouseWasDraggedSinceMouseDown())) return;
+    move(pointAt(e.position), std::exchange(hasMoved_, true));
 }
 
 void LaneRow::showMenu() {
@@ -258,24 +259,25 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     const auto& mods = key.getModifiers();
     const int code = key.getKeyCode(), last = static_cast<int>(lane().size()) - 1;
-    const bool isSide = code == KeyPress::leftKey || code == KeyPress::rightKey;
+    const bool isHorizontalKey = code == KeyPress::leftKey || code == KeyPress::rightKey;
     if (code == KeyPress::returnKey || code == KeyPress::insertKey) {
-        const double now = std::min(spanSeconds_, model_.signals().run().seconds());
-        return add({now, laneDbAt(lane(), now)}), true;
+        const double seconds = std::min(spanSeconds_, model_.signals().runTrace().seconds());
+        return add({seconds, laneDbAt(lane(), seconds)}), true;
     }
     if (lane().empty()) return false;
     if (code == KeyPress::deleteKey || code == KeyPress::backspaceKey)
-        return mods.isShiftDown() ? (edit({}), true) : (removeChosen(), true);
-    if (isSide && (!mods.isShiftDown() || chosen_ < 0)) {
-        chosen_ = std::clamp(chosen_ + (code == KeyPress::leftKey ? -1 : 1), 0, last);
-        return describeChosen(), repaint(), true;
+        return mods.isShiftDown() ? (edit({}), true) : (removeSelectedPoint(), true);
+    if (isHorizontalKey && (!mods.isShiftDown() || selectedPoint_ < 0)) {
+        selectedPoint_ = std::clamp(selectedPoint_ + (code == KeyPress::leftKey ? -1 : 1), 0, last);
+        return describeSelectedPoint(), repaint(), true;
     }
-    if (chosen_ < 0) return false;
-    GainPoint point = nth(lane(), chosen_);
-    if (isSide)
-        point.seconds += code == KeyPress::leftKey ? -nudgeSeconds : nudgeSeconds;
+    if (selectedPoint_ < 0) return false;
+    GainPoint point = nth(lane(), selectedPoint_);
+    if (isHorizontalKey)
+        point.seconds += code == KeyPress::leftKey ? -pointStepSeconds : pointStepSeconds;
     else if (code == KeyPress::upKey || code == KeyPress::downKey)
-        point.db += (mods.isShiftDown() ? leapDb : nudgeDb) * (code == KeyPress::upKey ? 1.0 : -1.0);
+        point.db +=
+            (mods.isShiftDown() ? largePointStepDb : pointStepDb) * (code == KeyPress::upKey ? 1.0 : -1.0);
     else
         return false;
     move(point, true);
@@ -284,7 +286,7 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
 
 void LaneRow::drawWave(juce::Graphics& g) const {
     const auto area = getLocalBounds().toFloat().reduced(pointInset, 2.0f);
-    const RunTrace& trace = model_.signals().run();
+    const RunTrace& trace = model_.signals().runTrace();
     for (const int j : channels()) {
         juce::RectangleList<float> columns;
         for (float x = 0.0f; x < area.getWidth(); x += 1.0f) {
@@ -292,12 +294,12 @@ void LaneRow::drawWave(juce::Graphics& g) const {
                          to = spanSeconds_ * static_cast<double>((x + 1.0f) / area.getWidth());
             if (from > trace.seconds()) break;
             const auto range = trace.range(j, from, to);
-            const float top = shownLevel(range.highest), bottom = shownLevel(range.lowest),
+            const float top = displayLevel(range.highest), bottom = displayLevel(range.lowest),
                         reach = 0.5f * area.getHeight();
             columns.addWithoutMerging({area.getX() + x, area.getCentreY() - reach * top - 0.5f, 1.0f,
                                        reach * (top - bottom) + 1.0f});
         }
-        g.setColour(enchanterColour(*this, j).withMultipliedAlpha(model_.mix().isSilent(j) ? 0.2f : 0.5f));
+        g.setColour(actuatorColour(*this, j).withMultipliedAlpha(model_.mix().isSilent(j) ? 0.2f : 0.5f));
         g.fillRectList(columns);
     }
 }
@@ -305,15 +307,15 @@ void LaneRow::drawWave(juce::Graphics& g) const {
 void LaneRow::drawLine(juce::Graphics& g) const {
     const auto right = static_cast<float>(getWidth()) - pointInset;
     juce::Path line;
-    line.startNewSubPath(placeOf({0.0, laneDbAt(lane(), 0.0)}));
-    for (const GainPoint& point : lane()) line.lineTo(placeOf(point));
-    line.lineTo({right, lane().empty() ? placeOf({0.0, 0.0}).y : placeOf(lane().back()).y});
+    line.startNewSubPath(pixelOf({0.0, laneDbAt(lane(), 0.0)}));
+    for (const GainPoint& point : lane()) line.lineTo(pixelOf(point));
+    line.lineTo({right, lane().empty() ? pixelOf({0.0, 0.0}).y : pixelOf(lane().back()).y});
     g.setColour(shade(*this, lane().empty() ? Shade::line : Shade::text));
     g.strokePath(line, juce::PathStrokeType{lane().empty() ? 1.0f : 1.6f});
     for (int i = 0; i < static_cast<int>(lane().size()); ++i) {
-        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(placeOf(nth(lane(), i)));
-        g.setColour(shade(*this, i == chosen_ ? Shade::accent : Shade::text));
-        g.fillEllipse(i == chosen_ ? at.expanded(1.5f) : at.reduced(1.0f));
+        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(pixelOf(nth(lane(), i)));
+        g.setColour(shade(*this, i == selectedPoint_ ? Shade::accent : Shade::text));
+        g.fillEllipse(i == selectedPoint_ ? at.expanded(1.5f) : at.reduced(1.0f));
     }
 }
 
@@ -323,9 +325,9 @@ void LaneRow::paint(juce::Graphics& g) {
     const juce::Graphics::ScopedSaveState saved{g};
     g.reduceClipRegion(getLocalBounds());
     drawLine(g);
-    const float now = placeOf({model_.signals().run().seconds(), 0.0}).x;
-    g.setColour(shade(*this, Shade::now));
-    g.fillRect(now - 0.75f, 0.0f, 1.5f, static_cast<float>(getHeight()));
+    const float nowX = pixelOf({model_.signals().runTrace().seconds(), 0.0}).x;
+    g.setColour(shade(*this, Shade::highlight));
+    g.fillRect(nowX - 0.75f, 0.0f, 1.5f, static_cast<float>(getHeight()));
 }
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tab with the gain lanes of all strips and groups over the scene's time.
+// Tab with the gain lanes of all strips and groups over the scene's time (LanesTab), each in a LaneRow.
 #pragma once
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 
 namespace physvib {
 
@@ -9,11 +9,11 @@ namespace physvib {
 /// removed.
 class LaneRow final : public juce::Component, public juce::SettableTooltipClient {
 public:
-    /// `number` counts strips, then groups. `model` outlives it.
-    LaneRow(MixerModel& model, std::size_t number);
+    /// `index` counts strips, then groups. `model` outlives it.
+    LaneRow(MixerModel& model, std::size_t index);
 
     void mixChanged();
-    void show(double spanSeconds); ///< duration shown in its width
+    void setSpan(double spanSeconds); ///< duration shown in its width
     bool keyPressed(const juce::KeyPress& key) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
@@ -21,34 +21,33 @@ public:
     void focusGained(FocusChangeType) override { repaint(); }
     void paint(juce::Graphics& g) override;
 
-    static juce::NormalisableRange<double> scale(); ///< of gains, upwards, as for a fader
+    static juce::NormalisableRange<double> scale(); ///< of gains in dB, upwards, as for a fader
 
 private:
-    bool isThere() const {
-        return number_ < model_.mix().strips.size() + model_.mix().groups.size();
-    } // false after the strip was removed, until the view follows
-    bool isGroup() const { return number_ >= model_.mix().strips.size(); }
-    std::size_t group() const { return number_ - model_.mix().strips.size(); }
+    /// False between the removal of a strip and the update of the view.
+    bool isValid() const { return index_ < model_.mix().strips.size() + model_.mix().groups.size(); }
+    bool isGroup() const { return index_ >= model_.mix().strips.size(); }
+    std::size_t group() const { return index_ - model_.mix().strips.size(); }
     const GainLane& lane() const;
     std::vector<int> channels() const;
-    juce::Point<float> placeOf(const GainPoint& point) const;
-    GainPoint pointAt(juce::Point<float> place) const;
-    int nearest(juce::Point<float> place) const;
+    juce::Point<float> pixelOf(const GainPoint& point) const;
+    GainPoint pointAt(juce::Point<float> pixel) const;
+    int nearestPoint(juce::Point<float> pixel) const;
     void edit(const GainLane& lane, bool continuesEdit = false);
     void add(const GainPoint& point);
     void move(GainPoint point, bool continuesEdit);
-    void removeChosen();
+    void removeSelectedPoint();
     void showMenu();
-    void describeChosen();
+    void describeSelectedPoint();
     void drawWave(juce::Graphics& g) const;
     void drawLine(juce::Graphics& g) const;
 
     MixerModel& model_;
-    const std::size_t number_;
+    const std::size_t index_;
     juce::String name_;
     double spanSeconds_ = 10.0;
-    int chosen_ = -1;
-    bool isDragging_ = false, isMoved_ = false;
+    int selectedPoint_ = -1;
+    bool isDragging_ = false, hasMoved_ = false;
 };
 
 class LanesTab final : public Tab {
@@ -56,15 +55,15 @@ public:
     explicit LanesTab(MixerModel& model);
 
     void mixChanged() override;
-    void refresh(const MixerMoment&) override;
+    void refresh(const MixerSnapshot&) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     /// Labels beside the lanes; scrolls with them.
     struct Rows final : juce::Component {
-        explicit Rows(MixerModel& of)
-            : model{of} {}
+        explicit Rows(MixerModel& mixerModel)
+            : model{mixerModel} {}
         void paint(juce::Graphics& g) override;
 
         MixerModel& model;
@@ -76,7 +75,7 @@ private:
     juce::Viewport viewport_;
     Rows rows_{model_};
     double shownSeconds_ = -1.0, spanSeconds_ = 0.0;
-    juce::Rectangle<int> foot_;
+    juce::Rectangle<int> axisArea_;
 };
 
 } // namespace physvib

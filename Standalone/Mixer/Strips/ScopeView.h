@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scope of the last second, one trace per actuator, with their spectra.
+// Tab with a scope of the last second, one lane per actuator (ScopeView), and their spectra (SpectrumView).
 #pragma once
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 
 namespace physvib {
 
-/// Height of a sample in all waveforms: the square root makes weak impacts visible. Any thread.
-inline float shownLevel(float sample) {
+/// Height of a sample in all waveforms, -1 to 1: the square root makes weak impacts visible. Any thread.
+inline float displayLevel(float sample) {
     return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
 }
 
 /// Spectra of the actuators' output, one curve each, with fast attack and slow decay.
 class SpectrumView final : public juce::Component {
 public:
-    static constexpr int maxCurves = 8, looksPerSecond = 10;
+    static constexpr int maxCurves = 8, updatesPerSecond = 10;
 
     explicit SpectrumView(MixerModel& model);
 
-    /// Updates if it is time; repaints if the change is visible.
+    /// Updates the levels at a limited rate; repaints if the change is visible.
     void refresh();
-    const SpectrumLevels& shown(int channel) const { return nth(shown_, channel); }
+    const SpectrumLevels& levelsDb(int channel) const { return nth(levelsDb_, channel); }
     void paint(juce::Graphics& g) override;
 
 private:
     MixerModel& model_;
-    std::array<SpectrumLevels, maxCurves> shown_;
-    std::int64_t seen_ = -1;
-    double lookedAtMs_ = 0.0;
+    std::array<SpectrumLevels, maxCurves> levelsDb_;
+    std::int64_t columnsSeen_ = -1;
+    double updatedAtMs_ = 0.0;
 };
 
 class ScopeView final : public Tab {
@@ -34,7 +34,7 @@ public:
     explicit ScopeView(MixerModel& model);
 
     void mixChanged() override { repaint(); }
-    void refresh(const MixerMoment&) override;
+    void refresh(const MixerSnapshot&) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -45,7 +45,7 @@ private:
     MixerModel& model_;
     SpectrumView spectrum_;
     juce::Rectangle<int> lanes_;
-    std::int64_t shown_ = -1;
+    std::int64_t columnsShown_ = -1;
     bool wasQuiet_ = false;
 };
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Channel strips: group, meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in
-// g, output, tests. Their panel, with groups, an empty place for the next strip, and the master strip.
+// Channel strips (StripView): group, meter with held peak and ceiling, fader, mute, solo, polarity, delay,
+// level in g, output, tests. Their panel has groups, an empty place for the next strip and the master strip.
 #pragma once
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 
 namespace physvib {
 
+/// View of the channel strip of an actuator. Message thread.
 class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
-    /// In pixels; strips share the width of the panel. From `easyWidth` on, wide buttons are beside the
-    /// fader, from `wholeWidth` on, the figures of the scale are shown, too.
-    static constexpr int width = 78, easyWidth = 108, wholeWidth = 128, mostWidth = 140;
+    /// Widths of a strip in pixels; strips share the width of the panel. From `roomyWidth` on, wide buttons
+    /// are beside the fader; from `fullWidth` on, the scale has figures.
+    static constexpr int width = 78, roomyWidth = 108, fullWidth = 128, maxWidth = 140;
 
     StripView(MixerModel& model, int strip);
     void mixChanged();
-    void refresh(const MixerMoment& moment);
+    void refresh(const MixerSnapshot& snapshot);
     void showOutputs() { output_.showPopup(); }
     bool keyPressed(const juce::KeyPress& key) override;
     void mouseDown(const juce::MouseEvent& e) override;
@@ -28,20 +29,20 @@ public:
 
 private:
     void setDropping(bool isDropping);
-    bool isThere() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
+    bool isValid() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return model_.mix().strips[index_]; }
-    void change(const juce::String& name, const std::function<void(Strip&)>& how) override {
-        change(name, how, false);
+    void change(const juce::String& name, const std::function<void(Strip&)>& modify) override {
+        change(name, modify, false);
     }
-    void change(const juce::String& name, const std::function<void(Strip&)>& how, bool continuesEdit);
+    void change(const juce::String& name, const std::function<void(Strip&)>& modify, bool continuesEdit);
     void fillOutputs();
 
     MixerModel& model_;
     const std::size_t index_;
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> group_, test_;
-    SignButton sweep_;
-    bool isPlaced_ = false;   // its output, as shown
+    IconButton sweep_;
+    bool hasOutput_ = false;  // whether its output is available, as displayed
     bool isDropping_ = false; // a clip is being dragged over it
 };
 
@@ -74,10 +75,10 @@ class StripsPanel final : public juce::Component {
 public:
     explicit StripsPanel(MixerModel& model);
     void mixChanged();
-    void refresh(const MixerMoment& moment);
-    int widthFor(int strip) const; ///< at which all strips of that width are visible
+    void refresh(const MixerSnapshot& snapshot);
+    int widthFor(int width) const; ///< pixels of the panel that show all strips at that width
     /// Opens the list of outputs of a strip.
-    void showOutputs(int enchanter);
+    void showOutputs(int actuator);
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip
@@ -89,13 +90,13 @@ private:
         void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
     };
 
-    static constexpr int between = 6, attachWidth = 52;
-    int fixedWidth() const; ///< of the row, beside its strips
+    static constexpr int stripGap = 6, attachWidth = 52;
+    int fixedWidth() const; ///< pixels of the row without its strips
 
     MixerModel& model_;
     struct Row final : juce::Viewport {
         void visibleAreaChanged(const juce::Rectangle<int>& area) override;
-        int step = 0; ///< of a strip and what is between two
+        int stripPitch = 0; ///< width of a strip and the gap after it, pixels
     } viewport_;
     juce::Component row_;
     std::vector<std::unique_ptr<StripView>> strips_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shows results of the same analysis functions as `physvib analyse`.
+// The screen with the results of an analysis, which `physvib analyse` prints on a terminal.
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Widgets/Cards.h"
 
@@ -7,7 +7,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int analysisHeadHeight = 56, wordsWidth = 430;
+constexpr int analysisHeadHeight = 56, figuresWidth = 430;
 
 std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
     std::vector<std::string> paths;
@@ -16,17 +16,18 @@ std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
 }
 
 /// Names of the analyses that fit every file; an error line if there are none.
-Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
+Result<std::vector<std::string>> analysesFitting(const std::vector<juce::File>& files) {
     std::vector<std::string> names;
-    bool isFirst = true;
+    bool isFirstFile = true;
     for (const auto& path : pathsOf(files)) {
         const auto table = loadCsvTable(path);
         if (!table) return Failure{table.error};
-        const auto these = analysesFor(table.value);
-        if (isFirst) names = these;
-        isFirst = false;
-        std::erase_if(names,
-                      [&](const std::string& name) { return std::ranges::find(these, name) == these.end(); });
+        const auto fitting = analysesFor(table.value);
+        if (isFirstFile) names = fitting;
+        isFirstFile = false;
+        std::erase_if(names, [&](const std::string& name) {
+            return std::ranges::find(fitting, name) == fitting.end();
+        });
         if (names.empty())
             return Failure{path + ": expected trials of a study, or a table that physvib analyse takes"};
     }
@@ -34,10 +35,10 @@ Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
 }
 
 /// Removes pattern fills, which JUCE cannot draw, so that the colour below stays visible.
-void withoutHatches(juce::XmlElement& svg) {
-    for (auto* const part : svg.getChildIterator()) {
-        if (part->getStringAttribute("fill").startsWith("url(")) part->setAttribute("fill", "none");
-        withoutHatches(*part);
+void removeHatches(juce::XmlElement& svg) {
+    for (auto* const element : svg.getChildIterator()) {
+        if (element->getStringAttribute("fill").startsWith("url(")) element->setAttribute("fill", "none");
+        removeHatches(*element);
     }
 }
 
@@ -45,44 +46,46 @@ void withoutHatches(juce::XmlElement& svg) {
 
 AnalysisScreen::AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files)
     : AnalysisScreen{model, "Analysis"} {
-    addAll(*this, {&kind_, choose_.get()});
+    addAll(*this, {&analysisChoice_, chooseButton_.get()});
     analyse(files);
 }
 
 AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report)
     : AnalysisScreen{model, title} {
     report_ = std::move(report);
-    showWords();
+    showReport();
 }
 
 AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
     : FullScreen{model, title}
     , title_{title} {
-    kind_.setTitle("Kind of analysis");
-    kind_.onChange = [this] { run(kind_.getText().toLowerCase().replaceCharacter(' ', '-').toStdString()); };
-    choose_ = quietButton("Choose files", "Choose the files to be analysed", [this] { browse(); });
-    close_ = quietButton("Close", "Close the analysis", [this] { close(); });
-    words_.setTitle("Figures");
-    words_.setMultiLine(true);
-    words_.setReadOnly(true);
-    words_.setCaretVisible(false);
-    words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
-    words_.setEscapeAndReturnKeysConsumed(false);
-    words_.setFont(text::font(text::medium));
-    addAll(*this, {close_.get(), &silence_, &words_});
+    analysisChoice_.setTitle("Kind of analysis");
+    analysisChoice_.onChange = [this] {
+        show(analysisChoice_.getText().toLowerCase().replaceCharacter(' ', '-').toStdString());
+    };
+    chooseButton_ = makeLinkButton("Choose files", "Choose the files to be analysed", [this] { browse(); });
+    closeButton_ = makeLinkButton("Close", "Close the analysis", [this] { close(); });
+    resultText_.setTitle("Figures");
+    resultText_.setMultiLine(true);
+    resultText_.setReadOnly(true);
+    resultText_.setCaretVisible(false);
+    resultText_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
+    resultText_.setEscapeAndReturnKeysConsumed(false);
+    resultText_.setFont(text::font(text::medium));
+    addAll(*this, {closeButton_.get(), &silenceButton_, &resultText_});
     prepareControls(*this);
     refresh();
 }
 
 bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
     if (!key.isKeyCode(juce::KeyPress::returnKey)) return false;
-    close_->triggerClick();
+    closeButton_->triggerClick();
     return true;
 }
 
 void AnalysisScreen::browse() {
     const auto folder = files_.empty() ? juce::SharedResourcePointer<UserFolder> {
-        } -> place()
+        } -> location()
             : files_.front().getParentDirectory();
     askForFiles(*this, {"Trials of a study", ".csv", folder, false, {}, {}, true},
                 [this](const juce::Array<juce::File>& files) {
@@ -92,16 +95,16 @@ void AnalysisScreen::browse() {
 
 void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
     files_ = files;
-    kind_.clear(juce::dontSendNotification);
-    const auto names = fitting(files);
-    for (int id = 1; const auto& name : names.value) kind_.addItem(titleOf(name), id++);
-    kind_.setEnabled(!names.value.empty());
-    if (!names.value.empty()) return kind_.setSelectedId(1, juce::sendNotificationSync);
+    analysisChoice_.clear(juce::dontSendNotification);
+    const auto names = analysesFitting(files);
+    for (int id = 1; const auto& name : names.value) analysisChoice_.addItem(displayTitle(name), id++);
+    analysisChoice_.setEnabled(!names.value.empty());
+    if (!names.value.empty()) return analysisChoice_.setSelectedId(1, juce::sendNotificationSync);
     report_ = {names.error};
-    run({});
+    show({});
 }
 
-void AnalysisScreen::run(const std::string& name) {
+void AnalysisScreen::show(const std::string& name) {
     picture_.reset();
     if (!name.empty()) {
         AnalysisJob options;
@@ -110,56 +113,57 @@ void AnalysisScreen::run(const std::string& name) {
     }
     if (report_.error.empty() && report_.picture) {
         const auto svg = juce::parseXML(utf8(report_.picture()));
-        withoutHatches(*svg);
+        removeHatches(*svg);
         const auto text = svg->toString();
         picture_ = juce::Drawable::createFromImageData(text.toRawUTF8(), text.getNumBytesAsUTF8());
     }
-    showWords();
+    showReport();
     resized();
     repaint();
 }
 
-// The text has the colours of the current window.
-void AnalysisScreen::showWords() {
-    words_.clear();
-    const auto say = [this](const juce::String& words, Shade tone) {
-        words_.setColour(juce::TextEditor::textColourId, shade(*this, tone));
-        words_.insertTextAtCaret(words);
+// Writes the text anew, as it keeps the colours of the window in which it was written.
+void AnalysisScreen::showReport() {
+    resultText_.clear();
+    const auto append = [this](const juce::String& words, Shade tone) {
+        resultText_.setColour(juce::TextEditor::textColourId, shade(*this, tone));
+        resultText_.insertTextAtCaret(words);
     };
-    if (report_.isSimulated) say("SIMULATED: a simulated observer answered, not a person\n\n", Shade::now);
-    if (!report_.error.empty()) say(utf8(report_.error) + "\n", Shade::limit);
-    say(utf8(report_.words), Shade::text);
-    for (const auto& warning : report_.warnings) say("\n" + utf8(warning) + "\n", Shade::now);
-    words_.setCaretPosition(0);
+    if (report_.isSimulated)
+        append("SIMULATED: a simulated observer answered, not a person\n\n", Shade::highlight);
+    if (!report_.error.empty()) append(utf8(report_.error) + "\n", Shade::limit);
+    append(utf8(report_.text), Shade::text);
+    for (const auto& warning : report_.warnings) append("\n" + utf8(warning) + "\n", Shade::highlight);
+    resultText_.setCaretPosition(0);
 }
 
 void AnalysisScreen::paint(juce::Graphics& g) {
-    g.fillAll(shade(*this, Shade::ground));
-    ink(g, *this, Shade::text, text::large, juce::Font::bold);
+    g.fillAll(shade(*this, Shade::background));
+    setInk(g, *this, Shade::text, text::large, juce::Font::bold);
     auto title = files_.empty() ? title_ : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
-    if (const auto* const whole = dynamic_cast<const juce::DrawableComposite*>(picture_.get())) {
-        constexpr int place = juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop;
-        // not fitted by its bounds, which rotated text exceeds
-        whole->draw(g, 1.0f,
-                    juce::RectanglePlacement{place}.getTransformToFit(whole->getContentArea(),
-                                                                      pictureArea_.toFloat()));
+    if (const auto* const composite = dynamic_cast<const juce::DrawableComposite*>(picture_.get())) {
+        constexpr int placement = juce::RectanglePlacement::xMid | juce::RectanglePlacement::yTop;
+        // fitted by its content area, as rotated text exceeds the bounds
+        composite->draw(g, 1.0f,
+                        juce::RectanglePlacement{placement}.getTransformToFit(composite->getContentArea(),
+                                                                              pictureArea_.toFloat()));
     }
 }
 
 void AnalysisScreen::resized() {
     auto area = getLocalBounds().reduced(pageInset, 16);
-    auto head = area.removeFromTop(analysisHeadHeight - 16);
-    silence_.setBounds(head.removeFromRight(160).translated(0, -8));
-    head.removeFromRight(16);
-    close_->setBounds(head.removeFromRight(90));
-    choose_->setBounds(head.removeFromRight(130));
-    kind_.setBounds(head.removeFromRight(200).withSizeKeepingCentre(190, rowHeight));
-    titleArea_ = head;
+    auto header = area.removeFromTop(analysisHeadHeight - 16);
+    silenceButton_.setBounds(header.removeFromRight(160).translated(0, -8));
+    header.removeFromRight(16);
+    closeButton_->setBounds(header.removeFromRight(90));
+    chooseButton_->setBounds(header.removeFromRight(130));
+    analysisChoice_.setBounds(header.removeFromRight(200).withSizeKeepingCentre(190, rowHeight));
+    titleArea_ = header;
     area.removeFromTop(16);
-    words_.setBounds(picture_ == nullptr ? area
-                                         : area.removeFromLeft(std::min(wordsWidth, area.getWidth() / 2)));
+    resultText_.setBounds(
+        picture_ == nullptr ? area : area.removeFromLeft(std::min(figuresWidth, area.getWidth() / 2)));
     pictureArea_ = area.withTrimmedLeft(24);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mixer tab that selects and checks a study, and opens its screens.
+// The studies tab: selects and checks a study, says what prevents its start, and opens its screens.
 #include "Mixer/Studies/StudiesTab.h"
 #include "Core/Units.h"
 #include "Io/Disk/ReadFile.h"
@@ -11,24 +11,24 @@ namespace physvib {
 namespace {
 
 // item ids of the lists
-constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, firstWordsId = 3;
+constexpr int fileId = 1000, noNoiseId = 1, protocolLanguageId = 1, englishId = 2, firstLanguageId = 3;
 constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 
-std::filesystem::path typedPath(const juce::String& words) {
-    return std::filesystem::path{pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(words))};
+std::filesystem::path typedPath(const juce::String& typed) {
+    return std::filesystem::path{pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(typed))};
 }
 
-juce::String exposureWords(const std::vector<TrialRecord>& records) {
+juce::String exposureText(const std::vector<TrialRecord>& records) {
     if (records.empty() || !records.back().answer.exposure) return {};
     return ". A(8) of that day: " + number(*records.back().answer.exposure, 2) + " of " +
-           number(exposureActionValue, 1) + utf8(" m/s\u00b2");
+           number(exposureActionMetresPerSecond2, 1) + utf8(" m/s\u00b2");
 }
 
-juce::String aboutText(const Protocol& protocol) {
+juce::String descriptionOf(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
     for (const auto& condition : protocol.conditions)
-        conditions.add(utf8(condition.name).replaceCharacter('-', 0x2011)); // broken nowhere
+        conditions.add(utf8(condition.name).replaceCharacter('-', 0x2011)); // hyphens without line breaks
     for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
     const auto title = utf8(protocol.title);
     return title.substring(0, 1).toUpperCase() + title.substring(1) +
@@ -37,10 +37,10 @@ juce::String aboutText(const Protocol& protocol) {
 }
 
 constexpr std::size_t maxPictureBytes = 16'000'000;
-constexpr unsigned mostPixels = 4096; // maximum width and height
+constexpr unsigned maxPixels = 4096; // maximum width and height
 
 /// Reads a side of a PNG: a big-endian number after its signature.
-unsigned sideAt(const std::string& png, std::size_t at) {
+unsigned readPngSide(const std::string& png, std::size_t at) {
     unsigned side = 0;
     for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
     return side;
@@ -49,34 +49,34 @@ unsigned sideAt(const std::string& png, std::size_t at) {
 bool isSmallPng(const std::string& text) {
     constexpr std::string_view begin{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
     if (text.size() < 24 || !text.starts_with(begin)) return false;
-    return std::ranges::all_of(std::initializer_list<unsigned>{sideAt(text, 16), sideAt(text, 20)},
-                               [](unsigned side) { return side > 0 && side <= mostPixels; });
+    return std::ranges::all_of(std::initializer_list<unsigned>{readPngSide(text, 16), readPngSide(text, 20)},
+                               [](unsigned side) { return side > 0 && side <= maxPixels; });
 }
 
-/// That participant's pictures of materials, or an error line. The files are untrusted, so their size is
+/// The participant's pictures of materials, or an error line. The files are untrusted, so their size is
 /// checked before decoding.
 Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
                                                       const std::string& participant) {
     std::vector<MaterialPicture> pictures;
     for (std::size_t i = 0; i < protocol.pictures.size(); ++i) {
-        const std::string at = "pictures[" + std::to_string(i) + "].file: ",
+        const std::string field = "pictures[" + std::to_string(i) + "].file: ",
                           path = picturePath(protocol.pictures[i], participant);
-        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return Failure{at + fault};
-        const auto text = readFile(besideProtocol(protocol.folder, path), maxPictureBytes);
-        if (!text) return Failure{at + text.error};
+        if (auto error = linkError(protocol.folder, path); !error.empty()) return Failure{field + error};
+        const auto text = readFile(resolveProtocolPath(protocol.folder, path), maxPictureBytes);
+        if (!text) return Failure{field + text.error};
         auto image = isSmallPng(text.value)
                          ? juce::ImageFileFormat::loadFrom(text.value.data(), text.value.size())
                          : juce::Image{};
         if (image.isNull())
-            return Failure{at + path + ": expected a PNG picture of at most " + std::to_string(mostPixels) +
-                           " x " + std::to_string(mostPixels) + " pixels"};
+            return Failure{field + path + ": expected a PNG picture of at most " + std::to_string(maxPixels) +
+                           " x " + std::to_string(maxPixels) + " pixels"};
         pictures.push_back({protocol.pictures[i].material, std::move(image)});
     }
     return pictures;
 }
 
 /// Empty, or an error if the protocol has a display scale but the width of the display is not set (0).
-std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres) {
+std::string displayScaleError(const Protocol& protocol, double displayWidthMetres) {
     if (displayWidthMetres > 0.0) return {};
     for (const ConditionPlan& condition : protocol.conditions)
         if (const auto* const world = std::get_if<WorldSet>(&condition.stimuli);
@@ -91,8 +91,8 @@ std::string displayScaleFault(const Protocol& protocol, double displayWidthMetre
 std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol) {
     std::pair<std::string, LayoutDescription> largest;
     for (const ConditionPlan& condition : protocol.conditions)
-        if (auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
-            layout && layout.value.enchanters.size() > largest.second.enchanters.size())
+        if (auto layout = resolveLayout(resolveProtocolPath(protocol.folder, condition.layout));
+            layout && layout.value.actuators.size() > largest.second.actuators.size())
             largest = {condition.layout, std::move(layout.value)};
     return largest;
 }
@@ -102,26 +102,26 @@ std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol
 StudiesTab::StudiesTab(MixerModel& model)
     : model_{model} {
     setTitle("Studies");
-    noise_.setTitle("Outputs of the pink noise");
-    noise_.onChange = [this] { repaint(); };
-    noise_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
+    noiseChoice_.setTitle("Outputs of the pink noise");
+    noiseChoice_.onChange = [this] { repaint(); };
+    noiseChoice_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
     describe(noiseLevel_, "Level of the pink noise", "Root mean square, in dB of full scale: start low");
     for (const int db : noiseLevels) noiseLevel_.addItem(number(db, 0) + " dBFS", -db);
-    choice_.setTitle("Protocol");
+    protocolChoice_.setTitle("Protocol");
     for (int id = 1; const Protocol& protocol : knownProtocols())
-        choice_.addItem(titleOf(protocol.name), id++);
-    choice_.addSeparator();
-    choice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
-    choice_.onChange = [this] { pickProtocol(); };
-    wordsChoice_.setTitle("Language of the participant");
-    wordsChoice_.addItem("what the protocol says", protocolWordsId);
-    wordsChoice_.addItem("English", englishId);
-    for (int id = firstWordsId; const Words& words : builtInWords())
-        wordsChoice_.addItem(
-            hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.inEnglish), id++);
-    wordsChoice_.addItem("Words file" + dots(), fileId);
-    wordsChoice_.setSelectedId(protocolWordsId, juce::dontSendNotification);
-    wordsChoice_.onChange = [this] { pickWords(); };
+        protocolChoice_.addItem(displayTitle(protocol.name), id++);
+    protocolChoice_.addSeparator();
+    protocolChoice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
+    protocolChoice_.onChange = [this] { handleProtocolChoice(); };
+    languageChoice_.setTitle("Language of the participant");
+    languageChoice_.addItem("what the protocol says", protocolLanguageId);
+    languageChoice_.addItem("English", englishId);
+    for (int id = firstLanguageId; const Translation& words : builtInTranslations())
+        languageChoice_.addItem(
+            hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.englishName), id++);
+    languageChoice_.addItem("Words file" + ellipsis(), fileId);
+    languageChoice_.setSelectedId(protocolLanguageId, juce::dontSendNotification);
+    languageChoice_.onChange = [this] { handleLanguageChoice(); };
     answersChoice_.setTitle("Where answers are given");
     answersChoice_.addItem("in this window", answersHereId);
     answersChoice_.addItem("in a second window", answersElsewhereId);
@@ -133,34 +133,34 @@ StudiesTab::StudiesTab(MixerModel& model)
              "Decides the orders: 1 for the first participant, 2 for the second");
     number_.setInputRestrictions(6, "0123456789");
     folder_.setTitle("Folder of the trial files");
-    browse_ = quietButton("Choose", "Choose the folder of the trial files", [this] {
+    browse_ = makeLinkButton("Choose", "Choose the folder of the trial files", [this] {
         askForFile(*this, {"The folder of the trial files", {}, juce::File{folder_.getText()}},
                    [this](const juce::File& folder) { setFolder(folder); });
     });
     analyse_ =
-        quietButton("Analyse", "Analyse the participant's trials, or other files", [this] { analyse(); });
-    findings_ = quietButton("Checking" + dots(), "What `study check` found: levels, orders, times");
+        makeLinkButton("Analyse", "Analyse the participant's trials, or other files", [this] { analyse(); });
+    findings_ = makeLinkButton("Checking" + ellipsis(), "What `study check` found: levels, orders, times");
     findings_->setTitle("Findings of the check");
     findings_->onClick = [this] { showFindings(); };
     begin_.setTitle("Begin the study");
     begin_.onClick = [this] {
         if (check_) return void(begin());
-        isBeginWanted_ = !isBeginWanted_;
-        look();
+        beginsAfterCheck_ = !beginsAfterCheck_;
+        refreshStatus();
     };
     for (auto* editor : {&code_, &number_, &folder_}) {
         editor->setFont(text::font(text::medium));
         editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
-        editor->onTextChange = [this] { look(); };
+        editor->onTextChange = [this] { refreshStatus(); };
     }
-    addAll(*this,
-           {&choiceName_,   &choice_,        &codeName_,    &code_,        &numberName_,    &number_,
-            &folderName_,   &folder_,        browse_.get(), &noiseName_,   &noise_,         &noiseLevelName_,
-            &noiseLevel_,   &wordsName_,     &wordsChoice_, &answersName_, &answersChoice_, &begin_,
-            analyse_.get(), findings_.get(), &master_});
-    setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
+    addAll(*this, {&protocolLabel_, &protocolChoice_,  &codeLabel_,  &code_,          &numberLabel_,
+                   &number_,        &folderLabel_,     &folder_,     browse_.get(),   &noiseLabel_,
+                   &noiseChoice_,   &noiseLevelLabel_, &noiseLevel_, &languageLabel_, &languageChoice_,
+                   &answersLabel_,  &answersChoice_,   &begin_,      analyse_.get(),  findings_.get(),
+                   &master_});
+    setFolder(juce::SharedResourcePointer<UserFolder> {} -> location());
     setParticipant("P01", 1);
-    // two short pulses a trial, where there are actuators for it
+    // level-steps, with two short pulses per trial, needs four actuators
     chooseProtocol(model.mix().count() < 4 ? "model-or-sound" : "level-steps");
 }
 
@@ -170,119 +170,120 @@ StudiesTab::~StudiesTab() {
 }
 
 std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
-    auto protocol = protocolNamed(nameOrPath);
-    auto fault = protocol ? protocolFault(protocol.value, nameOrPath) : protocol.error;
-    if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
+    auto protocol = loadCheckedProtocol(nameOrPath);
+    auto error = protocol ? protocolError(protocol.value, nameOrPath) : protocol.error;
+    if (!error.empty()) return setStatus(utf8(error), Shade::limit), error;
     stopCheck();
     check_.reset();
-    isBeginWanted_ = false;
+    beginsAfterCheck_ = false;
     protocol_ = std::move(protocol.value);
-    const auto& all = knownProtocols();
-    const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
-    if (known != all.end())
-        choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
+    const auto& choices = knownProtocols();
+    const auto builtIn = std::ranges::find(choices, nameOrPath, &Protocol::name);
+    if (builtIn != choices.end())
+        protocolChoice_.setSelectedId(1 + static_cast<int>(builtIn - choices.begin()),
+                                      juce::dontSendNotification);
     else
-        choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
-    about_ = aboutText(*protocol_);
+        protocolChoice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
+    description_ = descriptionOf(*protocol_);
     noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
     if (noiseLevel_.getSelectedId() == 0)
         noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
-    look();
+    refreshStatus();
     repaint();
     return {};
 }
 
-void StudiesTab::pickProtocol() {
-    const int id = choice_.getSelectedId();
+void StudiesTab::handleProtocolChoice() {
+    const int id = protocolChoice_.getSelectedId();
     if (id == fileId)
         askForFile(
             *this, {"A protocol", ".json", juce::File{folder_.getText()}},
             [this](const juce::File& file) { chooseProtocol(pathOf(file)); },
             [this] {
-                if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
+                if (protocol_)
+                    protocolChoice_.setText(displayTitle(protocol_->name), juce::dontSendNotification);
             });
     else if (id > 0)
         chooseProtocol(nth(knownProtocols(), id - 1).name), offerLayout();
 }
 
-std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
-    const auto words = findWords(nameOrPath);
-    if (!words) return say(utf8(words.error), Shade::limit), words.error;
-    wordsPath_ = nameOrPath;
-    const auto& all = builtInWords();
-    const auto known = std::ranges::find(all, nameOrPath, &Words::name);
-    if (known != all.end())
-        wordsChoice_.setSelectedId(firstWordsId + static_cast<int>(known - all.begin()),
-                                   juce::dontSendNotification);
+std::string StudiesTab::chooseLanguage(const std::string& nameOrPath) {
+    const auto words = findTranslation(nameOrPath);
+    if (!words) return setStatus(utf8(words.error), Shade::limit), words.error;
+    languagePath_ = nameOrPath;
+    const auto& choices = builtInTranslations();
+    const auto builtIn = std::ranges::find(choices, nameOrPath, &Translation::name);
+    if (builtIn != choices.end())
+        languageChoice_.setSelectedId(firstLanguageId + static_cast<int>(builtIn - choices.begin()),
+                                      juce::dontSendNotification);
     else if (words.value.name.empty())
-        wordsChoice_.setSelectedId(nameOrPath.empty() ? protocolWordsId : englishId,
-                                   juce::dontSendNotification);
+        languageChoice_.setSelectedId(nameOrPath.empty() ? protocolLanguageId : englishId,
+                                      juce::dontSendNotification);
     else
-        wordsChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
+        languageChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
     return {};
 }
 
-void StudiesTab::pickWords() {
-    const int id = wordsChoice_.getSelectedId();
+void StudiesTab::handleLanguageChoice() {
+    const int id = languageChoice_.getSelectedId();
     if (id == fileId)
         askForFile(
             *this, {"Words of a language", ".json", juce::File{folder_.getText()}},
             [this](const juce::File& file) {
-                if (!chooseWords(pathOf(file)).empty()) chooseWords(wordsPath_);
+                if (!chooseLanguage(pathOf(file)).empty()) chooseLanguage(languagePath_);
             },
-            [this] { chooseWords(wordsPath_); });
-    else if (id == protocolWordsId || id == englishId)
-        chooseWords(id == englishId ? "en" : "");
-    else if (id >= firstWordsId)
-        chooseWords(nth(builtInWords(), id - firstWordsId).name);
+            [this] { chooseLanguage(languagePath_); });
+    else if (id == protocolLanguageId || id == englishId)
+        chooseLanguage(id == englishId ? "en" : "");
+    else if (id >= firstLanguageId)
+        chooseLanguage(nth(builtInTranslations(), id - firstLanguageId).name);
 }
 
-void StudiesTab::setAnswersElsewhere(bool areElsewhere) {
-    answersChoice_.setSelectedId(areElsewhere ? answersElsewhereId : answersHereId,
-                                 juce::dontSendNotification);
+void StudiesTab::setAnswerWindow(bool hasWindow) {
+    answersChoice_.setSelectedId(hasWindow ? answersElsewhereId : answersHereId, juce::dontSendNotification);
 }
 
 void StudiesTab::setParticipant(const juce::String& code, int number) {
     code_.setText(code, false);
     number_.setText(juce::String{number}, false);
-    look();
+    refreshStatus();
 }
 
 void StudiesTab::setFolder(const juce::File& folder) {
     folder_.setText(folder.getFullPathName(), false);
     folder_.moveCaretToEnd(); // shows the folder's name, even of a long path
-    look();
+    refreshStatus();
 }
 
 std::vector<std::vector<int>> StudiesTab::noiseChoices() const {
     std::vector<int> free;
     const auto& strips = model_.mix().strips;
-    for (int k = 0; k < model_.device().outputs(); ++k)
+    for (int k = 0; k < model_.device().outputCount(); ++k)
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) free.push_back(k);
-    std::vector<std::vector<int>> all;
+    std::vector<std::vector<int>> choices;
     for (std::size_t i = 0; i + 1 < free.size(); ++i)
-        if (free[i] % 2 == 0 && free[i + 1] == free[i] + 1) all.push_back({free[i], free[i + 1]});
-    for (const int k : free) all.push_back({k});
-    return all;
+        if (free[i] % 2 == 0 && free[i + 1] == free[i] + 1) choices.push_back({free[i], free[i + 1]});
+    for (const int k : free) choices.push_back({k});
+    return choices;
 }
 
-void StudiesTab::listNoise() {
-    const auto chosen = listening().noise;
+void StudiesTab::refreshNoiseChoices() {
+    const auto selected = listening().noise;
     noiseOutputs_ = noiseChoices();
-    noise_.clear(juce::dontSendNotification);
-    noise_.addItem("no output", noNoiseId);
+    noiseChoice_.clear(juce::dontSendNotification);
+    noiseChoice_.addItem("no output", noNoiseId);
     int id = noNoiseId;
     for (const auto& outputs : noiseOutputs_)
-        noise_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " +
-                                                juce::String{outputs[1] + 1}
-                                          : "output " + juce::String{outputs[0] + 1},
-                       ++id);
-    chooseNoise(chosen);
+        noiseChoice_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " +
+                                                      juce::String{outputs[1] + 1}
+                                                : "output " + juce::String{outputs[0] + 1},
+                             ++id);
+    chooseNoise(selected);
 }
 
 void StudiesTab::chooseNoise(const std::vector<int>& outputs) {
     const auto at = std::ranges::find(noiseOutputs_, outputs);
-    noise_.setSelectedId(
+    noiseChoice_.setSelectedId(
         at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
         juce::dontSendNotification);
 }
@@ -294,17 +295,17 @@ void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
 }
 
 ListeningSettings StudiesTab::listening() const {
-    ListeningSettings l;
-    if (const int index = noise_.getSelectedId() - noNoiseId - 1;
+    ListeningSettings settings;
+    if (const int index = noiseChoice_.getSelectedId() - noNoiseId - 1;
         index >= 0 && index < static_cast<int>(noiseOutputs_.size()))
-        l.noise = nth(noiseOutputs_, index);
-    l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId()
-                : protocol_                     ? protocol_->pinkNoiseDb
-                                                : PinkNoise::safeDb;
-    return l;
+        settings.noise = nth(noiseOutputs_, index);
+    settings.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId()
+                       : protocol_                     ? protocol_->pinkNoiseDb
+                                                       : PinkNoise::safeDb;
+    return settings;
 }
 
-StudyRun StudiesTab::run() const {
+StudyRun StudiesTab::selectedRun() const {
     return {*protocol_,
             {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"},
             typedPath(folder_.getText())};
@@ -313,63 +314,65 @@ StudyRun StudiesTab::run() const {
 bool StudiesTab::isDone(const StudyRun& run, const std::vector<TrialRecord>& records) {
     Experiment experiment{run.protocol, run.participant, true};
     for (const TrialRecord& record : records)
-        if (!experiment.redo(record).empty()) return false;
+        if (!experiment.replay(record).empty()) return false;
     return experiment.isDone();
 }
 
 /// Shows whether the trial file exists and can be continued.
-void StudiesTab::look() {
+void StudiesTab::refreshStatus() {
     if (!protocol_) return;
-    refused_.clear();
-    outputs_ = utf8(outputsFault(*protocol_, model_));
-    const StudyRun chosen = run();
-    const auto path = chosen.trialFile();
-    std::error_code none;
+    lastBeginError_.clear();
+    outputsError_ = utf8(outputsError(*protocol_, model_));
+    const StudyRun selected = selectedRun();
+    const auto path = selected.trialFile();
+    std::error_code ignored;
     begin_.setEnabled(!code_.isEmpty());
-    if (isBeginWanted_)
-        return begin_.setButtonText("Checking" + dots()), say("It begins once it is checked", Shade::text);
-    if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
-    if (!std::filesystem::exists(path, none))
+    if (beginsAfterCheck_)
+        return begin_.setButtonText("Checking" + ellipsis()),
+               setStatus("It begins once it is checked", Shade::text);
+    if (code_.isEmpty()) return begin_.setButtonText("Begin"), setStatus("Expected a code", Shade::muted);
+    if (!std::filesystem::exists(path, ignored))
         return begin_.setButtonText("Begin"),
-               say("The rows will be in " + utf8(path.filename().string()), Shade::muted);
+               setStatus("The rows will be in " + utf8(path.filename().string()), Shade::muted);
     const auto text = readFile(path, limits::maxTableBytes);
-    const auto log = text ? readTrialLog(text.value, path.string(), chosen.protocol, chosen.participant)
+    const auto log = text ? readTrialLog(text.value, path.string(), selected.protocol, selected.participant)
                           : Result<TrialLog>{Failure{text.error}};
-    const bool isFinished = log && isDone(chosen, log.value.records);
+    const bool isFinished = log && isDone(selected, log.value.records);
     begin_.setButtonText(isFinished ? "Begin" : "Go on");
     if (isFinished)
         begin_.setEnabled(false),
-            say(utf8(path.filename().string()) + " has all its trials: expected another code", Shade::muted);
+            setStatus(utf8(path.filename().string()) + " has all its trials: expected another code",
+                      Shade::muted);
     else if (log)
-        say(utf8(path.filename().string()) + " has " + utf8(counted(log.value.records.size(), "trial")) +
-                exposureWords(log.value.records),
-            Shade::text);
+        setStatus(utf8(path.filename().string()) + " has " +
+                      utf8(counted(log.value.records.size(), "trial")) + exposureText(log.value.records),
+                  Shade::text);
     else
-        say(utf8(log.error), Shade::limit);
+        setStatus(utf8(log.error), Shade::limit);
 }
 
 void StudiesTab::stopCheck() {
-    isCheckWanted_ = false;
-    checking_ = {}; // waits for the stimulus that is being rendered
+    keepsChecking_ = false;
+    checkFuture_ = {}; // waits for the stimulus that is being rendered
 }
 
 /// Starts the check of a new protocol beside the message thread, and takes its result.
 void StudiesTab::updateCheck() {
-    if (checking_.valid() && checking_.wait_for(std::chrono::seconds{0}) == std::future_status::ready) {
-        check_ = checking_.get();
-        const bool begins = std::exchange(isBeginWanted_, false) && isShowing();
-        look();
+    if (checkFuture_.valid() && checkFuture_.wait_for(std::chrono::seconds{0}) == std::future_status::ready) {
+        check_ = checkFuture_.get();
+        const bool begins = std::exchange(beginsAfterCheck_, false) && isShowing();
+        refreshStatus();
         if (begins) begin();
     }
-    if (!check_ && !checking_.valid() && protocol_ && isVisible()) {
-        isCheckWanted_ = true;
-        checking_ = std::async(std::launch::async, [this, protocol = *protocol_] {
-            return checkStudy(protocol, 0, [this] { return isCheckWanted_.load(); });
+    if (!check_ && !checkFuture_.valid() && protocol_ && isVisible()) {
+        keepsChecking_ = true;
+        checkFuture_ = std::async(std::launch::async, [this, protocol = *protocol_] {
+            return checkStudy(protocol, 0, [this] { return keepsChecking_.load(); });
         });
     }
     const auto count = check_ ? check_->errors.size() + check_->warnings.size() : 0;
     findings_->setEnabled(check_.has_value());
-    findings_->setButtonText(!check_      ? "Checking" + dots()
+    findings_->setButtonText(!check_      ? "Checking" + ellipsis()
                              : count == 0 ? juce::String{"Checked"}
                              : count == 1 ? juce::String{"1 finding"}
                                           : juce::String{static_cast<int>(count)} + " findings");
@@ -380,45 +383,45 @@ void StudiesTab::showFindings() {
     if (screen_ || analysis_ || !check_ || host == nullptr) return;
     AnalysisReport report;
     for (const auto* lines : {&check_->facts, &check_->deviations})
-        for (const std::string& line : *lines) report.words += line + "\n\n";
+        for (const std::string& line : *lines) report.text += line + "\n\n";
     for (const std::string& line : check_->errors) report.warnings.push_back("Refused: " + line);
     report.warnings.insert(report.warnings.end(), check_->warnings.begin(), check_->warnings.end());
-    analysis_ =
-        std::make_unique<AnalysisScreen>(model_, "Check of " + titleOf(protocol_->name), std::move(report));
-    analysis_->onClose = ending();
+    analysis_ = std::make_unique<AnalysisScreen>(model_, "Check of " + displayTitle(protocol_->name),
+                                                 std::move(report));
+    analysis_->onClose = makeCloseCallback();
     host->setScreen(analysis_.get());
 }
 
-void StudiesTab::say(const juce::String& words, Shade shade) {
-    words_ = words;
-    wordsShade_ = shade;
+void StudiesTab::setStatus(const juce::String& words, Shade shade) {
+    status_ = words;
+    statusShade_ = shade;
     repaint();
 }
 
 // Offers a layout or another study if the mixer, or headphones, have too few actuators.
 void StudiesTab::offerLayout() {
-    constexpr std::size_t ears = 2;
+    constexpr std::size_t earCount = 2;
     const auto [name, layout] = largestLayout(*protocol_);
-    const std::size_t wanted = layout.enchanters.size();
+    const std::size_t needed = layout.actuators.size();
     const auto other = std::ranges::find_if(knownProtocols(), [](const Protocol& p) {
-        return largestLayout(p).second.enchanters.size() <= ears;
+        return largestLayout(p).second.actuators.size() <= earCount;
     });
-    MixerMessage offer{
-        "This study is felt on " + utf8(counted(wanted, "actuator")), true, {}, "study-layout"};
-    if (model_.device().choice().isHeadphones && wanted > ears && other != knownProtocols().end()) {
-        offer.words += ", and headphones are two";
-        offer.act = {"Choose " + titleOf(other->name) + " instead",
-                     [this, name = other->name] { chooseProtocol(name), offerLayout(); }};
-    } else if (wanted > model_.mix().strips.size())
-        offer.act = {"Use " + utf8(name), [this, own = layout] {
-                         model_.change("Layout of the study", [&own](Mix& mix) {
-                             mix.layout = own;
-                             mix.resizeStrips();
-                         });
-                         offerLayout();
-                     }};
-    if (!offer.act.run) return model_.messages().withdraw(offer.label);
-    model_.messages().show(std::move(offer));
+    MixerMessage message{
+        "This study is felt on " + utf8(counted(needed, "actuator")), true, {}, "study-layout"};
+    if (model_.device().choice().isHeadphones && needed > earCount && other != knownProtocols().end()) {
+        message.text += ", and headphones are two";
+        message.action = {"Choose " + displayTitle(other->name) + " instead",
+                          [this, name = other->name] { chooseProtocol(name), offerLayout(); }};
+    } else if (needed > model_.mix().strips.size())
+        message.action = {"Use " + utf8(name), [this, newLayout = layout] {
+                              model_.change("Layout of the study", [&newLayout](Mix& mix) {
+                                  mix.layout = newLayout;
+                                  mix.resizeStrips();
+                              });
+                              offerLayout();
+                          }};
+    if (!message.action.run) return model_.messages().withdraw(message.label);
+    model_.messages().show(std::move(message));
 }
 
 /// Offers the master level of the previous trials, because a mixer opens at a low level.
@@ -435,52 +438,53 @@ void StudiesTab::offerLevel(double db) {
 }
 
 std::string StudiesTab::begin() {
-    const auto refuse = [this](const std::string& why) {
-        say(utf8(why), Shade::limit);
-        refused_ = words_;
-        return why;
+    const auto fail = [this](const std::string& error) {
+        setStatus(utf8(error), Shade::limit);
+        lastBeginError_ = status_;
+        return error;
     };
     auto* host = findParentComponentOfClass<CardHost>();
     if (screen_ || analysis_ || !protocol_ || host == nullptr) return "expected a mixer without a study";
-    if (code_.isEmpty()) return refuse("expected a participant's code");
-    stopCheck(); // it may still run if a program called this; the button waits for its end
-    if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
-    if (auto fault = outputsFault(*protocol_, model_); !fault.empty()) return offerLayout(), refuse(fault);
-    if (auto fault = feltFault(*protocol_, model_); !fault.empty()) return refuse(fault);
-    if (auto fault = !check_                  ? studyFault(*protocol_)
+    if (code_.isEmpty()) return fail("expected a participant's code");
+    stopCheck(); // which may still run, unless the button called this
+    if (auto error = studyRunError(selectedRun()); !error.empty()) return fail(error);
+    if (auto error = outputsError(*protocol_, model_); !error.empty()) return offerLayout(), fail(error);
+    if (auto error = findPlaybackError(*protocol_, model_); !error.empty()) return fail(error);
+    if (auto error = !check_                  ? findStudyError(*protocol_)
                      : check_->errors.empty() ? ""
                                               : check_->errors.front();
-        !fault.empty())
-        return refuse(protocol_->name + ": " + fault);
+        !error.empty())
+        return fail(protocol_->name + ": " + error);
     auto words =
-        findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
-    if (!words) return refuse(words.error);
+        findTranslation(languagePath_.empty() ? resolveProtocolPath(protocol_->folder, protocol_->translation)
+                                              : languagePath_);
+    if (!words) return fail(words.error);
     const auto typeface = typefaceFor(words.value);
     if (!typeface)
-        return refuse("expected a font with the letters of " + words.value.name +
-                      ", found none; on Debian, fonts-nanum has Korean ones");
-    if (auto fault = displayScaleFault(*protocol_, model_.displayWidthMetres()); !fault.empty())
-        return refuse(fault);
-    auto pictures = materialPictures(*protocol_, run().participant.code);
-    if (!pictures) return refuse(pictures.error);
+        return fail("expected a font with the letters of " + words.value.name +
+                    ", found none; on Debian, fonts-nanum has Korean ones");
+    if (auto error = displayScaleError(*protocol_, model_.displayWidthMetres()); !error.empty())
+        return fail(error);
+    auto pictures = materialPictures(*protocol_, selectedRun().participant.code);
+    if (!pictures) return fail(pictures.error);
     juce::File{folder_.getText()}.createDirectory(); // a failure is reported with the file's name
-    auto study = std::make_unique<StudyInProgress>(run());
-    if (!study->error().empty()) return refuse(study->error());
-    if (auto fault = model_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
+    auto study = std::make_unique<StudyInProgress>(selectedRun());
+    if (!study->error().empty()) return fail(study->error());
+    if (auto error = model_.device().listening().beginStudy(listening()); !error.empty()) return fail(error);
     Apparatus apparatus = apparatusOf(model_);
     apparatus.language = words.value.name.empty() ? "en" : words.value.name;
-    auto unlike = study->apparatusFault(apparatus);
-    if (const auto db = study->otherLevelDb(apparatus))
+    auto apparatusError = study->apparatusError(apparatus);
+    if (const auto db = study->previousMasterDb(apparatus))
         offerLevel(*db);
-    else if (!unlike.empty()) // which has room for all of it
-        model_.report(utf8(unlike));
-    if (unlike.empty()) unlike = study->begin(apparatus);
-    if (!unlike.empty()) return model_.device().listening().endStudy(), refuse(unlike);
+    else if (!apparatusError.empty()) // a message has room for the whole text
+        model_.report(utf8(apparatusError));
+    if (apparatusError.empty()) apparatusError = study->logStart(apparatus);
+    if (!apparatusError.empty()) return model_.device().listening().endStudy(), fail(apparatusError);
     screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(words.value),
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
-    font_ = std::make_unique<StudyFont>(*typeface);
-    screen_->onClose = ending();
+    typeface_ = std::make_unique<TypefaceOverride>(*typeface);
+    screen_->onClose = makeCloseCallback();
     host->setScreen(screen_.get());
     return {};
 }
@@ -488,14 +492,14 @@ std::string StudiesTab::begin() {
 void StudiesTab::analyse(std::vector<juce::File> files) {
     auto* host = findParentComponentOfClass<CardHost>();
     if (screen_ || analysis_ || !protocol_ || host == nullptr) return;
-    if (files.empty()) files.emplace_back(run().trialFile().string());
+    if (files.empty()) files.emplace_back(selectedRun().trialFile().string());
     analysis_ = std::make_unique<AnalysisScreen>(model_, files);
-    analysis_->onClose = ending();
+    analysis_->onClose = makeCloseCallback();
     host->setScreen(analysis_.get());
 }
 
 // The callback may run after the tab was deleted.
-std::function<void()> StudiesTab::ending() {
+std::function<void()> StudiesTab::makeCloseCallback() {
     return [tab = SafePointer{this}] {
         if (tab != nullptr) tab->end();
     };
@@ -504,39 +508,41 @@ std::function<void()> StudiesTab::ending() {
 void StudiesTab::end() {
     if (!screen_ && !analysis_) return;
     screen_.reset();
-    font_.reset();
+    typeface_.reset();
     analysis_.reset();
     model_.device().listening().endStudy();
     if (auto* host = findParentComponentOfClass<CardHost>()) host->setScreen(nullptr);
-    look();
+    refreshStatus();
     model_.sendChangeMessage();
 }
 
 void StudiesTab::mixChanged() {
-    if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
+    if (noiseOutputs_ != noiseChoices() || noiseChoice_.getNumItems() == 0) refreshNoiseChoices();
     const auto& mix = model_.mix();
-    const double times = fromDecibels(-mix.levelDb);
-    const auto weak = mix.levelDb <= leastStripDb ? juce::String{"nothing is felt"}
-                                                  : number(times, times < 10.0 ? 1 : 0) + " times weaker";
-    level_ = times > 1.0 ? "The master is at " + number(mix.levelDb, 1) + " dB: " + weak +
-                               " than the protocol says. Its g are those at 0 dB: the fader below raises it."
-                         : juce::String{};
-    if (model_.device().isNone())
-        level_ = "There is no device: the study can be seen, and is felt by nobody.";
-    master_.setRemark(times > 1.0 ? weak : juce::String{});
+    const double factor = fromDecibels(-mix.levelDb);
+    const auto weakText = mix.levelDb <= minStripDb ? juce::String{"nothing is felt"}
+                                                    : number(factor, factor < 10.0 ? 1 : 0) + " times weaker";
+    levelAdvice_ = factor > 1.0
+                       ? "The master is at " + number(mix.levelDb, 1) + " dB: " + weakText +
+                             " than the protocol says. Its g are those at 0 dB: the fader below raises it."
+                       : juce::String{};
+    if (model_.device().hasNoDevice())
+        levelAdvice_ = "There is no device: the study can be seen, and is felt by nobody.";
+    master_.setWarning(factor > 1.0 ? weakText : juce::String{});
     master_.mixChanged();
-    outputs_ = protocol_ ? utf8(outputsFault(*protocol_, model_)) : juce::String{};
-    if (refused_.isNotEmpty() && refused_ != outputs_) look(); // the cause of a refusal may be gone
+    outputsError_ = protocol_ ? utf8(outputsError(*protocol_, model_)) : juce::String{};
+    if (lastBeginError_.isNotEmpty() && lastBeginError_ != outputsError_)
+        refreshStatus(); // the cause of the error may have ended
     repaint();
 }
 
-// By importance: a small window has space for the first line only.
+// The most important line is first, as a small window has space for one line only.
 juce::StringArray StudiesTab::advice() const {
     juce::StringArray lines;
-    if (outputs_.isNotEmpty() && outputs_ != refused_) lines.add(outputs_);
+    if (outputsError_.isNotEmpty() && outputsError_ != lastBeginError_) lines.add(outputsError_);
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
         lines.add("It asks for pink noise: choose who hears it.");
-    if (level_.isNotEmpty()) lines.add(level_);
+    if (levelAdvice_.isNotEmpty()) lines.add(levelAdvice_);
     if (check_ && !check_->errors.empty())
         lines.add(utf8(check_->errors.front()));
     else if (check_ && !check_->warnings.empty())
@@ -547,63 +553,64 @@ juce::StringArray StudiesTab::advice() const {
 void StudiesTab::paint(juce::Graphics& g) {
     g.setFont(text::font(text::medium));
     const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
-    const auto write = [&](const juce::String& words, Shade colour, juce::Rectangle<int> area) {
+    const auto drawLines = [&](const juce::String& words, Shade colour, juce::Rectangle<int> area) {
         g.setColour(shade(*this, colour));
-        if (const int lines = area.getHeight() / line; lines > 0) // whole ones, none smaller
+        if (const int lines = area.getHeight() / line; lines > 0) // whole lines, in the full font size
             g.drawFittedText(words, area, juce::Justification::centredLeft, lines, 1.0f);
     };
-    const auto add = [&](juce::Rectangle<int>& room, const juce::String& words, Shade colour) {
-        const float rows = static_cast<float>(text::pixels(g.getCurrentFont(), words)) /
-                           static_cast<float>(std::max(1, room.getWidth()));
-        const int wanted = line * (rows <= 1.0f ? 1 : static_cast<int>(std::ceil(1.1f * rows))),
-                  high = std::min(wanted, room.getHeight());
-        const bool fits = high == wanted || colour == Shade::limit; // what is wrong is never left out
-        if (fits) write(words, colour, room.removeFromTop(high));
+    const auto drawIfFits = [&](juce::Rectangle<int>& freeArea, const juce::String& words, Shade colour) {
+        const float rowCount = static_cast<float>(text::pixelWidth(g.getCurrentFont(), words)) /
+                               static_cast<float>(std::max(1, freeArea.getWidth()));
+        const int needed = line * (rowCount <= 1.0f ? 1 : static_cast<int>(std::ceil(1.1f * rowCount))),
+                  height = std::min(needed, freeArea.getHeight());
+        const bool fits = height == needed || colour == Shade::limit; // errors are always drawn
+        if (fits) drawLines(words, colour, freeArea.removeFromTop(height));
         return fits;
     };
-    auto about = aboutArea_, room = levelArea_;
-    for (const juce::String& words : juce::StringArray::fromLines(about_))
-        if (!add(about, words, Shade::muted)) break;
-    const bool isFirst = wordsShade_ == Shade::limit || !begin_.isEnabled(); // why it does not begin
-    if (isFirst) add(room, words_, wordsShade_);
-    for (const juce::String& words : advice()) add(room, words, Shade::now);
-    if (!isFirst) add(room, words_, wordsShade_);
+    auto textArea = descriptionArea_, freeArea = adviceArea_;
+    for (const juce::String& words : juce::StringArray::fromLines(description_))
+        if (!drawIfFits(textArea, words, Shade::muted)) break;
+    const bool isStatusFirst = statusShade_ == Shade::limit || !begin_.isEnabled(); // it says why nothing can
+                                                                                    // begin
+    if (isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
+    for (const juce::String& words : advice()) drawIfFits(freeArea, words, Shade::highlight);
+    if (!isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 15, space = 5, foot = 32, lower = 24; // all of it in a small window
+    constexpr int captionHeight = 15, spacing = 5, footHeight = 32, lower = 24; // pixels, for a small window
     const int line = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
-    caption(choiceName_);
+    caption(protocolLabel_);
     auto first = area.removeFromTop(line);
     findings_->setBounds(first.removeFromRight(100));
-    choice_.setBounds(first.withTrimmedRight(gap));
-    area.removeFromTop(space);
-    aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - lower - 42, 0, 98));
+    protocolChoice_.setBounds(first.withTrimmedRight(gap));
+    area.removeFromTop(spacing);
+    descriptionArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - lower - 42, 0, 98));
     const auto pair = [&area, line](juce::Label& leftName, juce::Component& left, juce::Label& rightName,
                                     juce::Component& right) {
         auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(line);
-        const int wide = row.getWidth() * 3 / 5;
-        leftName.setBounds(names.removeFromLeft(wide));
-        left.setBounds(row.removeFromLeft(wide - gap));
+        const int leftWidth = row.getWidth() * 3 / 5;
+        leftName.setBounds(names.removeFromLeft(leftWidth));
+        left.setBounds(row.removeFromLeft(leftWidth - gap));
         row.removeFromLeft(gap);
         rightName.setBounds(names);
         right.setBounds(row);
     };
-    pair(codeName_, code_, numberName_, number_);
-    area.removeFromTop(space);
-    caption(folderName_);
+    pair(codeLabel_, code_, numberLabel_, number_);
+    area.removeFromTop(spacing);
+    caption(folderLabel_);
     auto row = area.removeFromTop(line);
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
-    area.removeFromTop(space);
-    pair(noiseName_, noise_, noiseLevelName_, noiseLevel_);
-    area.removeFromTop(space);
-    pair(wordsName_, wordsChoice_, answersName_, answersChoice_);
-    area.removeFromTop(space + 2);
-    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - foot, 0, 63));
-    row = area.removeFromTop(std::min(foot, area.getHeight()));
+    area.removeFromTop(spacing);
+    pair(noiseLabel_, noiseChoice_, noiseLevelLabel_, noiseLevel_);
+    area.removeFromTop(spacing);
+    pair(languageLabel_, languageChoice_, answersLabel_, answersChoice_);
+    area.removeFromTop(spacing + 2);
+    adviceArea_ = area.removeFromTop(std::clamp(area.getHeight() - footHeight, 0, 63));
+    row = area.removeFromTop(std::min(footHeight, area.getHeight()));
     begin_.setBounds(row.removeFromLeft(84));
     analyse_->setBounds(row.removeFromRight(72));
     master_.setBounds(row.reduced(gap, 0));

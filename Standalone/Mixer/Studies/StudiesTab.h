@@ -11,6 +11,7 @@
 
 namespace physvib {
 
+/// Shows the results of an analysis, or a given report, over the whole window. Message thread.
 class AnalysisScreen final : public FullScreen {
 public:
     AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
@@ -23,31 +24,31 @@ public:
     const AnalysisReport& report() const noexcept { return report_; }
     const juce::Drawable* picture() const noexcept { return picture_.get(); }
 
-    void refresh() override { showSilence("SILENT: press to feel", "SILENCE  Esc"); }
+    void refresh() override { updateSilenceButton("SILENT: press to feel", "SILENCE  Esc"); }
 
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void parentHierarchyChanged() override { showWords(); }
+    void parentHierarchyChanged() override { showReport(); }
 
 private:
     AnalysisScreen(MixerModel& model, const juce::String& title);
     void browse();
-    void run(const std::string& name);
-    void showWords();
+    void show(const std::string& name);
+    void showReport();
 
     juce::String title_;
     std::vector<juce::File> files_;
     AnalysisReport report_;
     std::unique_ptr<juce::Drawable> picture_;
-    juce::ComboBox kind_;
-    juce::TextEditor words_;
-    std::unique_ptr<juce::TextButton> choose_, close_;
+    juce::ComboBox analysisChoice_;
+    juce::TextEditor resultText_;
+    std::unique_ptr<juce::TextButton> chooseButton_, closeButton_;
     juce::Rectangle<int> titleArea_, pictureArea_;
 };
 
-/// Selections by the command line; empty or 0: unchanged.
-struct StudyCall {
+/// What the command line selects in the tab; empty or 0: unchanged.
+struct StudySelection {
     juce::String protocol, participant;
     int number = 0;
     juce::String folder;
@@ -62,30 +63,29 @@ public:
     std::string chooseProtocol(const std::string& nameOrPath);
     void setParticipant(const juce::String& code, int number);
     void setFolder(const juce::File& folder);
-    /// Outputs for headphones without an actuator, in pairs and single, from 0.
+    /// Outputs without an actuator, for headphones: first in pairs, then single; numbered from 0.
     std::vector<std::vector<int>> noiseChoices() const;
-    /// Pink noise during the study; no noise without outputs.
+    /// Plays pink noise during the study, `db` of full scale (root mean square); no outputs: no noise.
     void setNoise(const std::vector<int>& outputs, double db);
 
-    /// Texts for the participant: a built-in translation, a file, or "" for the protocol's. Empty, or an
-    /// error.
-    std::string chooseWords(const std::string& nameOrPath);
+    /// Selects the participant's language: a built-in translation, a file, or "" for the protocol's. Returns
+    /// an error line, or an empty string.
+    std::string chooseLanguage(const std::string& nameOrPath);
     /// Shows answers in a separate window, on another display if there is one.
-    void setAnswersElsewhere(bool areElsewhere);
+    void setAnswerWindow(bool hasWindow);
 
-    /// Starts or continues the study; its screen covers the window. Empty, or an error, which is also
-    /// displayed.
+    /// Starts or continues the study on a screen that covers the window. Returns an error, also shown, or "".
     std::string begin();
-    /// Analyses these files, or without any the participant's own, on a screen that covers the window.
+    /// Analyses the files on a screen that covers the window; no files: the participant's trials.
     void analyse(std::vector<juce::File> files = {});
     AnalysisScreen* analysis() noexcept { return analysis_.get(); }
     StudyScreen* screen() noexcept { return screen_.get(); }
-    std::function<void()> ending();
-    void end();
+    std::function<void()> makeCloseCallback(); ///< calls end(), if the tab still exists
+    void end();                                ///< closes the open screen
 
     /// What remains to be done before a study starts, one line each, as many as fit.
     juce::StringArray advice() const;
-    juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
+    juce::Rectangle<int> adviceArea() const noexcept { return adviceArea_; }
 
     const MasterStrip& master() const noexcept { return master_; } ///< beside Begin
 
@@ -94,9 +94,9 @@ public:
     /// Result of the check of the protocol; none while it runs. It runs while the tab is visible.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
-    void refresh(const MixerMoment& moment) override {
+    void refresh(const MixerSnapshot& snapshot) override {
         updateCheck();
-        master_.refresh(moment);
+        master_.refresh(snapshot);
         if (screen_) screen_->refresh();
         if (analysis_) analysis_->refresh();
     }
@@ -105,45 +105,45 @@ public:
     void resized() override;
 
 private:
-    static constexpr int controlsHeight = 256; // with a line of advice
-    void pickProtocol();                       ///< handles the list of protocols
+    static constexpr int controlsHeight = 256; // pixels, with a line of advice
+    void handleProtocolChoice();               ///< the user chose in the list of protocols
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
     void offerLevel(double db);
     void chooseNoise(const std::vector<int>& outputs);
-    void look();      ///< shows the state of the trial file, and what Begin would do
-    void listNoise(); ///< lists the free outputs
-    void pickWords(); ///< handles the list of languages
+    void refreshStatus();        ///< shows the state of the trial file, and what Begin would do
+    void refreshNoiseChoices();  ///< lists the free outputs
+    void handleLanguageChoice(); ///< the user chose in the list of languages
     ListeningSettings listening() const;
-    void say(const juce::String& words, Shade shade); ///< beside Begin
+    void setStatus(const juce::String& words, Shade shade); ///< text beside Begin
     void stopCheck();
     void updateCheck();
-    void showFindings();  ///< opens the report of the check
-    StudyRun run() const; ///< the selection; precondition: there is a protocol
+    void showFindings();          ///< opens the report of the check
+    StudyRun selectedRun() const; ///< the selection; precondition: there is a protocol
 
     MixerModel& model_;
     std::optional<Protocol> protocol_;
-    juce::String about_, words_, level_;
-    juce::String outputs_, refused_; // what outputs lack, and the last refusal, until something changes
-    Shade wordsShade_ = Shade::muted;
-    std::string wordsPath_; // selected here; empty: the protocol's
-    juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;
-    Caption choiceName_{"Protocol"}, codeName_{"Participant's code"}, numberName_{"Number"},
-        folderName_{"Folder of the trial files"}, noiseName_{"Pink noise on"}, noiseLevelName_{"At"},
-        wordsName_{"Participants read"}, answersName_{"Answers"};
+    juce::String description_, status_, levelAdvice_;
+    juce::String outputsError_, lastBeginError_; // error of the outputs; error of the last begin()
+    Shade statusShade_ = Shade::muted;
+    std::string languagePath_; // selected here; empty: the protocol's
+    juce::ComboBox protocolChoice_, noiseChoice_, noiseLevel_, languageChoice_, answersChoice_;
+    Caption protocolLabel_{"Protocol"}, codeLabel_{"Participant's code"}, numberLabel_{"Number"},
+        folderLabel_{"Folder of the trial files"}, noiseLabel_{"Pink noise on"}, noiseLevelLabel_{"At"},
+        languageLabel_{"Participants read"}, answersLabel_{"Answers"};
     std::vector<std::vector<int>> noiseOutputs_; // in the order of the list
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
     std::optional<StudyCheck> check_; // of protocol_
-    bool isBeginWanted_ = false;      // as soon as the check is finished
+    bool beginsAfterCheck_ = false;   // Begin was pressed during the check
     MasterStrip master_{model_, true};
     juce::TextButton begin_{"Begin"};
-    juce::Rectangle<int> aboutArea_, levelArea_;
-    std::unique_ptr<StudyFont> font_; // of the study screen
+    juce::Rectangle<int> descriptionArea_, adviceArea_;
+    std::unique_ptr<TypefaceOverride> typeface_; // of the study screen
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;
-    std::atomic<bool> isCheckWanted_{false};
-    std::future<StudyCheck> checking_; // the last member: it is waited for first
+    std::atomic<bool> keepsChecking_{false};
+    std::future<StudyCheck> checkFuture_; // the last member, as its destructor awaits the check
 };
 
 } // namespace physvib

@@ -11,44 +11,44 @@ FullScreen::FullScreen(MixerModel& model, const juce::String& title)
     setOpaque(true);
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
-    silence_.setTitle("Silence");
-    silence_.getProperties().set(stopProperty, true);
-    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
+    silenceButton_.setTitle("Silence");
+    silenceButton_.getProperties().set(stopProperty, true);
+    silenceButton_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
 }
 
-void FullScreen::showSilence(const juce::String& on, const juce::String& off) {
-    silence_.setButtonText(model_.isSilent() ? on : off);
-    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
+void FullScreen::updateSilenceButton(const juce::String& silent, const juce::String& playing) {
+    silenceButton_.setButtonText(model_.isSilent() ? silent : playing);
+    silenceButton_.setToggleState(model_.isSilent(), juce::dontSendNotification);
 }
 
 void FullScreen::close() const {
     if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
 }
 
-BigButton::BigButton(const juce::String& words, const juce::String& name)
+BigButton::BigButton(const juce::String& label, const juce::String& name)
     : juce::Button{name}
-    , words_{words} {
+    , label_{label} {
     setTitle(name);
 }
 
-void BigButton::setWords(const juce::String& words, const juce::String& remark) {
-    if (words == words_ && remark == remark_) return;
-    words_ = words;
+void BigButton::setText(const juce::String& label, const juce::String& remark) {
+    if (label == label_ && remark == remark_) return;
+    label_ = label;
     remark_ = remark;
     setDescription(remark);
     repaint();
 }
 
-void BigButton::setShare(double share) {
-    if (std::abs(share - share_) < 1e-3) return;
-    share_ = share;
+void BigButton::setProgress(double share) {
+    if (std::abs(share - progress_) < 1e-3) return;
+    progress_ = share;
     repaint();
 }
 
 void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
-    const float light = isEnabled() || getToggleState() ? 1.0f : 0.4f;
+    const float alpha = isEnabled() || getToggleState() ? 1.0f : 0.4f;
     auto ink = shade(*this, Shade::text);
-    if (isMain_) {
+    if (isPrimary_) {
         g.setColour(shade(*this, Shade::accent)
                         .withMultipliedAlpha(isEnabled() ? 1.0f : 0.25f)
                         .brighter(isOver && isEnabled() ? 0.1f : 0.0f));
@@ -58,22 +58,22 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
                       ? juce::Colour{palette::Argb{0xff101218}}
                       : juce::Colours::white;
     } else {
-        drawTarget(g, *this, isOver, isDown);
+        drawButtonShape(g, *this, isOver, isDown);
     }
     auto area = getLocalBounds().reduced(12, 8);
-    if (share_ >= 0.0) {
+    if (progress_ >= 0.0) {
         auto bar = area.removeFromBottom(5).toFloat();
         area.removeFromBottom(3);
         fillRound(g, *this, Shade::line, bar, 2.5f);
         fillRound(g, *this, Shade::accent,
-                  bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))), 2.5f);
+                  bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, progress_))), 2.5f);
     }
     const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
     area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
-    g.setColour(ink.withMultipliedAlpha(light));
-    g.setFont(text::font(getHeight() >= 48 && words_.length() < 24 ? text::large : text::medium));
-    g.drawText(words_, area.removeFromTop(line), juce::Justification::centred, true);
-    g.setColour((isMain_ ? ink : shade(*this, Shade::muted)).withMultipliedAlpha(light));
+    g.setColour(ink.withMultipliedAlpha(alpha));
+    g.setFont(text::font(getHeight() >= 48 && label_.length() < 24 ? text::large : text::medium));
+    g.drawText(label_, area.removeFromTop(line), juce::Justification::centred, true);
+    g.setColour((isPrimary_ ? ink : shade(*this, Shade::muted)).withMultipliedAlpha(alpha));
     g.setFont(text::font(text::small));
     g.drawText(remark_, area, juce::Justification::centred, true);
     if (!isMarked_) return;
@@ -82,7 +82,7 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
         juce::Rectangle<float>{8.0f, 8.0f}.withCentre({static_cast<float>(getWidth()) - 11.0f, 11.0f}));
 }
 
-void drawTarget(juce::Graphics& g, const juce::Button& button, bool isOver, bool isDown, float corner) {
+void drawButtonShape(juce::Graphics& g, const juce::Button& button, bool isOver, bool isDown, float corner) {
     const auto area = button.getLocalBounds().toFloat().reduced(1.0f);
     auto colour = button.getToggleState() ? shade(button, Shade::accent).withMultipliedAlpha(0.35f)
                                           : shade(button, Shade::raised);
@@ -94,113 +94,116 @@ void drawTarget(juce::Graphics& g, const juce::Button& button, bool isOver, bool
     g.drawRoundedRectangle(area, corner, button.getToggleState() ? 2.0f : 1.0f);
 }
 
-juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayout& layout) {
-    const auto wide = static_cast<float>(layout.extentWidthMetres / layout.extentHeightMetres);
-    const float width = std::min(area.getWidth(), area.getHeight() * wide);
-    return area.withSizeKeepingCentre(width, width / wide);
+juce::Rectangle<float> fieldAreaIn(juce::Rectangle<float> area, const ActuatorLayout& layout) {
+    const auto aspect = static_cast<float>(layout.extentWidthMetres / layout.extentHeightMetres);
+    const float width = std::min(area.getWidth(), area.getHeight() * aspect);
+    return area.withSizeKeepingCentre(width, width / aspect);
 }
 
-FieldPlace placeOf(const EnchanterLayout& layout, int enchanter) {
-    const auto& place = nth(layout.places, enchanter);
+FieldPlace actuatorPlace(const ActuatorLayout& layout, int actuator) {
+    const auto& place = nth(layout.places, actuator);
     return {place.xMetres / layout.extentWidthMetres, 1.0 - place.yMetres / layout.extentHeightMetres};
 }
 
-juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place) {
+juce::Point<float> pixelOn(const juce::Rectangle<float>& field, const FieldPlace& place) {
     return {field.getX() + field.getWidth() * static_cast<float>(place.x),
             field.getY() + field.getHeight() * static_cast<float>(place.y)};
 }
 
-juce::Point<int> wayOf(const juce::KeyPress& key) {
-    const auto is = [&key](int code) { return key.isKeyCode(code) ? 1 : 0; };
-    return {is(juce::KeyPress::rightKey) - is(juce::KeyPress::leftKey),
-            is(juce::KeyPress::downKey) - is(juce::KeyPress::upKey)};
+juce::Point<int> arrowDirection(const juce::KeyPress& key) {
+    const auto pressed = [&key](int code) { return key.isKeyCode(code) ? 1 : 0; };
+    return {pressed(juce::KeyPress::rightKey) - pressed(juce::KeyPress::leftKey),
+            pressed(juce::KeyPress::downKey) - pressed(juce::KeyPress::upKey)};
 }
 
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
-    const auto way = wayOf(key);
-    if (way.isOrigin()) return false;
-    juce::Component* from = nullptr;
+    const auto direction = arrowDirection(key);
+    if (direction.isOrigin()) return false;
+    juce::Component* focused = nullptr;
     for (auto* child : parent.getChildren())
-        if (child->hasKeyboardFocus(true)) from = child;
+        if (child->hasKeyboardFocus(true)) focused = child;
     for (auto* child : parent.getChildren()) // focus is elsewhere: start from the chosen button
         if (auto* button = dynamic_cast<juce::Button*>(child);
-            from == nullptr && button != nullptr && button->getToggleState())
-            from = child;
-    juce::Component* best = nullptr;
-    double least = 1e9;
+            focused == nullptr && button != nullptr && button->getToggleState())
+            focused = child;
+    juce::Component* nearest = nullptr;
+    double minDistance = 1e9;
     for (auto* child : parent.getChildren()) {
-        if (child == from || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
+        if (child == focused || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
             continue;
-        const auto step =
-            from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre() : way;
-        const int along = step.x * way.x + step.y * way.y,
-                  aside = std::abs(step.x * way.y) + std::abs(step.y * way.x);
-        if (along <= 0 || along < aside / 2) continue;
-        if (const double far = along + 2.0 * aside; far < least) {
-            least = far;
-            best = child;
+        const auto offset = focused != nullptr
+                                ? child->getBounds().getCentre() - focused->getBounds().getCentre()
+                                : direction;
+        const int along = offset.x * direction.x + offset.y * direction.y,
+                  across = std::abs(offset.x * direction.y) + std::abs(offset.y * direction.x);
+        if (along <= 0 || along < across / 2) continue;
+        if (const double distance = along + 2.0 * across; distance < minDistance) {
+            minDistance = distance;
+            nearest = child;
         }
     }
-    if (best != nullptr) best->grabKeyboardFocus();
+    if (nearest != nullptr) nearest->grabKeyboardFocus();
     return true;
 }
 
 juce::String
-StudyWords::operator()(const std::string& english,
+StudyTexts::operator()(const std::string& english,
                        std::initializer_list<std::pair<const char*, juce::String>> values) const {
-    if (!words_.name.empty() && !words_.texts.contains(english)) missed_.insert(english);
-    auto text = utf8(words_.of(english));
+    if (!translation_.name.empty() && !translation_.texts.contains(english)) untranslated_.insert(english);
+    auto text = utf8(translation_.translate(english));
     for (const auto& [name, value] : values) text = text.replace("{" + juce::String{name} + "}", value);
     return text;
 }
 
-juce::String StudyWords::lines(const TaskText& text, const ConditionPlan& condition) const {
-    auto own = std::holds_alternative<GridSet>(condition.stimuli)      ? text.onGrid
-               : std::holds_alternative<PatternSet>(condition.stimuli) ? text.ofPatterns
-                                                                       : std::string_view{};
-    if (own.empty()) own = text.usual;
-    juce::StringArray said;
-    while (!own.empty()) said.add((*this)(std::string{takeUntil('\n', own)}));
-    return said.joinIntoString("\n");
+juce::String StudyTexts::taskText(const TaskText& text, const ConditionPlan& condition) const {
+    auto lines = std::holds_alternative<GridSet>(condition.stimuli)      ? text.forGrid
+                 : std::holds_alternative<PatternSet>(condition.stimuli) ? text.forPatterns
+                                                                         : std::string_view{};
+    if (lines.empty()) lines = text.standard;
+    juce::StringArray translated;
+    while (!lines.empty()) translated.add((*this)(std::string{takeUntil('\n', lines)}));
+    return translated.joinIntoString("\n");
 }
 
-juce::String StudyWords::question(const SessionPlan& session, const ConditionPlan& condition) const {
-    return session.question.empty() ? lines(describe(session.task).question, condition)
+juce::String StudyTexts::question(const SessionPlan& session, const ConditionPlan& condition) const {
+    return session.question.empty() ? taskText(taskDescription(session.task).question, condition)
                                     : (*this)(session.question);
 }
 
-juce::String StudyWords::feel(const SessionPlan& session) const {
-    const StudyWords& say = *this;
-    if (session.mostPlays == 0) return say("Feel it as often as you like.") + "\n";
-    if (session.mostPlays == 1) return say("Feel it once.") + "\n";
-    return say("Feel it at most {n} times.", {{"n", juce::String{session.mostPlays}}}) + "\n";
+juce::String StudyTexts::playText(const SessionPlan& session) const {
+    const StudyTexts& tr = *this;
+    if (session.maxPlays == 0) return tr("Feel it as often as you like.") + "\n";
+    if (session.maxPlays == 1) return tr("Feel it once.") + "\n";
+    return tr("Feel it at most {n} times.", {{"n", juce::String{session.maxPlays}}}) + "\n";
 }
 
-juce::String StudyWords::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
-    const StudyWords& say = *this;
-    if (!session.instruction.empty()) return say(session.instruction);
-    if (const auto* world = std::get_if<WorldSet>(&condition.stimuli); world != nullptr && world->hasHands)
-        return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys, "
-                   "each about half of the time.") +
+juce::String StudyTexts::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
+    const StudyTexts& tr = *this;
+    if (!session.instruction.empty()) return tr(session.instruction);
+    if (const auto* world = std::get_if<WorldSet>(&condition.stimuli);
+        world != nullptr && world->isInteractive)
+        return tr("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys, "
+                  "each about half of the time.") +
                "\n" +
-               (session.leastSeconds > 0.0
-                    ? say("Play with each for at least {n} s, then pause and answer.",
-                          {{"n", number(session.leastSeconds, session.leastSeconds < 1.0 ? 1 : 0)}})
-                    : say("Play with each, then pause and answer."));
-    if (session.fewestTouches > 0)
-        return say("Touch the field anywhere and feel that place.") + "\n" +
-               say("Go on for as long as you like; Next ends the training.");
-    if (session.isOnce) return {};
-    const bool saysPlays = session.answer() != AnswerKind::wish && session.alternatives.empty();
+               (session.minSeconds > 0.0
+                    ? tr("Play with each for at least {n} s, then pause and answer.",
+                         {{"n", number(session.minSeconds, session.minSeconds < 1.0 ? 1 : 0)}})
+                    : tr("Play with each, then pause and answer."));
+    if (session.minTouches > 0)
+        return tr("Touch the field anywhere and feel that place.") + "\n" +
+               tr("Go on for as long as you like; Next ends the training.");
+    if (session.isQuestionnaire) return {};
+    const bool saysPlays = session.answerKind() != AnswerKind::request && session.alternatives.empty();
     const StudyTask task = session.answers.empty() ? session.task : StudyTask::identify;
-    const auto within = [&](double s) {
-        return "\n" + say("Answer within {n} s.", {{"n", number(s, s < 10.0 ? 1 : 0)}});
+    const auto limitText = [&](double s) {
+        return "\n" + tr("Answer within {n} s.", {{"n", number(s, s < 10.0 ? 1 : 0)}});
     };
-    return (saysPlays ? feel(session) : juce::String{}) + lines(describe(task).instruction, condition) +
-           (session.answerSeconds > 0.0 ? within(session.answerSeconds) : juce::String{});
+    return (saysPlays ? playText(session) : juce::String{}) +
+           taskText(taskDescription(task).instruction, condition) +
+           (session.answerSeconds > 0.0 ? limitText(session.answerSeconds) : juce::String{});
 }
 
-juce::String StudyWords::ordinal(int part) const {
+juce::String StudyTexts::ordinal(int part) const {
     static constexpr std::array names{"The first",  "The second", "The third",
                                       "The fourth", "The fifth",  "The sixth"};
     const auto i = static_cast<std::size_t>(part);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Playback of stimuli and worlds of a study, markers for other recorders, and the pane of a world.
+// What StudyScreen plays: StimulusPlayer sends events to the mixer's session and checks by receipts that they
+// were played; StudyMarkers sends LSL markers; StudyWorld runs a world, which StudyWorldPane displays.
 #include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
@@ -13,32 +14,32 @@ namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t leadNs = 50'000'000; // of events after gains, which are ramped and may come late
+constexpr std::int64_t eventLeadNs = 50'000'000; // from the gains, which are ramped, to the events
 
-// Only actuators with at least this share of the loudest planned peak, and this peak, are compared.
-constexpr double comparedShare = 0.01, minCompared = 1e-4, toleranceDb = 1.0;
-constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // what was posted before is then lost
-constexpr double maxPlannedSeconds = 60.0; // how long receipts are kept; rendering a plan takes time, too
+// An actuator is compared if its planned peak has this share of the loudest one, and of full scale.
+constexpr double minComparedShare = 0.01, minComparedPeak = 1e-4, toleranceDb = 1.0;
+constexpr double maxPauseMs = 1e-6 * DevicePulse::goneAfterNs + 500.0; // longer pauses lose events
+constexpr double maxPlannedSeconds = 60.0; // receipts are kept that long; longer stimuli are not compared
 
-constexpr const char* noControls = "The session took no more controls: expected a device that plays";
+constexpr const char* controlsError = "The session took no more controls: expected a device that plays";
 
-constexpr std::int32_t textFormat = 3; // cft_string
-constexpr double noRate = 0.0;         // LSL_IRREGULAR_RATE
-constexpr std::int32_t keptSeconds = 360;
+constexpr std::int32_t textFormat = 3;      // cft_string
+constexpr double irregularRateHz = 0.0;     // LSL_IRREGULAR_RATE
+constexpr std::int32_t bufferSeconds = 360; // liblsl's default
 
-/// Usual library names per system; PHYSVIB_LSL names another.
-juce::StringArray libraryNames() {
-    if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty())
-        return {own};
+/// Default names of the library per system; the variable PHYSVIB_LSL names another one.
+juce::StringArray lslLibraryNames() {
+    if (const auto named = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); named.isNotEmpty())
+        return {named};
     return {"liblsl.so.2", "liblsl.so", "liblsl.2.dylib", "liblsl.dylib", "lsl.dll"};
 }
 
-constexpr std::int64_t fadeNs = 100'000'000;  // longer than any fade-out by limits::stealFadePerSecond
-constexpr std::int64_t askedNs = 500'000'000; // receipts are read for that long at once
+constexpr std::int64_t fadeNs = 100'000'000; // longer than any fade-out by limits::stealFadePerSecond
+constexpr std::int64_t receiptIntervalNs = 500'000'000; // receipts are read in pieces of this duration
 
 } // namespace
 
-StudySound::StudySound(MixerModel& model)
+StimulusPlayer::StimulusPlayer(MixerModel& model)
     : model_{model}
     , slowness_{model.session().world().slowness()} {
     model_.setSlowness(0);
@@ -46,56 +47,58 @@ StudySound::StudySound(MixerModel& model)
     for (int j = 0; j < model_.mix().count(); ++j) post(Kind::mute, j, 0.0f);
 }
 
-StudySound::~StudySound() {
+StimulusPlayer::~StimulusPlayer() {
     const Mix& mix = model_.mix();
     if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
     const PhantomPanner panner = mix.panner();
     post(Kind::panner, 0, 0.0f, &panner);
-    model_.exposure().use(mix.layout);
+    model_.exposure().setLayout(mix.layout);
     useRecordings({});
-    const auto felt = feltStrips(mix);
+    const auto strips = effectiveStrips(mix);
     for (int j = 0; j < mix.count(); ++j) {
-        post(Kind::gain, j, channelGain(nth(felt, j)));
+        post(Kind::gain, j, channelGain(nth(strips, j)));
         post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
     }
     model_.setSlowness(slowness_);
 }
 
-void StudySound::post(Kind kind, int channel, float value, const PhantomPanner* panner) {
+void StimulusPlayer::post(Kind kind, int channel, float value, const PhantomPanner* panner) {
     const RenderControl control{.kind = kind, .channel = channel, .value = value, .panner = panner};
-    if (!model_.session().submit({control})) model_.report(noControls);
+    if (!model_.session().submit({control})) model_.report(controlsError);
 }
 
-void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) {
-    if (!model_.session().submit({PlayedRecordings{recordings}})) model_.report(noControls);
+void StimulusPlayer::useRecordings(const std::vector<ContactRecording>& recordings) {
+    if (!model_.session().submit({PlayedRecordings{recordings}})) model_.report(controlsError);
 }
 
-Result<FeltStimulus> StudySound::make(MixerModel& model, const TrialJob& job, const std::string& folder) {
-    auto stimulus =
-        feltStimulus(job, model.output().sampleRateHz() > 0 ? model.output().sampleRateHz() : 48000, folder);
+Result<PlayableStimulus> StimulusPlayer::prepare(MixerModel& model, const TrialJob& job,
+                                                 const std::string& folder) {
+    auto stimulus = makePlayableStimulus(
+        job, model.output().sampleRateHz() > 0 ? model.output().sampleRateHz() : 48000, folder);
     if (!stimulus) return stimulus;
-    if (auto fault = refusal(model, stimulus.value); !fault.empty()) return Failure{fault};
+    if (auto error = playbackError(model, stimulus.value); !error.empty()) return Failure{error};
     return stimulus;
 }
 
-std::string tooFew(const std::string& layout, int wanted, int there) {
-    if (wanted <= there) return {};
-    return layout + " needs " + std::to_string(wanted) + (wanted == 1 ? " actuator" : " actuators") +
-           ", the mixer has " + std::to_string(there) + ": choose a preset under Actuators";
+std::string actuatorCountError(const std::string& layout, int needed, int available) {
+    if (needed <= available) return {};
+    return layout + " needs " + std::to_string(needed) + (needed == 1 ? " actuator" : " actuators") +
+           ", the mixer has " + std::to_string(available) + ": choose a preset under Actuators";
 }
 
-std::string StudySound::refusal(const MixerModel& model, const FeltStimulus& stimulus) {
-    if (const auto mute = model.device().withoutClips(); !stimulus.recordings.empty() && mute.isNotEmpty())
+std::string StimulusPlayer::playbackError(const MixerModel& model, const PlayableStimulus& stimulus) {
+    if (const auto mute = model.device().sinkWithoutClips();
+        !stimulus.recordings.empty() && mute.isNotEmpty())
         return "--method SV: expected a mixer without the " + mute.toStdString() +
                ", which plays no recordings";
-    return tooFew(stimulus.layout.name, stimulus.layout.geometry.count, model.mix().count());
+    return actuatorCountError(stimulus.layout.name, stimulus.layout.geometry.count, model.mix().count());
 }
 
-std::string StudySound::play(const FeltStimulus& stimulus) {
-    if (auto fault = refusal(model_, stimulus); !fault.empty()) return fault;
+std::string StimulusPlayer::play(const PlayableStimulus& stimulus) {
+    if (auto error = playbackError(model_, stimulus); !error.empty()) return error;
     const auto& strips = model_.mix().strips;
     gains_.resize(strips.size());
-    model_.exposure().use(stimulus.layout);
+    model_.exposure().setLayout(stimulus.layout);
     post(Kind::panner, 0, 0.0f, &stimulus.stimulus.panner);
     useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
@@ -104,26 +107,27 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     }
     if (std::exchange(isMuted_, false))
         for (std::size_t j = 0; j < strips.size(); ++j) post(Kind::mute, static_cast<int>(j), 0.0f);
-    auto strikes = stimulus.stimulus.events;
-    for (auto& strike : strikes) strike.timeNs += leadNs;
-    const auto taken = model_.session().submit({Strikes{strikes}});
-    if (!taken) return taken.error;
-    fromNs_ = taken.value + leadNs;
-    untilNs_ = fromNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
-    session_ = model_.output().playedSession();
-    model_.output().expect(fromNs_, untilNs_);
-    planned_ = plannedPeaks(stimulus);
-    actuators_ = stimulus.layout.enchanters;
-    course_ = Course::plays;
+    auto events = stimulus.stimulus.events;
+    for (auto& event : events) event.timeNs += eventLeadNs;
+    const auto submitted = model_.session().submit({Strikes{events}});
+    if (!submitted) return submitted.error;
+    startNs_ = submitted.value + eventLeadNs;
+    endNs_ = startNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
+    sessionNumber_ = model_.output().playedSession();
+    model_.output().alignBinsTo(startNs_, endNs_);
+    plannedPeaks_ = plannedPeaks(stimulus);
+    actuators_ = stimulus.layout.actuators;
+    status_ = PlaybackStatus::playing;
     wasSilent_ = false;
-    ranAtMs_ = nowMs();
-    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * model_.device().outputLatencySeconds();
+    lastPlayingMs_ = nowMs();
+    outputStartMs_ =
+        nowMs() + 1e-6 * static_cast<double>(eventLeadNs) + 1e3 * model_.device().outputLatencySeconds();
     seconds_ = stimulus.stimulus.seconds;
     return {};
 }
 
-/// The peak of each actuator behind gains, ceilings, limiter, guard and master level.
-std::vector<double> StudySound::plannedPeaks(const FeltStimulus& stimulus) const {
+/// Renders the stimulus for the peak of each actuator at its output; empty: it is too long to be compared.
+std::vector<double> StimulusPlayer::plannedPeaks(const PlayableStimulus& stimulus) const {
     if (stimulus.stimulus.seconds > maxPlannedSeconds) return {};
     const int rate = model_.output().sampleRateHz();
     const ContactSounds sounds{stimulus.recordings, rate};
@@ -149,43 +153,45 @@ std::vector<double> StudySound::plannedPeaks(const FeltStimulus& stimulus) const
 
 // After a short pause the device continues with what was posted, so the end is awaited even if the playback
 // is already incomplete.
-void StudySound::update() {
-    if (course_ != Course::plays) return;
+void StimulusPlayer::update() {
+    if (status_ != PlaybackStatus::playing) return;
     wasSilent_ = wasSilent_ || model_.isSilent();
-    if (model_.output().isPlaying()) ranAtMs_ = nowMs();
-    const bool isOver = model_.output().left(fromNs_, untilNs_, 0, session_).isOver;
+    if (model_.output().isPlaying()) lastPlayingMs_ = nowMs();
+    const bool isOver = model_.output().receiptFor(startNs_, endNs_, 0, sessionNumber_).isOver;
     if (isOver)
-        course_ = wasSilent_ ? Course::lost : judged();
-    else if (nowMs() - ranAtMs_ > longestPauseMs)
-        course_ = Course::lost;
-    if (course_ != Course::plays)
-        heldSeconds_ = isOver ? seconds_ : std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_);
+        status_ = wasSilent_ ? PlaybackStatus::incomplete : statusFromReceipts();
+    else if (nowMs() - lastPlayingMs_ > maxPauseMs)
+        status_ = PlaybackStatus::incomplete;
+    if (status_ != PlaybackStatus::playing)
+        playedSeconds_ = isOver ? seconds_ : std::clamp(1e-3 * (nowMs() - outputStartMs_), 0.0, seconds_);
 }
 
-/// Compares the receipts with the plan, and stores their level in felt_.
-Course StudySound::judged() {
-    felt_ = {};
-    const double loudest = planned_.empty() ? 0.0 : std::ranges::max(planned_);
-    Course course = Course::left;
+/// Compares the receipts with the plan, and stores their level in level_.
+PlaybackStatus StimulusPlayer::statusFromReceipts() {
+    level_ = {};
+    const double loudest = plannedPeaks_.empty() ? 0.0 : std::ranges::max(plannedPeaks_);
+    PlaybackStatus status = PlaybackStatus::complete;
     for (std::size_t j = 0; j < actuators_.size(); ++j) {
-        const Receipt receipt = model_.output().left(fromNs_, untilNs_, static_cast<int>(j), session_);
-        felt_.peakG = std::max(felt_.peakG, receipt.peak * actuators_[j].fullScaleG);
-        felt_.rmsG = std::max(felt_.rmsG, std::sqrt(receipt.meanSquare) * actuators_[j].fullScaleG);
-        if (!receipt.isKept || !receipt.isRunning) return Course::lost;
-        const double planned = j < planned_.size() ? planned_[j] : 0.0;
-        if (planned < std::max(minCompared, comparedShare * loudest)) continue;
+        const Receipt receipt =
+            model_.output().receiptFor(startNs_, endNs_, static_cast<int>(j), sessionNumber_);
+        level_.peakG = std::max(level_.peakG, receipt.peak * actuators_[j].fullScaleG);
+        level_.rmsG = std::max(level_.rmsG, std::sqrt(receipt.meanSquare) * actuators_[j].fullScaleG);
+        if (!receipt.isInMemory || !receipt.isRunning) return PlaybackStatus::incomplete;
+        const double planned = j < plannedPeaks_.size() ? plannedPeaks_[j] : 0.0;
+        if (planned < std::max(minComparedPeak, minComparedShare * loudest)) continue;
         if (std::abs(toDecibels(std::max(receipt.peak, 1e-9) / planned)) > toleranceDb)
-            course = Course::unlike;
+            status = PlaybackStatus::wrongLevel;
     }
-    return course;
+    return status;
 }
 
-double StudySound::feltSeconds() const {
-    return course_ == Course::plays ? std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_) : heldSeconds_;
+double StimulusPlayer::playedSeconds() const {
+    return status_ == PlaybackStatus::playing ? std::clamp(1e-3 * (nowMs() - outputStartMs_), 0.0, seconds_)
+                                              : playedSeconds_;
 }
 
-void StudySound::stop() {
-    course_ = Course::none;
+void StimulusPlayer::stop() {
+    status_ = PlaybackStatus::none;
     isMuted_ = true;
     post(Kind::stopAll, 0, 0.0f);
     for (int j = 0; j < model_.mix().count(); ++j) post(Kind::mute, j, 1.0f);
@@ -197,7 +203,7 @@ struct StudyMarkers::Outlet {
     juce::DynamicLibrary library;
     void* (*createInfo)(const char* name, const char* type, std::int32_t channels, double rateHz,
                         std::int32_t format, const char* source) = nullptr;
-    void* (*createOutlet)(void* info, std::int32_t chunk, std::int32_t mostSeconds) = nullptr;
+    void* (*createOutlet)(void* info, std::int32_t chunk, std::int32_t maxBufferSeconds) = nullptr;
     std::int32_t (*pushText)(void* outlet, const char** text, double timestamp) = nullptr;
     double (*clock)() = nullptr;
     void (*destroyOutlet)(void* outlet) = nullptr;
@@ -206,16 +212,16 @@ struct StudyMarkers::Outlet {
     void* outlet = nullptr;
 
     template <class Function>
-    bool find(Function& function, const char* name) {
+    bool resolve(Function& function, const char* name) {
         function = reinterpret_cast<Function>(library.getFunction(name));
         return function != nullptr;
     }
     bool load() {
-        for (const auto& name : libraryNames())
+        for (const auto& name : lslLibraryNames())
             if (library.open(name)) break;
-        return find(createInfo, "lsl_create_streaminfo") && find(createOutlet, "lsl_create_outlet") &&
-               find(pushText, "lsl_push_sample_strt") && find(clock, "lsl_local_clock") &&
-               find(destroyOutlet, "lsl_destroy_outlet") && find(destroyInfo, "lsl_destroy_streaminfo");
+        return resolve(createInfo, "lsl_create_streaminfo") && resolve(createOutlet, "lsl_create_outlet") &&
+               resolve(pushText, "lsl_push_sample_strt") && resolve(clock, "lsl_local_clock") &&
+               resolve(destroyOutlet, "lsl_destroy_outlet") && resolve(destroyInfo, "lsl_destroy_streaminfo");
     }
     ~Outlet() {
         if (outlet != nullptr) destroyOutlet(outlet);
@@ -227,91 +233,93 @@ StudyMarkers::StudyMarkers(const std::string& protocol) {
     auto outlet = std::make_unique<Outlet>();
     if (!outlet->load()) return;
     const std::string name = "physvib-" + protocol;
-    outlet->info = outlet->createInfo(name.c_str(), "Markers", 1, noRate, textFormat, name.c_str());
-    if (outlet->info != nullptr) outlet->outlet = outlet->createOutlet(outlet->info, 0, keptSeconds);
+    outlet->info = outlet->createInfo(name.c_str(), "Markers", 1, irregularRateHz, textFormat, name.c_str());
+    if (outlet->info != nullptr) outlet->outlet = outlet->createOutlet(outlet->info, 0, bufferSeconds);
     if (outlet->outlet != nullptr) outlet_ = std::move(outlet);
 }
 
 StudyMarkers::~StudyMarkers() = default;
 
-void StudyMarkers::push(const std::string& words, double secondsFromNow) {
+void StudyMarkers::push(const std::string& marker, double secondsFromNow) {
     if (!isOpen()) return;
-    const std::string line = cleanLine(words);
+    const std::string line = cleanLine(marker);
     const char* text = line.c_str();
     outlet_->pushText(outlet_->outlet, &text, outlet_->clock() + secondsFromNow);
 }
 
-std::string StudyWorld::refusal(const MixerModel& model, const FeltWorld& world) {
-    if (const auto beside = model.session().sinks().states(); !beside.empty())
-        return "a world: expected a mixer without the " + beside.front().name +
+std::string StudyWorld::playbackError(const MixerModel& model, const PlayableWorld& world) {
+    if (const auto sinks = model.session().sinks().states(); !sinks.empty())
+        return "a world: expected a mixer without the " + sinks.front().name +
                ", which follows one session only";
-    return tooFew(world.layout.name, world.layout.geometry.count, model.mix().count());
+    return actuatorCountError(world.layout.name, world.layout.geometry.count, model.mix().count());
 }
 
-std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
+std::string StudyWorld::begin(PlayableWorld world, bool isInteractive, const std::filesystem::path& file) {
     finish();
-    if (auto fault = refusal(model_, world); !fault.empty()) return fault;
+    if (auto error = playbackError(model_, world); !error.empty()) return error;
     setup_ = std::move(world.setup);
-    if (hasHands) setup_.scene = sceneForHands(std::move(setup_.scene));
+    if (isInteractive) setup_.scene = sceneForUserInput(std::move(setup_.scene));
     setup_.longestGapSeconds = threadGapSeconds(setup_.stepsPerSecond);
     setup_.log = LogUse::stream;
     setup_.marks = MarkedOnsets::all;
-    seconds_ = hasHands ? 0.0 : world.seconds;
-    feltNs_ = seenNs_ = checkedNs_ = 0;
-    left_.clear();
-    for (const auto& actuator : world.layout.enchanters) left_.push_back({actuator.fullScaleG});
-    course_ = Course::none;
+    seconds_ = isInteractive ? 0.0 : world.seconds;
+    playedNs_ = lastUpdateNs_ = checkedNs_ = 0;
+    outputSums_.clear();
+    for (const auto& actuator : world.layout.actuators) outputSums_.push_back({actuator.fullScaleG});
+    status_ = PlaybackStatus::none;
     stoppedNs_ = -1;
-    fault_.clear();
-    std::error_code none;
+    saveError_.clear();
+    std::error_code ignored;
     const auto folder = file.parent_path();
-    std::filesystem::create_directories(folder, none);
-    if (!isWithin(folder.parent_path(), folder)) return folder.string() + ": " + leadsElsewhere;
+    std::filesystem::create_directories(folder, ignored);
+    if (!isWithin(folder.parent_path(), folder)) return folder.string() + ": " + linkLeadsElsewhere;
     session_ = std::make_unique<Session>(setup_);
-    model_.exposure().use(world.layout);
-    model_.output().expect(0, std::llround(1e9 * seconds_));
+    model_.exposure().setLayout(world.layout);
+    model_.output().alignBinsTo(0, std::llround(1e9 * seconds_));
     if (!model_.output().playInstead(session_.get())) return session_.reset(), "expected a device that plays";
-    number_ = model_.output().playedSession();
+    sessionNumber_ = model_.output().playedSession();
     sendStrips();
     journal_ = std::make_unique<SessionJournal>(
         file, *session_, setup_,
         Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
-    if (auto fault = journal_->error(); !fault.empty()) return finish(), fault;
-    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts its time
-    course_ = Course::plays;
+    if (auto error = journal_->error(); !error.empty()) return finish(), error;
+    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts the time
+    status_ = PlaybackStatus::playing;
     return {};
 }
 
-/// The world is lost as soon as one actuator of its layout missed a frame.
-void StudyWorld::askReceipts(std::int64_t untilNs) {
-    if (!model_.output().isPlaying()) course_ = Course::lost;
-    if (course_ != Course::plays || untilNs <= checkedNs_) return;
-    const std::int64_t setNs = std::llround(1e9 * seconds_), afterNs = untilNs;
-    const bool isMeasured = setNs == 0 || checkedNs_ < setNs;
-    if (isMeasured && setNs > 0) untilNs = std::min(untilNs, setNs);
-    auto left = left_;
+/// Adds the receipts from checkedNs_ to `untilNs` to the sums of the level, at most up to the nominal
+/// duration. The world is incomplete as soon as an actuator of its layout missed a frame.
+void StudyWorld::readReceipts(std::int64_t untilNs) {
+    if (!model_.output().isPlaying()) status_ = PlaybackStatus::incomplete;
+    if (status_ != PlaybackStatus::playing || untilNs <= checkedNs_) return;
+    const std::int64_t nominalNs = std::llround(1e9 * seconds_), requestedNs = untilNs;
+    const bool isMeasured = nominalNs == 0 || checkedNs_ < nominalNs;
+    if (isMeasured && nominalNs > 0) untilNs = std::min(untilNs, nominalNs);
+    auto sums = outputSums_;
     std::int64_t endNs = untilNs;
-    for (std::size_t j = 0; j < left.size(); ++j) {
-        const Receipt receipt = model_.output().left(checkedNs_, untilNs, static_cast<int>(j), number_);
+    for (std::size_t j = 0; j < sums.size(); ++j) {
+        const Receipt receipt =
+            model_.output().receiptFor(checkedNs_, untilNs, static_cast<int>(j), sessionNumber_);
         if (!receipt.isOver) return; // the last block has no receipt yet
-        if (!receipt.isRunning) course_ = Course::lost;
-        endNs = receipt.endNs; // no bin is added twice
+        if (!receipt.isRunning) status_ = PlaybackStatus::incomplete;
+        endNs = receipt.endNs; // the next span begins there, so that no frame counts twice
         if (!isMeasured) continue;
-        left[j].peak = std::max(left[j].peak, receipt.peak);
-        left[j].squareSeconds +=
+        sums[j].peak = std::max(sums[j].peak, receipt.peak);
+        sums[j].squareSeconds +=
             receipt.meanSquare * static_cast<double>(receipt.frames) / model_.output().sampleRateHz();
     }
-    left_ = std::move(left);
-    checkedNs_ = std::max(endNs, untilNs); // a lost one may end before
-    askReceipts(afterNs);
+    outputSums_ = std::move(sums);
+    checkedNs_ = std::max(endNs, untilNs); // the last frame of a lost span is earlier
+    readReceipts(requestedNs);
 }
 
-FeltLevel StudyWorld::felt() const {
-    const double seconds = std::max(1e-3, seconds_ > 0.0 ? seconds_ : feltSeconds());
-    FeltLevel level;
-    for (const Left& one : left_) {
-        level.peakG = std::max(level.peakG, one.peak * one.fullScaleG);
-        level.rmsG = std::max(level.rmsG, std::sqrt(one.squareSeconds / seconds) * one.fullScaleG);
+PlayedLevel StudyWorld::level() const {
+    const double seconds = std::max(1e-3, seconds_ > 0.0 ? seconds_ : playedSeconds());
+    PlayedLevel level;
+    for (const OutputSums& output : outputSums_) {
+        level.peakG = std::max(level.peakG, output.peak * output.fullScaleG);
+        level.rmsG = std::max(level.rmsG, std::sqrt(output.squareSeconds / seconds) * output.fullScaleG);
     }
     return level;
 }
@@ -320,64 +328,66 @@ void StudyWorld::sendStrips() {
     auto strips = model_.mix().strips;
     strips.resize(static_cast<std::size_t>(setup_.channels));
     for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
-    std::array<SentStrip, limits::maxEnchanters> sent{};
+    std::array<SentStrip, limits::maxActuators> sent{};
     physvib::sendStrips(sent, strips, [this](const RenderControl& control) {
         return session_->submit({control}).error.empty();
     });
 }
 
-void StudyWorld::end() {
+void StudyWorld::stop() {
     if (!isMoving()) return;
     session_->world().setSlowness(0);
-    // queue full: the world continues, and end() is called again by the next look()
+    // if the queue is full, the world continues, and the next update() calls stop() again
     if (const auto stopped = session_->submit({RenderControl{.kind = Kind::stopAll}}))
         stoppedNs_ = stopped.value;
 }
 
-std::string StudyWorld::act(const Action& action) {
+std::string StudyWorld::applyInput(const Action& action) {
     return isMoving() ? session_->submit({action}).error : std::string{};
 }
 
-WorldMoment StudyWorld::look() {
-    WorldMoment moment;
-    if (!session_) return moment;
+WorldFrame StudyWorld::update() {
+    WorldFrame frame;
+    if (!session_) return frame;
     for (PlayedEvent played; session_->played().pop(played);)
-        journal_->played(played, session_->timeline().sampleRateHz());
-    moment.sessionNs = session_->world().readPoses(moment.poses);
-    moment.aheadNs = session_->timeline().outputLatencyFrames() * 1'000'000'000 /
-                     std::max(1, model_.output().sampleRateHz());
-    const std::int64_t now = session_->status().sessionNs, felt = session_->timeline().nextFeltNs();
-    if (felt >= checkedNs_ + askedNs || !model_.output().isPlaying()) askReceipts(felt);
-    if (model_.isSilent() && seconds_ > 0.0 && isMoving()) course_ = Course::lost; // to be repeated
-    if (course_ == Course::lost) return finish(), moment; // a stopped device plays no fade-out
+        journal_->onPlayed(played, session_->timeline().sampleRateHz());
+    frame.sessionNs = session_->world().readPoses(frame.poses);
+    frame.aheadNs = session_->timeline().outputLatencyFrames() * 1'000'000'000 /
+                    std::max(1, model_.output().sampleRateHz());
+    const std::int64_t now = session_->status().sessionNs, outputNs = session_->timeline().nextOutputNs();
+    if (outputNs >= checkedNs_ + receiptIntervalNs || !model_.output().isPlaying()) readReceipts(outputNs);
+    if (model_.isSilent() && seconds_ > 0.0 && isMoving())
+        status_ = PlaybackStatus::incomplete;                          // the trial repeats it
+    if (status_ == PlaybackStatus::incomplete) return finish(), frame; // a stopped device plays no fade-out
     if (isMoving()) {
         session_->world().setSlowness(model_.isSilent() ? 0 : 1); // a world pauses while silent
         if (!model_.isSilent())
-            feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
-        if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (felt >= stoppedNs_ + fadeNs) { // the latency may have grown
-        askReceipts(stoppedNs_);
-        if (course_ == Course::plays) course_ = Course::left;
+            playedNs_ =
+                std::min(playedNs_ + now - lastUpdateNs_, std::max<std::int64_t>(0, now - frame.aheadNs));
+        if (seconds_ > 0.0 && playedSeconds() >= seconds_) stop();
+    } else if (outputNs >= stoppedNs_ + fadeNs) { // the latency may have grown
+        readReceipts(stoppedNs_);
+        if (status_ == PlaybackStatus::playing) status_ = PlaybackStatus::complete;
         finish();
     }
-    seenNs_ = now;
-    return moment;
+    lastUpdateNs_ = now;
+    return frame;
 }
 
 void StudyWorld::finish() {
     if (!session_) return;
-    if (course_ == Course::plays) course_ = Course::none;
+    if (status_ == PlaybackStatus::playing) status_ = PlaybackStatus::none;
     model_.output().playInstead(nullptr);
     driver_.reset();
-    session_->advance(); // simulates up to the end of time, from which a later render would continue
-    // Impacts of the last step are known one step later, which does not exist here. A render that ended at
+    session_->advance(); // simulates up to the time at which a later render would continue
+    // Impacts of the last step are known after the next step, which is not made here. A render that ended at
     // the pause would include them.
     const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
         for (PlayedEvent played; session_->played().pop(played);)
-            journal_->played(played, session_->timeline().sampleRateHz());
+            journal_->onPlayed(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
-        fault_ = journal_->finish(SessionJournal::quickBytes); // limited, because the window waits
+        saveError_ = journal_->finish(SessionJournal::maxQuickBytes); // limited, because the window waits
     }
     journal_.reset();
     session_.reset();
@@ -387,22 +397,24 @@ StudyWorldPane::StudyWorldPane(MixerModel& model)
     : model_{model}
     , world_{model} {
     setTitle("World of the trial");
-    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
-        if (hasHands_)
-            act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
+    view_.onFling = [this](const std::string& body, Vector screenMetres, Vector point) {
+        if (isInteractive_)
+            applyInput(
+                ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
     };
-    tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
-    view_.setMargin(8);        // there are no badges here
+    tilt_.onValueChange = [this] { applyInput(TiltAction{tilt_.angleRadians()}); };
+    view_.setMargin(8);        // pixels; there are no badges of actuators here
     view_.showMaterials(true); // materials are visible, as participants form expectations by them
     addAndMakeVisible(view_);
     addChildComponent(tilt_);
 }
 
-void StudyWorldPane::act(const Action& action) {
-    if (const auto fault = world_.act(action); !fault.empty() && onFault) onFault(fault);
+void StudyWorldPane::applyInput(const Action& action) {
+    if (const auto error = world_.applyInput(action); !error.empty() && onError) onError(error);
 }
 
-std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
+std::string StudyWorldPane::begin(PlayableWorld world, bool isInteractive,
+                                  const std::filesystem::path& file) {
     preview(world.setup.scene);
     if (!view_.fits()) {
         const auto millimetres = [this](double metres) { return fixedNumber(1e3 * metres / worldScale_, 0); };
@@ -411,9 +423,9 @@ std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::fil
                millimetres(scene.fieldWidthMetres) + " x " + millimetres(scene.fieldHeightMetres) +
                " mm at 1:" + numberText(worldScale_);
     }
-    if (auto fault = world_.begin(std::move(world), hasHands, file); !fault.empty()) return fault;
-    hasHands_ = hasHands;
-    tilt_.setVisible(hasHands);
+    if (auto error = world_.begin(std::move(world), isInteractive, file); !error.empty()) return error;
+    isInteractive_ = isInteractive;
+    tilt_.setVisible(isInteractive);
     tilt_.setValue(0.0, juce::dontSendNotification);
     preview(world_.scene());
     return {};
@@ -426,7 +438,7 @@ void StudyWorldPane::preview(const Scene& scene) {
 }
 
 void StudyWorldPane::refresh() {
-    if (auto moment = world_.look(); !moment.poses.empty()) view_.update(std::move(moment));
+    if (auto frame = world_.update(); !frame.poses.empty()) view_.update(std::move(frame));
 }
 
 void StudyWorldPane::resized() {

@@ -8,15 +8,15 @@
 namespace physvib {
 namespace {
 
-constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
-                               "UnDotum"}; // typefaces known to be legible
+constexpr std::array preferredTypefaces{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
+                                        "UnDotum"}; // typefaces known to be legible
 
 #if JUCE_MAJOR_VERSION >= 8
 auto lettersIn(juce::Typeface& typeface) {
     return [&](juce::juce_wchar letter) { return typeface.getNominalGlyphForCodepoint(letter).has_value(); };
 }
 #else
-constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
+constexpr juce::juce_wchar nonCharacter = 0xfffe; // a non-character of Unicode
 
 juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     juce::Array<int> glyphs;
@@ -28,19 +28,19 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
 }
 
 auto lettersIn(juce::Typeface& typeface) {
-    return [&, box = outlineOf(typeface, nobodys)](juce::juce_wchar letter) {
+    return [&, box = outlineOf(typeface, nonCharacter)](juce::juce_wchar letter) {
         return outlineOf(typeface, letter) != box;
     };
 }
 #endif
 
 /// The typeface in use for all text; empty: the default.
-juce::String& inUse() {
+juce::String& currentTypeface() {
     static juce::String name;
     return name;
 }
 
-juce::String lettersOf(const Words& words) {
+juce::String lettersOf(const Translation& words) {
     std::set<juce::juce_wchar> letters;
     for (const auto& [english, text] : words.texts)
         for (const auto letter : juce::String::fromUTF8(text.c_str()))
@@ -57,19 +57,19 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters) {
     if (typeface.isNotEmpty()) font.setTypefaceName(typeface);
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
-    const auto has = lettersIn(*face);
+    const auto hasLetter = lettersIn(*face);
     for (const auto letter : letters)
-        if (!has(letter)) return false;
+        if (!hasLetter(letter)) return false;
     return true;
 }
 
-std::optional<juce::String> typefaceFor(const Words& words) { return typefaceFor(lettersOf(words)); }
+std::optional<juce::String> typefaceFor(const Translation& words) { return typefaceFor(lettersOf(words)); }
 
 std::optional<juce::String> typefaceFor(const juce::String& letters) {
     if (hasLetters({}, letters)) return juce::String{};
     const auto installed = juce::Font::findAllTypefaceNames();
     juce::StringArray names;
-    for (const char* name : preferred)
+    for (const char* name : preferredTypefaces)
         if (installed.contains(name)) names.add(name);
     names.addArray(installed);
     for (const auto& name : names)
@@ -77,28 +77,28 @@ std::optional<juce::String> typefaceFor(const juce::String& letters) {
     return {};
 }
 
-StudyFont::StudyFont(const juce::String& typeface)
-    : before_{inUse()} {
-    use(typeface);
+TypefaceOverride::TypefaceOverride(const juce::String& typeface)
+    : previous_{currentTypeface()} {
+    apply(typeface);
 }
 
-void StudyFont::use(const juce::String& typeface) {
-    inUse() = typeface;
+void TypefaceOverride::apply(const juce::String& typeface) {
+    currentTypeface() = typeface;
     juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(typeface);
     juce::Typeface::clearTypefaceCache();
 }
 
-bool ShownLetters::show(const juce::String& words) {
-    juce::String fresh;
+bool DisplayTypeface::ensureLetters(const juce::String& words) {
+    juce::String added;
     for (const auto letter : words)
-        if (letter > 0x7f && !letters_.containsChar(letter) && !fresh.containsChar(letter)) fresh += letter;
-    if (fresh.isEmpty()) return false;
-    letters_ += fresh;
-    if (hasLetters({}, fresh)) return false;
+        if (letter > 0x7f && !letters_.containsChar(letter) && !added.containsChar(letter)) added += letter;
+    if (added.isEmpty()) return false;
+    letters_ += added;
+    if (hasLetters({}, added)) return false;
     const auto typeface = typefaceFor(letters_);
     if (!typeface) return false; // not installed: JUCE draws boxes
     font_.reset();               // only one may exist
-    font_ = std::make_unique<StudyFont>(*typeface);
+    font_ = std::make_unique<TypefaceOverride>(*typeface);
     return true;
 }
 

@@ -2,7 +2,7 @@
 // Selects a typeface with the letters of a language, because JUCE draws boxes for missing letters instead of
 // substituting another typeface.
 #pragma once
-#include "Lab/Files/Words.h"
+#include "Lab/Files/Translation.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <memory>
 #include <optional>
@@ -14,33 +14,31 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters);
 
 /// A typeface for all texts of a translation: the default if possible, else an installed one; nullopt if
 /// there is none. Message thread.
-std::optional<juce::String> typefaceFor(const Words& words);
-std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same for given letters
+std::optional<juce::String> typefaceFor(const Translation& words);
+std::optional<juce::String> typefaceFor(const juce::String& letters); ///< for these letters
 
 /// Uses that typeface for all text during its lifetime, then restores the previous one. Message thread.
-class StudyFont {
+class TypefaceOverride {
 public:
-    explicit StudyFont(const juce::String& typeface);
-    ~StudyFont() { use(before_); }
-    StudyFont(const StudyFont&) = delete;
-    StudyFont& operator=(const StudyFont&) = delete;
+    explicit TypefaceOverride(const juce::String& typeface);
+    ~TypefaceOverride() { apply(previous_); }
+    TypefaceOverride(const TypefaceOverride&) = delete;
+    TypefaceOverride& operator=(const TypefaceOverride&) = delete;
 
 private:
-    static void use(const juce::String& typeface);
-    juce::String before_;
+    static void apply(const juce::String& typeface);
+    juce::String previous_;
 };
 
-/// Selects a typeface for letters of other scripts, because JUCE draws boxes for letters that its typeface
-/// lacks.
-/// Uses an installed typeface with all displayed letters, if there is one. Message thread.
-class ShownLetters {
+/// Selects an installed typeface with all letters displayed so far, if there is one. Message thread.
+class DisplayTypeface {
 public:
     /// True if the typeface changed, so that everything must be redrawn. Cheap if there is no new letter.
-    bool show(const juce::String& words);
+    bool ensureLetters(const juce::String& words);
 
 private:
     juce::String letters_; // non-ASCII letters, each once
-    std::unique_ptr<StudyFont> font_;
+    std::unique_ptr<TypefaceOverride> font_;
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that the mixer keeps between runs: settings, recent documents, and recovery copies of the session.
+// Files that the mixer keeps between runs: settings, recent documents and recovery copies of sessions.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Mixer/Model/MixerModel.h"
@@ -18,18 +18,18 @@ public:
     ~RecoveryCopies();
 
     /// Copies of ended runs, newest first; they may be unreadable.
-    std::vector<std::filesystem::path> leftBehind() const;
+    std::vector<std::filesystem::path> abandonedCopies() const;
 
     /// The session of a copy, or one line that names the copy and the error.
     static Result<SavedSession> read(const std::filesystem::path& copy);
 
     /// Writes this run's copy to disk, then removes those that it replaces. Empty, or why it cannot be
     /// written.
-    std::string keep(std::string_view session);
-    /// This run replaces that copy.
-    void goOnFrom(const std::filesystem::path& copy) { before_.push_back(copy); }
+    std::string write(std::string_view session);
+    /// Takes over that copy: the next write() replaces it.
+    void adopt(const std::filesystem::path& copy) { adopted_.push_back(copy); }
     /// Removes this run's copy and those that it replaces, after the session was saved or discarded.
-    void forget();
+    void discardOwn();
 
     /// Discards a copy on the user's request. Empty, or why it still exists.
     static std::string remove(const std::filesystem::path& copy);
@@ -37,12 +37,12 @@ public:
 private:
     void lock();
 
-    std::filesystem::path folder_, own_;
-    std::vector<std::filesystem::path> before_;
+    std::filesystem::path folder_, ownCopy_;
+    std::vector<std::filesystem::path> adopted_;
     SystemFile lock_;
 };
 
-/// $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
+/// The default settings folder: $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
 juce::File mixerFolder();
 
 /// The settings folder of the mixer. Message thread.
@@ -52,35 +52,35 @@ public:
     ~MixerFiles();
 
     juce::PropertiesFile& settings() noexcept { return settings_; }
-    const std::string& settingsFault() const noexcept { return fault_; } ///< why they were reset
-    juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
+    const std::string& settingsError() const noexcept { return settingsError_; } ///< why they were reset
+    juce::RecentlyOpenedFilesList& recentFiles() noexcept { return recentFiles_; }
     void addRecent(const juce::File& file);
 
     /// Level limits for opened files if there is no mixer state yet: those of the last run, else of
-    /// firstMix(). Stored between runs.
-    DeskLimits limits() const;
-    void setLimits(const DeskLimits& limits) {
-        settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str()));
+    /// defaultMix(). Stored between runs.
+    MixerLimits limits() const;
+    void setLimits(const MixerLimits& limits) {
+        settings_.setValue(limitsSetting, juce::String::fromUTF8(mixerLimitsText(limits).c_str()));
     }
 
-    /// The session `text` was saved here while `output` was in use, so its levels are the user's own.
-    void addOwn(std::string_view text, const std::string& output);
-    /// Whether the file is as it was saved by addOwn(), for that output.
-    bool isOwn(const juce::File& file, const std::string& output) const;
+    /// Stores that the session `text` was saved while `output` was in use: its levels are the user's own.
+    void addOwnSession(std::string_view text, const std::string& output);
+    /// Whether the file is as it was saved by addOwnSession(), for that output.
+    bool isOwnSession(const juce::File& file, const std::string& output) const;
 
     /// Vibration exposure from this mixer today, in g^2 s, weighted. Stored between runs, even after a crash.
     double exposureToday() const;
-    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
+    void setExposureToday(double squareGSeconds, bool isLast = false); ///< rate-limited unless `isLast`
 
     /// Folder of the user's scenes.
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }
-    juce::Array<juce::File> ownScenes() const;
+    juce::Array<juce::File> ownScenes() const; ///< its files, sorted by name
 
     RecoveryCopies& copies() noexcept { return copies_; }
     /// Writes this run's recovery copy if there are changes, at a limited rate. Empty, or why it cannot be
     /// written.
-    std::optional<std::string> keep(MixerModel& model, bool isChanged);
-    std::string keepNow(MixerModel& model);
+    std::optional<std::string> writeCopyIfDue(MixerModel& model, bool hasUnsavedChanges);
+    std::string writeCopyNow(MixerModel& model);
 
 private:
     static constexpr const char *limitsSetting = "desk", *exposureSetting = "exposure",
@@ -88,11 +88,11 @@ private:
 
     juce::File folder_;
     RecoveryCopies copies_;
-    std::string fault_;
+    std::string settingsError_;
     juce::PropertiesFile settings_;
-    juce::RecentlyOpenedFilesList recent_;
-    std::uint64_t keptEdits_ = 0;
-    double keptAtMs_ = 0.0, exposureAtMs_ = 0.0;
+    juce::RecentlyOpenedFilesList recentFiles_;
+    std::uint64_t copiedEditCount_ = 0;
+    double copiedAtMs_ = 0.0, exposureAtMs_ = 0.0;
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The panels, keyboard handling, and display updates.
+// Creates the tabs, arranges panels, cards and messages, handles keys, and updates the display.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/EventsTab.h"
@@ -12,9 +12,9 @@
 namespace physvib {
 namespace {
 
-constexpr int dismissWidth = 90, edge = 4;
+constexpr int dismissWidth = 90, panelMargin = 4;
 
-/// A tab beside the world, or else below it.
+/// A tab beside or below the world, and the function that creates it.
 struct TabEntry {
     bool isBesideWorld;
     const char* name;
@@ -31,33 +31,34 @@ std::unique_ptr<Tab> make(MixerModel& model, WorldView& world) {
 
 // All tabs, in their order.
 constexpr TabEntry tabEntries[]{
-    {true, "Actuators", make<EnchantersTab>}, {true, "Materials", make<MaterialsTab>},
-    {true, "Output", make<OutputTab>},        {true, "Studies", make<StudiesTab>},
-    {false, "Played now", make<ScopeView>},   {false, "Gain lanes", make<LanesTab>},
-    {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
+    {true, "Actuators", make<ActuatorsTab>}, {true, "Materials", make<MaterialsTab>},
+    {true, "Output", make<OutputTab>},       {true, "Studies", make<StudiesTab>},
+    {false, "Played now", make<ScopeView>},  {false, "Gain lanes", make<LanesTab>},
+    {false, "Events", make<EventsTab>},      {false, "Takes", make<TakesTab>},
     {false, "Telemetry", make<TelemetryTab>}};
 
-/// Fades in a component at its present place.
-void comeIn(juce::Component& c) {
-    constexpr int ms = 120;
-    if (c.isShowing()) juce::Desktop::getInstance().getAnimator().fadeIn(&c, ms);
+/// Fades in a component at its current place.
+void fadeIn(juce::Component& c) {
+    constexpr int fadeMs = 120;
+    if (c.isShowing()) juce::Desktop::getInstance().getAnimator().fadeIn(&c, fadeMs);
 }
 
-/// Gives typed text the colour of the theme; JUCE keeps the one that it was typed in.
-void inkTexts(juce::Component& in) {
-    if (auto* const editor = dynamic_cast<juce::TextEditor*>(&in))
-        editor->applyColourToAllText(shade(in, Shade::text));
-    for (auto* child : in.getChildren()) inkTexts(*child);
+/// Gives typed text the colour of the theme; JUCE would keep the colour in which it was typed.
+void recolourTexts(juce::Component& parent) {
+    if (auto* const editor = dynamic_cast<juce::TextEditor*>(&parent))
+        editor->applyColourToAllText(shade(parent, Shade::text));
+    for (auto* child : parent.getChildren()) recolourTexts(*child);
 }
 
 /// Shortens paths at their beginning until each fits into a line of `room` pixels.
-juce::String fittingWords(const juce::String& words, const juce::Font& font, int room) {
+juce::String shortenedPaths(const juce::String& words, const juce::Font& font, int room) {
     auto all = juce::StringArray::fromTokens(words, " ", {});
     for (auto& word : all)
-        while (room > 40 && text::pixels(font, word) > room) {
-            const auto rest = word.trimCharactersAtStart(dots() + "/");
-            word = dots() + (rest.containsChar('/') ? rest.fromFirstOccurrenceOf("/", true, false)
-                                                    : rest.substring(1));
+        while (room > 40 && text::pixelWidth(font, word) > room) {
+            const auto remainder = word.trimCharactersAtStart(ellipsis() + "/");
+            word =
+                ellipsis() + (remainder.containsChar('/') ? remainder.fromFirstOccurrenceOf("/", true, false)
+                                                          : remainder.substring(1));
         }
     return all.joinIntoString(" ");
 }
@@ -79,13 +80,13 @@ MixerView::MixerView(MixerModel& model)
     tabs_.onOpen = [this](bool isOpen) { setPanels({isOpen, panels().hasLower}); };
     scope_.onOpen = [this](bool isOpen) { setPanels({panels().hasDrawer, isOpen}); };
     bar_.onMode = [this] { setMode(mode_ == Mode::play ? Mode::engineer : Mode::play); };
-    world_.onOutput = [this](int enchanter) {
+    world_.onOutput = [this](int actuator) {
         setPanels({panels().hasDrawer, true});
-        strips_.showOutputs(enchanter);
+        strips_.showOutputs(actuator);
     };
-    world_.onProfile = [this](int enchanter) {
+    world_.onProfile = [this](int actuator) {
         tabs_.choose("Actuators");
-        tabs_.find<EnchantersTab>()->editRow(enchanter);
+        tabs_.find<ActuatorsTab>()->editRow(actuator);
     };
     world_.onMaterial = [this](int material, bool isRecording) {
         tabs_.choose("Materials");
@@ -93,27 +94,32 @@ MixerView::MixerView(MixerModel& model)
         tab.choose(material);
         if (isRecording) tab.browse();
     };
-    trouble_.setTitle("Trouble");
-    trouble_.setFont(text::font(text::medium));
-    dismiss_ = quietButton("Dismiss", "Dismiss the message");
+    messageLabel_.setTitle("Trouble");
+    messageLabel_.setFont(text::font(text::medium));
+    dismiss_ = makeLinkButton("Dismiss", "Dismiss the message");
     dismiss_->onClick = [this] { model_.report({}); };
-    act_ = quietButton({}, "Act on the message");
-    act_->onClick = [this] {
-        const auto act = model_.messages().shown().act.run;
+    action_ = makeLinkButton({}, "Act on the message");
+    action_->onClick = [this] {
+        const auto run = model_.messages().current().action.run;
         model_.report({});
-        if (act) act();
+        if (run) run();
     };
-    addAll(*this, {&world_, &tabs_, &scope_, &strips_, &side_, &lower_, &between_, &bar_});
-    side_.onMove = [this](int by) { moveDivider(&Dividers::side, -by, getWidth(), tabs_.getWidth()); };
-    lower_.onMove = [this](int by) { moveDivider(&Dividers::lower, -by, getHeight(), scope_.getHeight()); };
-    between_.onMove = [this](int by) { moveDivider(&Dividers::strips, -by, getWidth(), strips_.getWidth()); };
-    for (const auto& [divider, which] :
-         {std::pair{&side_, &Dividers::side}, {&lower_, &Dividers::lower}, {&between_, &Dividers::strips}})
-        divider->onReset = [this, which = which] {
-            dividers_.*which = 0.0;
+    addAll(*this, {&world_, &tabs_, &scope_, &strips_, &sideDivider_, &lowerDivider_, &scopeDivider_, &bar_});
+    sideDivider_.onMove = [this](int by) { moveDivider(&Dividers::side, -by, getWidth(), tabs_.getWidth()); };
+    lowerDivider_.onMove = [this](int by) {
+        moveDivider(&Dividers::lower, -by, getHeight(), scope_.getHeight());
+    };
+    scopeDivider_.onMove = [this](int by) {
+        moveDivider(&Dividers::strips, -by, getWidth(), strips_.getWidth());
+    };
+    for (const auto& [divider, share] : {std::pair{&sideDivider_, &Dividers::side},
+                                         {&lowerDivider_, &Dividers::lower},
+                                         {&scopeDivider_, &Dividers::strips}})
+        divider->onReset = [this, share = share] {
+            dividers_.*share = 0.0;
             resized();
         };
-    addHidden(*this, {&curtain_, &trouble_, dismiss_.get(), act_.get()});
+    addHidden(*this, {&overlay_, &messageLabel_, dismiss_.get(), action_.get()});
     prepareControls(*this);
     model_.addChangeListener(this);
     addMouseListener(this, true);
@@ -130,47 +136,47 @@ MixerView::~MixerView() {
 
 void MixerView::setTheme(Theme theme) {
     look_.setTheme(theme);
-    inkTexts(*this);
+    recolourTexts(*this);
     sendLookAndFeelChange();
     mixChanged();
     repaint();
 }
 
 void MixerView::mixChanged() {
-    restedLooks_ = 0;
+    idleUpdates_ = 0;
     if (isTimerRunning() && getTimerInterval() > 1000 / framesPerSecond) startTimerHz(framesPerSecond);
     bar_.mixChanged();
-    showLetters();
+    updateTypeface();
     world_.mixChanged();
     tabs_.mixChanged();
     strips_.mixChanged();
     scope_.mixChanged();
-    if (const auto why = whySilent(model_); why != whySilent_) {
-        whySilent_ = why;
-        hintOnLevels(model_, why);
+    if (const auto reason = silenceReason(model_); reason != silenceReason_) {
+        silenceReason_ = reason;
+        hintOnLevels(model_, reason);
     }
-    const bool isTrouble = model_.trouble().isNotEmpty();
-    trouble_.setTooltip(model_.trouble());
-    trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
-    const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
-    trouble_.setColour(juce::Label::backgroundColourId,
-                       shade(*this, Shade::panel).interpolatedWith(tint, 0.17f));
-    const auto& act = model_.messages().shown().act.name;
-    act_->setButtonText(act);
-    act_->setTitle(act);
-    act_->setTooltip(act);
-    act_->setVisible(act.isNotEmpty());
-    const bool comes = isTrouble && !trouble_.isVisible();
-    trouble_.setVisible(isTrouble);
-    dismiss_->setVisible(isTrouble);
-    resized(); // the strips or the field may want another share
-    if (comes) comeIn(trouble_);
+    const bool hasMessage = model_.messageText().isNotEmpty();
+    messageLabel_.setTooltip(model_.messageText());
+    messageLabel_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
+    const auto tint = shade(*this, model_.isInfo() ? Shade::accent : Shade::limit);
+    messageLabel_.setColour(juce::Label::backgroundColourId,
+                            shade(*this, Shade::panel).interpolatedWith(tint, 0.17f));
+    const auto& action = model_.messages().current().action.name;
+    action_->setButtonText(action);
+    action_->setTitle(action);
+    action_->setTooltip(action);
+    action_->setVisible(action.isNotEmpty());
+    const bool isNew = hasMessage && !messageLabel_.isVisible();
+    messageLabel_.setVisible(hasMessage);
+    dismiss_->setVisible(hasMessage);
+    resized(); // the shares of strips and field may change
+    if (isNew) fadeIn(messageLabel_);
 }
 
-// The handle moves with the panels, so each call starts from their present places.
-void MixerView::moveDivider(double Dividers::*which, int pixels, int whole, int now) {
-    dividers_.*which = static_cast<double>(now + pixels) /
-                       (whole - (which == &Dividers::lower ? bar_.getHeight() : 0) - 2 * edge);
+// The handle moves with the panels, so each call starts from their current places.
+void MixerView::moveDivider(double Dividers::*share, int pixels, int totalPixels, int currentPixels) {
+    dividers_.*share = static_cast<double>(currentPixels + pixels) /
+                       (totalPixels - (share == &Dividers::lower ? bar_.getHeight() : 0) - 2 * panelMargin);
     resized();
 }
 
@@ -179,17 +185,17 @@ void MixerView::setDividers(const Dividers& dividers) {
     resized();
 }
 
-void MixerView::setShow(bool isShow) {
-    isShow_ = isShow;
-    bar_.setShow(isShow);
-    bar_.setAlwaysOnTop(isShow); // no message and no card may cover the button that silences
-    world_.setShow(isShow);
+void MixerView::setShowMode(bool isShowMode) {
+    isShowMode_ = isShowMode;
+    bar_.setShowMode(isShowMode);
+    bar_.setAlwaysOnTop(isShowMode); // no message and no card may cover the button that silences
+    world_.setShowMode(isShowMode);
     showPanels();
 }
 
 void MixerView::setMode(Mode mode) {
     mode_ = mode;
-    bar_.setPlay(mode == Mode::play);
+    bar_.setPlayMode(mode == Mode::play);
     showPanels();
 }
 
@@ -200,12 +206,12 @@ void MixerView::setPanels(const Panels& panels) {
 
 // By default the lower panels are folded where they would leave the field too little room.
 Panels MixerView::panels() const {
-    constexpr int least = 760;
+    constexpr int minHeightForLower = 760;
     const auto& chosen = nth(panels_, mode_);
-    return chosen.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= least});
+    return chosen.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= minHeightForLower});
 }
 
-juce::String MixerView::order() const {
+juce::String MixerView::panelLayout() const {
     juce::String words{mode_ == Mode::play ? "play" : "engineer"};
     for (const auto& panels : panels_)
         words << (!panels
@@ -214,8 +220,8 @@ juce::String MixerView::order() const {
     return words;
 }
 
-void MixerView::setOrder(const juce::String& order) {
-    const auto words = juce::StringArray::fromTokens(order, " ", {});
+void MixerView::setPanelLayout(const juce::String& text) {
+    const auto words = juce::StringArray::fromTokens(text, " ", {});
     for (int k = 0; k < 2; ++k)
         if (words[k + 1].length() == 2)
             nth(panels_, k) = Panels{words[k + 1][0] == '1', words[k + 1][1] == '1'};
@@ -228,117 +234,120 @@ void MixerView::showPanels() {
     const bool isEngineer = mode_ == Mode::engineer;
     tabs_.setFold(hasDrawer ? Fold::none : Fold::column);
     scope_.setFold(hasLower ? Fold::none : Fold::row);
-    world_.setPlay(!isEngineer, !hasLower);
-    for (const auto& [panel, isThere] :
+    world_.setPlayMode(!isEngineer, !hasLower);
+    for (const auto& [panel, isUnfolded] :
          std::initializer_list<std::pair<juce::Component*, bool>>{{&tabs_, hasDrawer || isEngineer},
-                                                                  {&side_, hasDrawer},
+                                                                  {&sideDivider_, hasDrawer},
                                                                   {&scope_, hasLower || isEngineer},
                                                                   {&strips_, hasLower},
-                                                                  {&lower_, hasLower},
-                                                                  {&between_, hasLower}})
-        panel->setVisible(isThere && !isShow_ && screen_ == nullptr);
+                                                                  {&lowerDivider_, hasLower},
+                                                                  {&scopeDivider_, hasLower}})
+        panel->setVisible(isUnfolded && !isShowMode_ && screen_ == nullptr);
     resized();
     repaint();
 }
 
 // Names in files may be in any script, so a typeface with their letters is selected.
-void MixerView::showLetters() {
-    juce::String words = model_.trouble() + juce::String::fromUTF8(model_.output().device().c_str());
-    for (const auto& enchanter : model_.mix().layout.enchanters) words += utf8(enchanter.label);
-    if (std::exchange(lettersOf_, model_.world().edits()) != model_.world().edits()) { // only after changes
+void MixerView::updateTypeface() {
+    juce::String words = model_.messageText() + juce::String::fromUTF8(model_.output().device().c_str());
+    for (const auto& actuator : model_.mix().layout.actuators) words += utf8(actuator.label);
+    if (std::exchange(checkedEditCount_, model_.world().editCount()) != model_.world().editCount()) { // only
+                                                                                                      // after
+        // changes
         const Scene& scene = model_.world().drawing().drawn();
         words += utf8(scene.name);
         for (const auto& body : scene.bodies) words += utf8(body.name);
         for (const auto& material : scene.materials) words += utf8(material.name);
     }
-    if (!letters_.show(words)) return;
+    if (!typeface_.ensureLetters(words)) return;
     sendLookAndFeelChange();
     repaint();
 }
 
-void MixerView::drawCurtain() {
+void MixerView::updateOverlay() {
     const auto* const modal = juce::Component::getCurrentlyModalComponent();
-    curtain_.draw(openCard() != nullptr, modal != nullptr && modal->isOnDesktop());
+    overlay_.update(openCard() != nullptr, modal != nullptr && modal->isOnDesktop());
 }
 
-void MixerView::look() {
-    drawCurtain();
-    latest_ = model_.look();
+void MixerView::updateWorld() {
+    updateOverlay();
+    latest_ = model_.poll();
     for (std::size_t j = 0; j < peaks_.size(); ++j) peaks_[j] = std::max(peaks_[j], latest_.meters.peaks[j]);
     world_.refresh(latest_);
 }
 
 void MixerView::refresh() {
-    look();
+    updateWorld();
     latest_.meters.peaks = std::exchange(peaks_, {});
     bar_.refresh(latest_);
-    tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
+    tabs_.refresh(latest_); // even if folded: studies, takes and lanes go on
     scope_.refresh(latest_);
     strips_.refresh(latest_);
-    if (std::exchange(told_, model_.messages().told()) != told_) newsAtMs_ = nowMs(), seenAtMs_ = 0.0;
-    constexpr double newsMs = 10e3; // it lies over the materials to draw with
-    const bool isOver =
-        model_.isNews() ? nowMs() - newsAtMs_ > newsMs : seenAtMs_ > 0.0 && nowMs() - seenAtMs_ > faultMs;
-    if (isOver && !model_.messages().shown().lasts()) model_.report({});
-    keepPace();
+    if (std::exchange(lastShownCount_, model_.messages().shownCount()) != lastShownCount_)
+        messageAtMs_ = nowMs(), activityAtMs_ = 0.0;
+    constexpr double newsMs = 10e3; // the message covers the materials of the drawing bar
+    const bool hasExpired = model_.isInfo() ? nowMs() - messageAtMs_ > newsMs
+                                            : activityAtMs_ > 0.0 && nowMs() - activityAtMs_ > errorShownMs;
+    if (hasExpired && !model_.messages().current().isPersistent()) model_.report({});
+    adaptFrameRate();
 }
 
-// Errors stay until somebody may have read them: a user who moves the mouse or presses a key.
-void MixerView::attend() {
-    if (seenAtMs_ == 0.0 && trouble_.isVisible() && openCard() == nullptr && screen_ == nullptr)
-        seenAtMs_ = nowMs();
+// Errors stay until a user who may have read them moves the mouse or presses a key.
+void MixerView::recordUserActivity() {
+    if (activityAtMs_ == 0.0 && messageLabel_.isVisible() && openCard() == nullptr && screen_ == nullptr)
+        activityAtMs_ = nowMs();
 }
 
-// Motion needs more pictures than numbers and meters do.
+// The world moves smoothly at 60 Hz; numbers and meters need fewer updates.
 void MixerView::timerCallback() {
-    const bool isSeldom = getTimerInterval() > 1000 / framesPerSecond;
-    isSeldom || ++looks_ % worldsPerPanel == 0 ? refresh() : look();
+    const bool isSlow = getTimerInterval() > 1000 / framesPerSecond;
+    isSlow || ++updates_ % worldUpdatesPerPanelUpdate == 0 ? refresh() : updateWorld();
 }
 
 // Reduces the update rate while nothing moves and nothing plays, or nobody sees it.
-void MixerView::keepPace() {
+void MixerView::adaptFrameRate() {
     const auto& peaks = latest_.meters.peaks;
-    const bool isAtRest = model_.session().world().slowness() == 0 && latest_.hits.empty() &&
-                          std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
-    restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
+    const bool isIdle = model_.session().world().slowness() == 0 && latest_.hits.empty() &&
+                        std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
+    idleUpdates_ = isIdle ? idleUpdates_ + 1 : 0;
     const auto* peer = getPeer();
     const bool isHidden = peer != nullptr && peer->isMinimised(),
-               isSeldom = isHidden || restedLooks_ > 2 * framesPerSecond / worldsPerPanel;
-    const int wanted = 1000 / (isSeldom ? restFramesPerSecond : framesPerSecond);
-    if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
+               isSlow = isHidden || idleUpdates_ > 2 * framesPerSecond / worldUpdatesPerPanelUpdate;
+    const int intervalMs = 1000 / (isSlow ? idleFramesPerSecond : framesPerSecond);
+    if (isTimerRunning() && getTimerInterval() != intervalMs) startTimer(intervalMs);
 }
 
 void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_ = std::move(card);
-    raiseCard();
+    showOpenCard();
 }
 
 void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     card_ = std::move(card);
-    raiseCard();
+    showOpenCard();
 }
 
-// Whether Esc closes a card or menu, or ends a drag, without silencing. It silences as well if anything
-// sounds, or did as long ago as meters hold peaks.
-bool MixerView::onlyCloses() {
+// Whether Esc only closes a card or menu, or ends a drag. It also silences if anything plays, or has played
+// within the time for which meters hold peaks.
+bool MixerView::escapeOnlyCloses() {
     if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr &&
         !world_.isDragging())
         return false;
-    look();
-    return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
+    updateWorld();
+    return model_.isVisualOnly() || std::ranges::all_of(latest_.heldPeaks, [](float h) { return h == 0.0f; });
 }
 
-void MixerView::raiseCard() {
+void MixerView::showOpenCard() {
     auto* const open = openCard();
-    drawCurtain();
+    updateOverlay();
     if (open == nullptr) return grabKeyboardFocus();
-    curtain_.toFront(false);
+    overlay_.toFront(false);
     addAndMakeVisible(*open);
-    inkTexts(*open);
+    recolourTexts(*open);
     open->toFront(false);
     placeCards();
-    comeIn(*open);
-    cardFocus_.give(*open);
+    fadeIn(*open);
+    cardFocus_.focusCard(*open);
 }
 
 void MixerView::setProgress(juce::Component* card) {
@@ -355,51 +364,51 @@ void MixerView::setDropShown(bool isShown) {
 
 bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                                      juce::StringArray& files, bool& canMoveFiles) {
-    if (details.description != EventsTab::dragged) return false;
+    if (details.description != EventsTab::dragDescription) return false;
     canMoveFiles = false;
     files = scope_.find<EventsTab>()->filesToDrag();
     return !files.isEmpty();
 }
 
-// JUCE's buttons take every button of the mouse. One that is not down when it is released does nothing.
-void MixerView::releaseAtRightClick(const juce::MouseEvent& e) {
+// JUCE's buttons react to every mouse button. A button that is released at once ignores the right click.
+void MixerView::releaseButtonAtRightClick(const juce::MouseEvent& e) {
     auto* const button = dynamic_cast<juce::Button*>(e.eventComponent);
     if (button != nullptr && e.mods.isPopupMenu()) button->setState(juce::Button::buttonNormal);
 }
 
 void MixerView::setScreen(juce::Component* screen) {
-    for (auto& child : hidden_)
+    for (auto& child : hiddenByScreen_)
         if (child) child->setVisible(true);
-    hidden_.clear();
+    hiddenByScreen_.clear();
     screen_ = screen;
-    if (screen == nullptr) return showPanels(); // as they have been ordered meanwhile
+    if (screen == nullptr) return showPanels(); // the panels may have changed meanwhile
     for (auto* child : getChildren())
-        if (child->isVisible()) hidden_.emplace_back(child);
+        if (child->isVisible()) hiddenByScreen_.emplace_back(child);
     screen->setBounds(getLocalBounds());
     addAndMakeVisible(*screen);
-    for (auto& child : hidden_)
-        if (child) child->setVisible(false); // the outline of what had the focus goes with it
+    for (auto& child : hiddenByScreen_)
+        if (child) child->setVisible(false); // also hides the focus outline
     if (screen->isShowing()) screen->grabKeyboardFocus();
 }
 
-void MixerView::chooseStudy(const StudyCall& call) {
+void MixerView::chooseStudy(const StudySelection& study) {
     tabs_.choose("Studies");
     auto& tab = *tabs_.find<StudiesTab>();
-    if (call.folder.isNotEmpty())
-        tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
-    if (call.participant.isNotEmpty()) tab.setParticipant(call.participant, std::max(1, call.number));
-    tab.chooseProtocol(call.protocol.toStdString());
+    if (study.folder.isNotEmpty())
+        tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(study.folder));
+    if (study.participant.isNotEmpty()) tab.setParticipant(study.participant, std::max(1, study.number));
+    tab.chooseProtocol(study.protocol.toStdString());
 }
 
 bool MixerView::pauseStudy() {
     auto* const screen = tabs_.find<StudiesTab>()->screen();
-    if (screen != nullptr) screen->closeRequested();
+    if (screen != nullptr) screen->requestClose();
     return screen != nullptr;
 }
 
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    attend();
+    recordUserActivity();
     if (auto* const open = openCard()) { // regardless of the focus, which Tab moves within it
         if (key.isKeyCode(KeyPress::tabKey)) return false;
         if (!open->keyPressed(key) && key == KeyPress::escapeKey) model_.setSilent(true);
@@ -430,55 +439,57 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
 }
 
 void MixerView::resized() {
-    if (panels() != shownPanels_) return showPanels(); // which comes back here
+    if (panels() != shownPanels_) return showPanels(); // which calls resized()
     auto area = getLocalBounds();
-    if (isShow_) {
+    if (isShowMode_) {
         world_.setBounds(area);
         bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
     } else {
         bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
         const auto a =
-            arrange(area.reduced(edge),
-                    {strips_.widthFor(StripView::wholeWidth), strips_.widthFor(StripView::mostWidth)},
+            arrange(area.reduced(panelMargin),
+                    {strips_.widthFor(StripView::fullWidth), strips_.widthFor(StripView::maxWidth)},
                     dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
-             std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
-                                                                                      {&tabs_, a.tabs},
-                                                                                      {&scope_, a.scope},
-                                                                                      {&strips_, a.strips},
-                                                                                      {&side_, a.side},
-                                                                                      {&lower_, a.lower},
-                                                                                      {&between_, a.between}})
+             std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{
+                 {&world_, a.world},
+                 {&tabs_, a.tabs},
+                 {&scope_, a.scope},
+                 {&strips_, a.strips},
+                 {&sideDivider_, a.side},
+                 {&lowerDivider_, a.lower},
+                 {&scopeDivider_, a.between}})
             panel->setBounds(bounds);
     }
-    placeTrouble(world_.bannerArea() + world_.getPosition());
+    layOutMessage(world_.bannerArea() + world_.getPosition());
     placeCards();
 }
 
-// Words and buttons stand side by side; where the words would have no room, the buttons are below them.
-void MixerView::placeTrouble(juce::Rectangle<int> banner) {
-    constexpr int inset = 2, between = 8, leastWords = 240;
-    const auto& font = trouble_.getFont();
-    const int high = banner.getHeight(),
-              actWidth =
-                  act_->isVisible() ? 30 + text::pixels(text::font(text::medium), act_->getButtonText()) : 0,
-              buttonsWidth = dismissWidth - 2 + actWidth;
-    const bool isBelow = banner.getWidth() - buttonsWidth < leastWords;
-    trouble_.setBorderSize({0, panelInset, isBelow ? high : 0, isBelow ? 4 : buttonsWidth + 4});
-    const int room = banner.getWidth() - trouble_.getBorderSize().getLeftAndRight() - 2;
-    trouble_.setText(fittingWords(trouble_.getTooltip(), font, room), quietly);
-    const int wanted =
-        std::max(high, text::high(font, trouble_.getText(), room) + between) + (isBelow ? high : 0);
-    banner = banner.getY() > world_.getBounds().getCentreY() ? banner.withTop(banner.getBottom() - wanted)
-                                                             : banner.withHeight(wanted);
-    trouble_.setBounds(banner);
-    auto buttons = banner.removeFromBottom(isBelow ? high : banner.getHeight()).reduced(inset);
+// Text and buttons are side by side; if the text has too little room, the buttons are below it.
+void MixerView::layOutMessage(juce::Rectangle<int> banner) {
+    constexpr int inset = 2, between = 8, minTextWidth = 240;
+    const auto& font = messageLabel_.getFont();
+    const int line = banner.getHeight(),
+              actionWidth = action_->isVisible()
+                                ? 30 + text::pixelWidth(text::font(text::medium), action_->getButtonText())
+                                : 0,
+              buttonsWidth = dismissWidth - 2 + actionWidth;
+    const bool isBelow = banner.getWidth() - buttonsWidth < minTextWidth;
+    messageLabel_.setBorderSize({0, panelInset, isBelow ? line : 0, isBelow ? 4 : buttonsWidth + 4});
+    const int room = banner.getWidth() - messageLabel_.getBorderSize().getLeftAndRight() - 2;
+    messageLabel_.setText(shortenedPaths(messageLabel_.getTooltip(), font, room), dontNotify);
+    const int height = std::max(line, text::heightInLines(font, messageLabel_.getText(), room) + between) +
+                       (isBelow ? line : 0);
+    banner = banner.getY() > world_.getBounds().getCentreY() ? banner.withTop(banner.getBottom() - height)
+                                                             : banner.withHeight(height);
+    messageLabel_.setBounds(banner);
+    auto buttons = banner.removeFromBottom(isBelow ? line : banner.getHeight()).reduced(inset);
     dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
-    act_->setBounds(buttons.removeFromRight(actWidth));
+    action_->setBounds(buttons.removeFromRight(actionWidth));
 }
 
 void MixerView::placeCards() {
-    curtain_.setBounds(getLocalBounds());
+    overlay_.setBounds(getLocalBounds());
     const auto middle = getLocalBounds().withTrimmedTop(bar_.heightFor(getWidth())).getCentre();
     if (firstStart_) firstStart_->setCentrePosition(middle);
     if (card_) card_->setCentrePosition(middle);
@@ -489,50 +500,52 @@ void MixerView::placeCards() {
 
 namespace {
 
-constexpr double least = 0.05, most = 0.95;
+constexpr double minDivider = 0.05, maxDivider = 0.95;
 
-int between(int lowest, int value, int highest) {
-    return std::max(lowest, std::min(value, highest)); // a small window keeps the lowest
+int clampBetween(int lowest, int value, int highest) {
+    return std::max(lowest, std::min(value, highest)); // in a small window, lowest may exceed highest
 }
 
-int shareOr(double share, int whole, int automatic) {
-    return share > 0.0 ? juce::roundToInt(share * whole) : automatic;
+int dividerPixels(double share, int totalPixels, int automaticPixels) {
+    return share > 0.0 ? juce::roundToInt(share * totalPixels) : automaticPixels;
 }
 
 } // namespace
 
-juce::String Dividers::text() const {
+juce::String Dividers::toText() const {
     return juce::String{side, 4} + " " + juce::String{lower, 4} + " " + juce::String{strips, 4};
 }
 
-Dividers Dividers::of(const juce::String& text) {
+Dividers Dividers::fromText(const juce::String& text) {
     const auto words = juce::StringArray::fromTokens(text, " ", {});
     const auto share = [&](int k) {
         const double value = words[k].getDoubleValue();
-        return value >= least && value <= most ? value : 0.0;
+        return value >= minDivider && value <= maxDivider ? value : 0.0;
     };
     return {share(0), share(1), share(2)};
 }
 
-Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers, Mode mode,
+Arrangement arrange(juce::Rectangle<int> area, const StripWidths& widths, const Dividers& dividers, Mode mode,
                     const Panels& panels) {
     using A = Arrangement;
     Arrangement a;
     const int width = area.getWidth(), height = area.getHeight(),
-              names = mode == Mode::engineer ? TabPanel::folded : 0;
-    const int side = panels.hasDrawer
-                         ? between(A::minSide, shareOr(dividers.side, width, std::min(560, width * 30 / 100)),
-                                   width - A::minSide - A::seam)
-                         : names;
+              names = mode == Mode::engineer ? TabPanel::foldedPixels : 0;
+    const int side =
+        panels.hasDrawer
+            ? clampBetween(A::minSide, dividerPixels(dividers.side, width, std::min(560, width * 30 / 100)),
+                           width - A::minSide - A::seam)
+            : names;
     const int lower =
         panels.hasLower
-            ? between(A::minLower, shareOr(dividers.lower, height, std::min(340, height * 30 / 100)),
-                      height - A::minWorldHeight - A::seam)
+            ? clampBetween(A::minLower,
+                           dividerPixels(dividers.lower, height, std::min(340, height * 30 / 100)),
+                           height - A::minWorldHeight - A::seam)
             : names;
-    const int fair = std::min(std::max(wanted.minStrips, width * 45 / 100), wanted.maxStrips);
-    const int strips =
-        between(A::minStrips, shareOr(dividers.strips, width, std::min(fair, width * 70 / 100)),
-                width - A::minScope - A::seam);
+    const int automaticStrips = std::min(std::max(widths.minStrips, width * 45 / 100), widths.maxStrips);
+    const int strips = clampBetween(
+        A::minStrips, dividerPixels(dividers.strips, width, std::min(automaticStrips, width * 70 / 100)),
+        width - A::minScope - A::seam);
     auto bottom = area.removeFromBottom(lower);
     a.lower = area.removeFromBottom(lower > 0 ? A::seam : 0);
     a.tabs = area.removeFromRight(side);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contents of the mixer's window: a bar that is always visible (scene and time, device status, the silence
-// button), world, tabs, scope and strips.
+// Contents of the mixer's window (MixerView): a bar that is always visible (TopBar: scene and time, device
+// status, the silence button), world, tabs, scope and strips, and the arrangement of these panels.
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
@@ -14,59 +14,64 @@ class TopBar final : public juce::Component {
 public:
     explicit TopBar(MixerModel& model);
 
-    void refresh(const MixerMoment& moment);
+    void refresh(const MixerSnapshot& snapshot);
     void mixChanged(); ///< the mixer state changed
     void togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
 
     std::function<void(juce::Component& from)> onMenu = [](juce::Component&) {};
     std::function<void()> onRecord = [] {}, onSave = [] {}, onOpenScene = [] {}, onDevice = [] {};
     std::function<void(const juce::File&)> onOwnScene = [](const juce::File&) {};
-    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
-    void setRecording(bool isRecording);                     ///< counts its seconds
+    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed after the built-in ones
+    void setRecording(bool isRecording);                     ///< shows the seconds of a recording
     void setDocument(const juce::String& name) { save_.setTooltip("Save " + name + " (Ctrl+S)"); }
-    /// Only the button that silences is left.
-    void setShow(bool isShow);
+    /// Shows only the button that silences.
+    void setShowMode(bool isShowMode);
     /// Hides the controls of the engineer mode.
-    void setPlay(bool isPlay);
-    std::function<void()> onMode = [] {}; ///< the other mode is wanted
+    void setPlayMode(bool isPlayMode);
+    std::function<void()> onMode = [] {}; ///< the user asks for the other mode
 
     static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
-    /// One line, or two in a narrow window, or where a board has something to say there.
+    /// Height in pixels: one line, or two in a narrow window, or where the status of a board needs it.
     int heightFor(int width) const {
-        return isPlay_ || width >= (hasBoard_ ? minFacts : minOneLine) ? lineHeight : lineHeight + secondLine;
+        return isPlayMode_ || width >= (hasBoard_ ? minStatusWidth : minOneLineWidth)
+                   ? lineHeight
+                   : lineHeight + secondLineHeight;
     }
 
     void paint(juce::Graphics& g) override {
-        if (!isShow_) g.fillAll(shade(*this, Shade::panel));
+        if (!isShowMode_) g.fillAll(shade(*this, Shade::panel));
     }
     void resized() override;
 
 private:
-    static constexpr int minOneLine = 1260, minFacts = 1400, secondLine = 24; // facts: load and board, too
+    static constexpr int minOneLineWidth = 1260, minStatusWidth = 1400,
+                         secondLineHeight = 24; // pixels;
+                                                // minStatusWidth:
+                                                // all states
     void placeStates(juce::Rectangle<int> area);
     void showControls();
-    bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false;
+    bool isShowMode_ = false, isPlayMode_ = false, warnsOfLoad_ = false;
     void chooseScene();
     void listScenes();
-    juce::Array<juce::File> own_;
+    juce::Array<juce::File> ownScenes_;
 
     MixerModel& model_;
     const bool hasBoard_;
-    int looks_ = 0;
-    struct Lost { // in all
+    int updates_ = 0;
+    struct Losses { // hits since the session began
         std::uint64_t late = 0, lost = 0;
-        bool operator==(const Lost&) const = default;
-    } lost_, lostBefore_; // before it was last fine
+        bool operator==(const Losses&) const = default;
+    } losses_, seenLosses_; // before the last time without losses
     double lostAtMs_ = 0.0;
     bool isRecording_ = false;
-    std::int64_t recordedFromNs_ = -1; // not seen yet
+    std::int64_t recordingStartNs_ = -1; // -1: not known yet
     juce::TextButton menu_{"Menu"}, slow_, record_, mode_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
-    SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},
-        restart_{Sign::restart, "Start the scene anew"}, save_{Sign::save, "Save the session (Ctrl+S)"},
-        undo_{Sign::undo, "Undo"}, redo_{Sign::redo, "Redo"};
+    IconButton pause_{Icon::pause, "Pause the world"}, step_{Icon::step, "One step of the world"},
+        restart_{Icon::restart, "Start the scene anew"}, save_{Icon::save, "Save the session (Ctrl+S)"},
+        undo_{Icon::undo, "Undo"}, redo_{Icon::redo, "Redo"};
     juce::Label seed_, time_;
-    TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
+    TwoLineText device_{"Device state"}, board_{"Board state"}, load_{"Load"};
 };
 
 /// Places of the dividers as shares of the width or height that they divide; 0: automatic.
@@ -76,12 +81,12 @@ struct Dividers {
     double strips = 0.0; ///< width of the strips beside the scope
     bool operator==(const Dividers&) const = default;
 
-    juce::String text() const; ///< for the settings
-    static Dividers of(const juce::String& text);
+    juce::String toText() const; ///< for the settings
+    static Dividers fromText(const juce::String& text);
 };
 
 /// Widths for the strips, in pixels.
-struct Wanted {
+struct StripWidths {
     int minStrips = 0; ///< width at which all strips are in sight
     int maxStrips = 0; ///< width at which they are as wide as they may be
 };
@@ -89,15 +94,15 @@ struct Wanted {
 /// What the window shows: the world with the controls to play, or everything.
 enum class Mode { play, engineer };
 
-/// Which panels are unfolded: the drawer beside the world, and the strips with their pages below it. Of
-/// folded ones, the engineer mode shows the names.
+/// Which panels are unfolded: the drawer beside the world, and the strips with the pages below it. The
+/// engineer mode shows the names of folded panels.
 struct Panels {
     bool hasDrawer = false, hasLower = false;
     bool operator==(const Panels&) const = default;
 };
 
-/// Places of the window's panels in pixels, below the bar: pure arithmetic, so that every size can be tested
-/// without a window.
+/// Places of the window's panels below the bar, in pixels. Computed without a window, so that every size can
+/// be tested.
 struct Arrangement {
     juce::Rectangle<int> world, tabs, scope, strips;
     juce::Rectangle<int> side, lower, between; ///< the dividers' handles
@@ -106,11 +111,11 @@ struct Arrangement {
                          minScope = 360;
 };
 
-/// Divides `area`. The world gets what the unfolded panels leave. Any thread.
-Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers, Mode mode,
+/// Divides `area`; the world gets what the unfolded panels leave. Any thread.
+Arrangement arrange(juce::Rectangle<int> area, const StripWidths& widths, const Dividers& dividers, Mode mode,
                     const Panels& panels);
 
-struct StudyCall;
+struct StudySelection;
 
 class MixerView final : public juce::Component,
                         public juce::DragAndDropContainer,
@@ -118,39 +123,40 @@ class MixerView final : public juce::Component,
                         private juce::ChangeListener,
                         private juce::Timer {
 public:
-    static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
-    static constexpr int worldsPerPanel = 3; ///< updates of the world per update of the other panels
+    static constexpr int framesPerSecond = 60, idleFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
+    static constexpr int worldUpdatesPerPanelUpdate = 3; ///< updates of the world per update of the other
+                                                         ///< panels
 
-    double faultMs = 20e3; ///< how long errors are shown once the user is active
+    double errorShownMs = 20e3; ///< how long errors are shown once the user is active
 
     explicit MixerView(MixerModel& model);
     ~MixerView() override;
 
     /// Updates the display; called by the timer.
     void refresh();
-    const MixerMoment& latest() const noexcept { return latest_; } ///< displayed state
+    const MixerSnapshot& latest() const noexcept { return latest_; } ///< displayed state
     void setTheme(Theme theme);
     Theme theme() const noexcept { return look_.theme(); }
     const Dividers& dividers() const noexcept { return dividers_; }
     void setDividers(const Dividers& dividers);
-    /// Each mode keeps its own panels. Not while a study has the screen.
+    /// Each mode has its own panels. Not to be called while a study has the screen.
     void setMode(Mode mode);
     Mode mode() const noexcept { return mode_; }
-    Panels panels() const;                ///< as they were set; before, by the window's height
-    void setPanels(const Panels& panels); ///< of the present mode
-    juce::String order() const;           ///< mode and panels, for the settings
-    void setOrder(const juce::String& order);
+    Panels panels() const;                ///< set by the user, or else by the window's height
+    void setPanels(const Panels& panels); ///< of the current mode
+    juce::String panelLayout() const;     ///< mode and panels, for the settings
+    void setPanelLayout(const juce::String& text);
     /// Shows the world alone, with the button that silences.
-    void setShow(bool isShow);
-    bool isShow() const noexcept { return isShow_; }
+    void setShowMode(bool isShowMode);
+    bool isShowMode() const noexcept { return isShowMode_; }
 
     TopBar& topBar() noexcept { return bar_; }
     WorldPanel& world() noexcept { return world_; }
     TabPanel& tabs() noexcept { return tabs_; }
     TabPanel& scope() noexcept { return scope_; }
     /// Shows the tab *Studies* with these selections; it displays errors in the protocol.
-    void chooseStudy(const StudyCall& call);
-    /// The window is to be closed: pauses or leaves a study on its screen. False if there is none.
+    void chooseStudy(const StudySelection& study);
+    /// Pauses or leaves a study on the screen before the window closes. False if there is none.
     bool pauseStudy();
     /// Shows a card over the world, which gets the keyboard; null: none.
     void setFirstStart(std::unique_ptr<FirstStart> card);
@@ -173,31 +179,33 @@ public:
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
-    void mouseMove(const juce::MouseEvent&) override { attend(); }
-    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e), drawCurtain(), attend(); }
-    void mouseUp(const juce::MouseEvent&) override { drawCurtain(); }
-    void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
+    void mouseMove(const juce::MouseEvent&) override { recordUserActivity(); }
+    void mouseDown(const juce::MouseEvent& e) override {
+        releaseButtonAtRightClick(e), updateOverlay(), recordUserActivity();
+    }
+    void mouseUp(const juce::MouseEvent&) override { updateOverlay(); }
+    void mouseDrag(const juce::MouseEvent& e) override { releaseButtonAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
-    void paint(juce::Graphics& g) override { g.fillAll(shade(*this, Shade::ground)); }
+    void paint(juce::Graphics& g) override { g.fillAll(shade(*this, Shade::background)); }
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
 
 private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { mixChanged(); }
     void timerCallback() override;
-    void look();
-    void attend();
-    void moveDivider(double Dividers::*which, int pixels, int whole, int now);
-    static void releaseAtRightClick(const juce::MouseEvent& e);
-    bool onlyCloses();
-    void raiseCard();
-    void drawCurtain();
+    void updateWorld();
+    void recordUserActivity();
+    void moveDivider(double Dividers::*share, int pixels, int totalPixels, int currentPixels);
+    static void releaseButtonAtRightClick(const juce::MouseEvent& e);
+    bool escapeOnlyCloses();
+    void showOpenCard();
+    void updateOverlay();
     void showPanels();
     void placeCards();
-    void placeTrouble(juce::Rectangle<int> banner);
+    void layOutMessage(juce::Rectangle<int> banner);
     void mixChanged();
-    void showLetters();
-    void keepPace();
+    void updateTypeface();
+    void adaptFrameRate();
 
     MixerModel& model_;
     Look look_;
@@ -209,26 +217,28 @@ private:
     Mode mode_ = Mode::engineer;
     std::array<std::optional<Panels>, 2> panels_; // of each mode; none: automatic
     Panels shownPanels_;
-    Divider side_{"Divider of world and tabs", true}, lower_{"Divider of upper and lower panels", false},
-        between_{"Divider of scope and strips", true};
-    juce::Label trouble_; // over the world
-    std::unique_ptr<juce::TextButton> dismiss_, act_;
-    Curtain curtain_;
+    Divider sideDivider_{"Divider of world and tabs", true},
+        lowerDivider_{"Divider of upper and lower panels", false},
+        scopeDivider_{"Divider of scope and strips", true};
+    juce::Label messageLabel_; // drawn over the world
+    std::unique_ptr<juce::TextButton> dismiss_, action_;
+    ModalOverlay overlay_;
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<juce::Component> card_;
     CardFocus cardFocus_;
     juce::Component::SafePointer<juce::Component> progress_, screen_;
-    std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // behind the screen
-    ShownLetters letters_;
-    std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
-    juce::String whySilent_;                      // as shown
-    bool isDropShown_ = false, isShow_ = false;
-    MixerMoment latest_;
-    int restedLooks_ = 0, looks_ = 0, told_ = 0;
-    double newsAtMs_ = 0.0, seenAtMs_ = 0.0; // when the message came, and when somebody was there; 0: not yet
-    std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
-    Tips tooltips_{*this};
-    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return onlyCloses(); }};
+    std::vector<juce::Component::SafePointer<juce::Component>> hiddenByScreen_; // visible again after it
+    DisplayTypeface typeface_;
+    std::uint64_t checkedEditCount_ = ~std::uint64_t{0}; // edit count of the world at the last check
+    juce::String silenceReason_;                         // as last reported
+    bool isDropShown_ = false, isShowMode_ = false;
+    MixerSnapshot latest_;
+    int idleUpdates_ = 0, updates_ = 0, lastShownCount_ = 0;
+    double messageAtMs_ = 0.0, activityAtMs_ = 0.0;   // times of the message and of the first user activity
+                                                      // since then; 0: none
+    std::array<float, limits::maxActuators> peaks_{}; // maxima since the last update of the strips
+    TooltipHost tooltips_{*this};
+    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return escapeOnlyCloses(); }};
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's window: document, settings, keys and menu.
+// The mixer's window: documents, settings, recovery, menus and keys, files to render, links to share.
 #include "Mixer/Window/MixerWindow.h"
 #include "Calls/MovieOutput.h"
 #include "Core/Limits.h"
@@ -14,18 +14,19 @@
 namespace physvib {
 namespace {
 
-// in the order of OscUse
-constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"};
+// in the order of OscAccess
+constexpr std::array<const char*, 3> oscAccessNames{"off", "this-computer", "any-computer"};
 
-OscUse oscUseNamed(const juce::String& name) {
-    const auto found = std::ranges::find(oscUseNames, name.toStdString());
-    return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
+OscAccess oscAccessFromName(const juce::String& name) {
+    const auto found = std::ranges::find(oscAccessNames, name.toStdString());
+    return found == oscAccessNames.end() ? OscAccess::off
+                                         : static_cast<OscAccess>(found - oscAccessNames.begin());
 }
 
 constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
-constexpr const char* beforeEarsSetting = "outputs-before-headphones";
-constexpr const char* orderSetting = "mode";          // and which panels are unfolded; none: to play
+constexpr const char* outputsBeforeHeadphonesSetting = "outputs-before-headphones";
+constexpr const char* panelLayoutSetting = "mode";    // mode and unfolded panels; none: play mode
 constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
@@ -33,8 +34,8 @@ constexpr juce::Point<int> frameRoom{8, 40};
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
 constexpr const char* sessionEnding = ".json";
-constexpr double minMovieSeconds = 1.0, usualMovieSeconds = 60.0;
-constexpr double longestRender = 86'400.0; // the limit of `physvib render`
+constexpr double minMovieSeconds = 1.0, defaultMovieSeconds = 60.0;
+constexpr double maxRenderSeconds = 86'400.0; // the limit of `physvib render`
 
 juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
 
@@ -58,7 +59,7 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
     return mix;
 }
 
-constexpr std::size_t maxOffered = 20; // as many as a user may look through; each is read when it is shown
+constexpr std::size_t maxOfferedCopies = 20; // each is read when it is displayed
 
 juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
 
@@ -68,35 +69,35 @@ juce::String describe(const std::filesystem::path& copy, const Result<SavedSessi
         juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
     if (!session) return "Of " + time + ": " + utf8(session.error).replace(utf8(copy.string()), nameOf(copy));
     const Mix mix = mixOf(session.value);
-    return "Kept at " + time + ": " + titleOf(mix.scene->name) + " on " + juce::String{mix.count()} +
+    return "Kept at " + time + ": " + displayTitle(mix.scene->name) + " on " + juce::String{mix.count()} +
            " actuators, played for " + number(1e-9 * static_cast<double>(session.value.lengthNs), 1) + " s.";
 }
 
 constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link",
-                     *copyWords = "Copy the link", *openWords = "Open it", *serveWords = "Serve it here";
+                     *copyLabel = "Copy the link", *openLabel = "Open it", *serveLabel = "Serve it here";
 
-constexpr std::array<int, 7> zooms{60, 75, 100, 125, 150, 175, 200};
+constexpr std::array<int, 7> zoomPercents{60, 75, 100, 125, 150, 175, 200};
 constexpr const char* zoomSetting = "zoom";
-constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
+constexpr juce::Point<int> defaultDisplay{1920, 1080}; // at 100 %
 
 /// Room of the display in pixels at 100 %.
 juce::Point<int> displayRoom() {
     auto& desktop = juce::Desktop::getInstance();
     const auto* display = desktop.getDisplays().getPrimaryDisplay();
-    if (display == nullptr) return usualDisplay;
-    const auto area = usableOf(*display).toFloat() * desktop.getGlobalScaleFactor();
+    if (display == nullptr) return defaultDisplay;
+    const auto area = userAreaOf(*display).toFloat() * desktop.getGlobalScaleFactor();
     return {juce::roundToInt(area.getWidth()), juce::roundToInt(area.getHeight())};
 }
 
-bool fits(int percent, juce::Point<int> room) {
+bool windowFits(int percent, juce::Point<int> room) {
     return 100 * room.x >= percent * MixerView::minWidth && 100 * room.y >= percent * MixerView::minHeight;
 }
 
-/// The largest zoom that leaves the window the room of a usual display.
+/// The largest zoom at which the window has at least the room of the default display.
 int automaticZoom(juce::Point<int> room) {
     int best = 100;
-    for (const int percent : zooms)
-        if (100 * room.x >= percent * usualDisplay.x && 100 * room.y >= percent * usualDisplay.y)
+    for (const int percent : zoomPercents)
+        if (100 * room.x >= percent * defaultDisplay.x && 100 * room.y >= percent * defaultDisplay.y)
             best = std::max(best, percent);
     return best;
 }
@@ -112,28 +113,29 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     device_ = {
         device.isNotEmpty()
             ? device.toStdString()
-            : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
+            : settings.getValue("device", juce::String{nullDeviceType} + ":" + nullDeviceName).toStdString(),
         settings.getIntValue("rate"), settings.getIntValue("block")};
     if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right");
         left > 0 && right > 0)
-        device_.monitor = {left - 1, right - 1};
-    device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
-    device_.marker = settings.getIntValue("marker") - 1;
+        device_.monitorOutputs = {left - 1, right - 1};
+    device_.monitorDb = settings.getDoubleValue("monitor-db", defaultContactDb);
+    device_.markerOutput = settings.getIntValue("marker") - 1;
     device_.isHeadphones = device.isEmpty() && settings.getBoolValue("headphones");
-    for (const auto& output : juce::StringArray::fromTokens(settings.getValue(beforeEarsSetting), false))
-        device_.beforeEars.push_back(output.getIntValue());
+    for (const auto& output :
+         juce::StringArray::fromTokens(settings.getValue(outputsBeforeHeadphonesSetting), false))
+        device_.outputsBeforeHeadphones.push_back(output.getIntValue());
     for (const SinkKind& kind : sinkKinds())
-        device_.want(kind, settings.getValue(kind.setting.data()).toStdString());
+        device_.setSink(kind, settings.getValue(kind.settingKey.data()).toStdString());
     folder_->choose(juce::File::createFileWithoutCheckingPath(settings.getValue(folderSetting)));
-    dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
+    dragged_->setFormatIndex(std::max(0, hitFileExtensions().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
-    const bool endedBadly = !files_.copies().leftBehind().empty();
-    if (endedBadly) before_ = files_.limits();
+    const bool hasCrashed = !files_.copies().abandonedCopies().empty();
+    if (hasCrashed) limitsBeforeCrash_ = files_.limits();
     start(file);
     setResizable(true, false);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
-        const auto room = usableOf(*display);
+        const auto room = userAreaOf(*display);
         centreWithSize(std::min(1440, room.getWidth() - frameRoom.x),
                        std::min(900, room.getHeight() - frameRoom.y));
     }
@@ -142,58 +144,59 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     view_->grabKeyboardFocus();
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
-                         (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
-    if (isFirst && !endedBadly)
-        later(*this,
-              [](MixerWindow& window) { window.addFirstStart(feltChoices(window.drivers_, likelySinks())); });
-    reportInstead();
+                         (chosen.isEmpty() || chosen.startsWith(juce::String{nullDeviceType} + ":"));
+    if (isFirst && !hasCrashed)
+        callLater(*this, [](MixerWindow& window) {
+            window.addFirstStart(playbackChoices(window.drivers_, detectSinks()));
+        });
+    suggestOtherDevice();
     offerRecovery();
-    if (!files_.settingsFault().empty())
-        model_->messages().add({utf8(files_.settingsFault()), false, {}, "settings"});
+    if (!files_.settingsError().empty())
+        model_->messages().add({utf8(files_.settingsError()), false, {}, "settings"});
     startTimer(500);
 }
 
 MixerWindow::~MixerWindow() {
     stopTimer();
     files_.settings().setValue(silentSetting, model_->isSilent());
-    keepOrder();
+    savePanelLayout();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds(), true);
-    rendering_.reset();
+    renderTask_.reset();
     clearContentComponent();
     view_.reset();
     model_.reset();
 }
 
-// A document gets a new MixerModel: its session starts at 0, and without undo steps unless they are given.
-void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
-                       std::shared_ptr<MixerHistory> history) {
+// A document gets a new MixerModel: its session starts at 0, without undo steps unless `history` is given.
+void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPaused,
+                               std::shared_ptr<MixerHistory> history) {
     const bool wasSilent = model_ ? model_->isSilent() : files_.settings().getBoolValue(silentSetting);
-    const bool wasAsked = view_ && view_->question() != nullptr;
+    const bool hadQuestion = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
-    if (view_) keepOrder();
-    asked_.reset();
-    lost_.clear();
+    if (view_) savePanelLayout();
+    requestedMix_.reset();
+    lostOutputs_.clear();
     clearContentComponent();
     view_.reset();
     model_.reset();
     model_ = std::make_unique<MixerModel>(drivers_, device_, std::move(mix),
                                           MixerStart{wasSilent, isPaused, std::move(history)});
-    model_->exposure().goOnFrom(exposure);
+    model_->exposure().addEarlierExposure(exposure);
     view_ = std::make_unique<MixerView>(*model_);
-    view_->setProgress(rendering_.get()); // of another session, which goes on
+    view_->setProgress(renderTask_.get()); // a file of the previous session is still being written
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
-    savedEdits_ = model_->edits();
+    savedEditCount_ = model_->editCount();
     const auto& settings = files_.settings();
     auto& bar = view_->topBar();
     bar.onMenu = [this](juce::Component& from) { showMenu(from); };
     bar.onRecord = [this] { record(); };
     bar.onSave = [this] { save(); };
     bar.onDevice = [this] { view_->tabs().choose("Output"); };
-    model_->device().onSinksWanted = [this](const DeviceChoice& choice) {
-        later(*this, [choice](MixerWindow& window) { window.useSinks(choice); }); // the calling tab goes with
-                                                                                  // its model
+    model_->device().onSinksRequested = [this](const DeviceChoice& choice) {
+        callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // the calling tab goes
+                                                                                      // with its model
     };
     bar.onOpenScene = [this] { import("Scene"); };
     bar.setOwnScenes(files_.ownScenes());
@@ -202,151 +205,155 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
         lastRecording_ = file;
         view_->topBar().setRecording(false);
         if (error.isNotEmpty())
-            say(file.getFileName() + ": " + error);
+            showError(file.getFileName() + ": " + error);
         else if (model_->recording().wasSilent())
             announceSaved("Nothing was played meanwhile: a silent recording,", file);
         else
             announceSaved("Recorded, with its events beside it:", file,
-                          {"Play", [this, file] { model_->strikes().playTake(file); }});
+                          {"Play", [this, file] { model_->eventPlayer().playRecording(file); }});
     };
-    OscChoice osc{oscUseNamed(settings.getValue("osc")), settings.getValue("osc-to").toStdString(),
+    OscChoice osc{oscAccessFromName(settings.getValue("osc")), settings.getValue("osc-to").toStdString(),
                   settings.getDoubleValue("osc-turn")};
-    if (const auto error = model_->inputs().use(osc); !error.empty()) {
+    if (const auto error = model_->inputs().configure(osc); !error.empty()) {
         osc.receiver.clear(); // the host name cannot be resolved now
-        model_->inputs().use(osc);
+        model_->inputs().configure(osc);
         model_->report("OSC: " + utf8(error));
     }
     model_->setDisplayWidth(1e-3 * settings.getDoubleValue(displayWidthSetting));
     view_->setTheme(settings.getValue("look") == "light" ? Theme::light : Theme::dark);
-    view_->setDividers(Dividers::of(settings.getValue("panels")));
-    view_->setOrder(settings.getValue(orderSetting));
+    view_->setDividers(Dividers::fromText(settings.getValue("panels")));
+    view_->setPanelLayout(settings.getValue(panelLayoutSetting));
     view_->grabKeyboardFocus();
-    nameWindow();
-    if (wasAsked) offerRecovery();
+    updateTitle();
+    if (hadQuestion) offerRecovery();
 }
 
-void MixerWindow::useSinks(const DeviceChoice& choice) {
-    const auto use = [this, choice] {
+void MixerWindow::setSinks(const DeviceChoice& choice) {
+    const auto restart = [this, choice] {
         device_ = choice;
         for (const SinkKind& kind : sinkKinds())
-            files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
-        const bool isFirst = view_->firstStart() != nullptr, wasChanged = isChanged();
-        Mix mix = mixOf(model_->saved());
+            files_.settings().setValue(kind.settingKey.data(), utf8(choice.sinkAddress(kind)));
+        const bool isFirst = view_->firstStart() != nullptr, wasChanged = hasUnsavedChanges();
+        Mix mix = mixOf(model_->savedSession());
         const auto history = model_->history();
-        history->drawn.emplace_back(model_->mix().scene, mix.scene);
-        play(std::move(mix), document_, model_->session().world().slowness() == 0, history);
-        if (wasChanged) savedEdits_ = neverSaved;
+        history->drawnScenes.emplace_back(model_->mix().scene, mix.scene);
+        beginSession(std::move(mix), document_, model_->session().world().slowness() == 0, history);
+        if (wasChanged) savedEditCount_ = neverSaved;
         if (isFirst && !choice.sinks.empty())
             return addFirstStart({}).test(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
-    askThen(use, "Another output begins the session anew: mix, drawing and undo steps stay, its past is "
-                 "lost.");
+    offerSaveThen(restart,
+                  "Another output begins the session anew: mix, drawing and undo steps stay, its past is "
+                  "lost.");
 }
 
-FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
+FirstStart& MixerWindow::addFirstStart(std::vector<PlaybackChoice> choices) {
     auto card = std::make_unique<FirstStart>(*model_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
-        later(*this, [](MixerWindow& window) { window.view_->setFirstStart(nullptr); });
+        callLater(*this, [](MixerWindow& window) { window.view_->setFirstStart(nullptr); });
     };
     card->onSink = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
-        if (model_->device().onSinksWanted) model_->device().onSinksWanted(choice);
+        if (model_->device().onSinksRequested) model_->device().onSinksRequested(choice);
     };
     FirstStart& shown = *card;
     view_->setFirstStart(std::move(card));
     return shown;
 }
 
-void MixerWindow::reportInstead() {
-    const auto& wanted = device_.name;
-    if (model_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
-    for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
-        if (there.type != noDeviceType && there.channels > 0 && there.type + ":" + there.name != wanted)
-            return model_->messages().add({"There is " + utf8(there.type + ":" + there.name) + " (" +
-                                           juce::String{there.channels} + " outputs) instead, under Output"});
+void MixerWindow::suggestOtherDevice() {
+    const auto& requested = device_.name;
+    if (model_->messageText().isEmpty() || requested.starts_with(std::string{nullDeviceType} + ":")) return;
+    for (const auto& other : sortedByLikelihood(listAudioDevices(drivers_)))
+        if (other.type != nullDeviceType && other.channels > 0 && other.type + ":" + other.name != requested)
+            return model_->messages().add({"There is " + utf8(other.type + ":" + other.name) + " (" +
+                                           juce::String{other.channels} + " outputs) instead, under Output"});
 }
 
-void MixerWindow::nameWindow() {
+void MixerWindow::updateTitle() {
     const auto name =
         document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
-    // ASCII, since JUCE passes other characters to X11 window managers as Latin-1
-    const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer";
+    // ASCII only: JUCE passes other characters to X11 window managers as Latin-1
+    const auto title = name + (hasUnsavedChanges() ? " *" : "") + " - PhysVib mixer";
     if (title != getName()) setName(title);
     if (view_) view_->topBar().setDocument(name);
 }
 
 void MixerWindow::timerCallback() {
-    nameWindow();
+    updateTitle();
     device_ = model_->device().choice();
     auto& settings = files_.settings();
     settings.setValue("device", utf8(device_.name));
     const auto colon = device_.name.find(':');
-    if (const int all = model_->device().outputs(); all > 0 && colon != std::string::npos)
+    if (const int all = model_->device().outputCount(); all > 0 && colon != std::string::npos)
         settings.setValue("outputs", device_.isHeadphones
-                                         ? DeviceChoice::ears
-                                         : ownOutputs({device_.name.substr(0, colon),
-                                                       device_.name.substr(colon + 1), all}));
+                                         ? DeviceChoice::earCount
+                                         : hardwareOutputCount({device_.name.substr(0, colon),
+                                                                device_.name.substr(colon + 1), all}));
     settings.setValue("headphones", device_.isHeadphones);
     juce::StringArray before;
-    for (const int output : device_.beforeEars) before.add(juce::String{output});
-    settings.setValue(beforeEarsSetting, before.joinIntoString(" "));
+    for (const int output : device_.outputsBeforeHeadphones) before.add(juce::String{output});
+    settings.setValue(outputsBeforeHeadphonesSetting, before.joinIntoString(" "));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
-    settings.setValue("osc", nth(oscUseNames, model_->inputs().choice().use));
+    settings.setValue("osc", nth(oscAccessNames, model_->inputs().choice().access));
     settings.setValue("osc-to", utf8(model_->inputs().choice().receiver));
-    settings.setValue("osc-turn", model_->inputs().choice().turnDegrees);
+    settings.setValue("osc-turn", model_->inputs().choice().phoneTurnDegrees);
     for (const std::size_t ear : {0u, 1u})
         settings.setValue(ear == 0 ? "monitor-left" : "monitor-right",
-                          device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
+                          device_.monitorOutputs.size() > ear ? device_.monitorOutputs[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
-    settings.setValue("marker", device_.marker + 1);
-    settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
+    settings.setValue("marker", device_.markerOutput + 1);
+    settings.setValue("clip-ending", hitFileExtensions()[dragged_->formatIndex()]);
     settings.setValue(silentSetting, model_->isSilent());
-    keepOrder();
+    savePanelLayout();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds());
     offerMonitor();
-    if (const auto fault = files_.keep(*model_, isChanged()); fault && fault->empty())
+    if (const auto error = files_.writeCopyIfDue(*model_, hasUnsavedChanges()); error && error->empty())
         model_->messages().withdraw("kept");
-    else if (fault)
-        model_->messages().show({utf8(*fault), false, {}, "kept"});
+    else if (error)
+        model_->messages().show({utf8(*error), false, {}, "kept"});
 }
 
-void MixerWindow::keepOrder() {
-    files_.settings().setValue("panels", view_->dividers().text());
-    files_.settings().setValue(orderSetting, view_->order());
+void MixerWindow::savePanelLayout() {
+    files_.settings().setValue("panels", view_->dividers().toText());
+    files_.settings().setValue(panelLayoutSetting, view_->panelLayout());
 }
 
-Mix MixerWindow::firstMix() {
+Mix MixerWindow::defaultMix() {
     const auto& settings = files_.settings();
-    Mix mix = MixerModel::firstMix();
-    if (const int outputs = settings.getIntValue("outputs");
-        outputs > 0 && settings.getValue("device") == utf8(device_.name) &&
+    Mix mix = MixerModel::defaultMix();
+    if (const int outputCount = settings.getIntValue("outputs");
+        outputCount > 0 && settings.getValue("device") == utf8(device_.name) &&
         settings.getBoolValue("headphones") == device_.isHeadphones)
-        fitLayoutTo(outputs, mix, device_.name);
-    const DeskLimits left = limits();
-    mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
-    if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    std::vector<int> routes; // as they were chosen: no output that was not in use
-    for (const Strip& strip : left.strips)
-        routes.push_back(
-            std::ranges::find(device_.monitor, strip.output) == device_.monitor.end() ? strip.output : -1);
-    showPlayedOutputs(routes, mix.strips);
+        fitLayoutTo(outputCount, mix, device_.name);
+    const MixerLimits lastLimits = limits();
+    mix.levelDb = std::min(mix.levelDb, lastLimits.loudestOutputDb());
+    if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, defaultContactDb);
+    std::vector<int> outputs; // those in use, without the outputs of the monitor
+    for (const Strip& strip : lastLimits.strips)
+        outputs.push_back(std::ranges::find(device_.monitorOutputs, strip.output) ==
+                                  device_.monitorOutputs.end()
+                              ? strip.output
+                              : -1);
+    setStripOutputs(outputs, mix.strips);
     if (device_.isHeadphones) return mix;
-    const auto before = std::min(mix.strips.size(), device_.beforeEars.size()); // they limit what comes after
-    takeOffHeadphones(device_, mostStripOutputs, std::span{mix.strips}.first(before),
-                      settings.getBoolValue("headphones") ? 0 : left.strips.size());
-    device_.beforeEars.clear();
+    const auto before =
+        std::min(mix.strips.size(), device_.outputsBeforeHeadphones.size()); // they limit what comes after
+    restoreOutputs(device_, maxStripOutputs, std::span{mix.strips}.first(before),
+                   settings.getBoolValue("headphones") ? 0 : lastLimits.strips.size());
+    device_.outputsBeforeHeadphones.clear();
     return mix;
 }
 
-// Shown once, if headphones may be connected in place of actuators.
+// Offered once, if headphones may be connected instead of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     constexpr const char *offered = "monitor-offered", *label = "monitor-offer";
-    if (model_->device().outputs() != 2 || !device_.sinks.empty() || !device_.monitor.empty() ||
+    if (model_->device().outputCount() != 2 || !device_.sinks.empty() || !device_.monitorOutputs.empty() ||
         device_.isHeadphones)
         return model_->messages().withdraw(label);
     if (settings.getBoolValue(offered)) return;
@@ -370,9 +377,9 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 
 void MixerWindow::requestQuit() {
     if (view_->pauseStudy()) return;
-    askThen([this] {
-        stopTimer(); // else it may keep another copy before the end
-        files_.copies().forget();
+    offerSaveThen([this] {
+        stopTimer(); // which may write another recovery copy
+        files_.copies().discardOwn();
         juce::JUCEApplicationBase::quit();
     });
 }
@@ -384,27 +391,27 @@ void MixerWindow::setTheme(Theme theme) {
 
 void MixerWindow::chooseFolder() {
     askForFile(view_->topBar(),
-               {"The folder of recordings, sessions, movies and studies", {}, folder_->place()},
+               {"The folder of recordings, sessions, movies and studies", {}, folder_->location()},
                [this](const juce::File& chosen) {
                    folder_->choose(chosen);
                    files_.settings().setValue(folderSetting, chosen.getFullPathName());
-                   if (const auto folder = folder_->make(); folder)
+                   if (const auto folder = folder_->create(); folder)
                        announceSaved("Files go to", folder.value);
                });
 }
 
 // Display sizes reported by the system are often wrong.
 void MixerWindow::askDisplayWidth() {
-    const double now =
+    const double widthMm =
         1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, model_->displayWidthMetres());
     askForValues(
-        view_->topBar(), "Width of the display", "Set", {{"Width in mm", number(now, 0)}},
+        view_->topBar(), "Width of the display", "Set", {{"Width in mm", number(widthMm, 0)}},
         [this](const juce::StringArray& values) {
             const auto& words = values[0];
             const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
             if (words.isNotEmpty() && !isDisplayWidth(1e-3 * mm))
-                return say("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) + " to " +
-                           number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
+                return showError("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) +
+                                 " to " + number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
             model_->setDisplayWidth(1e-3 * mm);
             files_.settings().setValue(displayWidthSetting, mm);
         },
@@ -412,7 +419,7 @@ void MixerWindow::askDisplayWidth() {
         "mm; empty: as the system says.");
 }
 
-// Plus needs Shift on some keyboards, and has a key of its own beside the digits.
+// The zoom step of a key: 1, -1 or 0. Plus is typed with Shift on some keyboards, and may be on the keypad.
 static int zoomStepOf(const juce::KeyPress& key) {
     if (!key.getModifiers().isCommandDown()) return 0;
     const int code = key.getKeyCode();
@@ -431,9 +438,9 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'r', command | shift, 0}) return recordScript(), true;
     if (key == KeyPress{'e', command, 0}) return renderOffline(), true;
     if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
-    if (key == KeyPress::F11Key) return setShow(!view_->isShow()), true;
+    if (key == KeyPress::F11Key) return setShowMode(!view_->isShowMode()), true;
     if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
-    if (const int by = zoomStepOf(key); by != 0) return stepZoom(by), true;
+    if (const int steps = zoomStepOf(key); steps != 0) return stepZoom(steps), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
     return view_->keyPressed(key);
 }
@@ -446,11 +453,11 @@ struct MenuItem {
 };
 
 void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act) {
-    juce::PopupMenu::Item made{item.name};
-    made.shortcutKeyDescription = item.keys;
-    made.isEnabled = item.isEnabled;
-    made.isTicked = item.isTicked;
-    menu.addItem(made.setAction(std::move(act)));
+    juce::PopupMenu::Item entry{item.name};
+    entry.shortcutKeyDescription = item.keys;
+    entry.isEnabled = item.isEnabled;
+    entry.isTicked = item.isTicked;
+    menu.addItem(entry.setAction(std::move(act)));
 }
 
 constexpr const char* keys =
@@ -464,7 +471,7 @@ constexpr const char* keys =
     "Arrows, [ ], + -\tmove, turn, size what is selected\n"
     "Delete, Ctrl+C, V, D, A\tdelete, copy, paste, double, all\nG, Return\tgrid; one in the middle";
 
-/// A key and what it does in each row, in two halves side by side.
+/// Card that lists keys and their effects in two columns.
 class KeysCard final : public Card {
 public:
     explicit KeysCard(std::function<void()> close)
@@ -473,10 +480,10 @@ public:
         for (const auto& tool : drawTools)
             rows_.add(juce::String::charToString(static_cast<juce::juce_wchar>(tool.key)).toUpperCase() +
                       "\t" + tool.name);
-        say("Keys", {});
+        setTexts("Keys", {});
         close_.onClick = std::move(close);
         setAnswers({&close_});
-        fit();
+        fitToContents();
     }
     bool keyPressed(const juce::KeyPress& key) override {
         if (key != juce::KeyPress::escapeKey && key != juce::KeyPress::returnKey) return false;
@@ -486,7 +493,7 @@ public:
         Card::paint(g);
         g.setColour(shade(*this, Shade::text));
         for (int k = 0; k < rows_.size(); ++k) {
-            auto row = content_.translated(k / half() * 480, k % half() * line).withHeight(line);
+            auto row = content_.translated(k / halfRows() * 480, k % halfRows() * line).withHeight(line);
             g.setFont(text::font(text::small, juce::Font::bold));
             g.drawText(rows_[k].upToFirstOccurrenceOf("\t", false, false), row.removeFromLeft(180),
                        juce::Justification::centredLeft);
@@ -498,9 +505,9 @@ public:
 
 private:
     static constexpr int line = 20;
-    int half() const { return (rows_.size() + 1) / 2; }
-    int contentHigh() const override { return half() * line; }
-    void place(juce::Rectangle<int> content) override { content_ = content; }
+    int halfRows() const { return (rows_.size() + 1) / 2; }
+    int contentHeight() const override { return halfRows() * line; }
+    void placeContent(juce::Rectangle<int> content) override { content_ = content; }
 
     juce::StringArray rows_;
     juce::Rectangle<int> content_;
@@ -516,9 +523,9 @@ void MixerWindow::showMenu(juce::Component& from) {
             "Drag a ball to throw it; the bar at the left draws. Esc silences everything, F2 has all "
             "controls.");
     });
-    add(help, {"Keys" + dots()}, [this] {
+    add(help, {"Keys" + ellipsis()}, [this] {
         view_->setCard(std::make_unique<KeysCard>(
-            [this] { later(*this, [](MixerWindow& window) { window.view_->setCard(nullptr); }); }));
+            [this] { callLater(*this, [](MixerWindow& window) { window.view_->setCard(nullptr); }); }));
     });
     menu.addSubMenu("File", fileMenu());
     menu.addSubMenu("Edit", editMenu());
@@ -531,24 +538,24 @@ void MixerWindow::showMenu(juce::Component& from) {
 
 juce::PopupMenu MixerWindow::fileMenu() {
     juce::PopupMenu menu, recent;
-    for (int k = 0; k < files_.recent().getNumFiles(); ++k) {
-        const auto file = files_.recent().getFile(k);
+    for (int k = 0; k < files_.recentFiles().getNumFiles(); ++k) {
+        const auto file = files_.recentFiles().getFile(k);
         recent.addItem(file.getFileName(), [this, file] { openDocument(file); });
     }
     add(menu, {"New", "Ctrl+N"}, [this] { newDocument(); });
-    add(menu, {"Open" + dots(), "Ctrl+O"}, [this] { openDocument(); });
+    add(menu, {"Open" + ellipsis(), "Ctrl+O"}, [this] { openDocument(); });
     menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
     add(menu, {"Save", "Ctrl+S"}, [this] { save(); });
-    add(menu, {"Save as" + dots(), "Ctrl+Shift+S"}, [this] { saveAs(); });
-    add(menu, {"Sessions left behind" + dots(), {}, !files_.copies().leftBehind().empty()},
+    add(menu, {"Save as" + ellipsis(), "Ctrl+Shift+S"}, [this] { saveAs(); });
+    add(menu, {"Sessions left behind" + ellipsis(), {}, !files_.copies().abandonedCopies().empty()},
         [this] { offerRecovery(); });
     menu.addSeparator();
     add(menu, {model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R"},
         [this] { record(); });
-    add(menu, {"Render" + dots(), "Ctrl+E"}, [this] { renderOffline(); });
-    add(menu, {"Save movie" + dots()}, [this] { saveMovie(); });
-    add(menu, {"Share" + dots()}, [this] { share(); });
-    add(menu, {"Folder of recordings" + dots()}, [this] { chooseFolder(); });
+    add(menu, {"Render" + ellipsis(), "Ctrl+E"}, [this] { renderOffline(); });
+    add(menu, {"Save movie" + ellipsis()}, [this] { saveMovie(); });
+    add(menu, {"Share" + ellipsis()}, [this] { share(); });
+    add(menu, {"Folder of recordings" + ellipsis()}, [this] { chooseFolder(); });
     menu.addSeparator();
     add(menu, {"Quit", "Ctrl+Q"}, [this] { requestQuit(); });
     return menu;
@@ -557,7 +564,7 @@ juce::PopupMenu MixerWindow::fileMenu() {
 juce::PopupMenu MixerWindow::editMenu() {
     juce::PopupMenu menu;
     auto& undo = model_->undoManager();
-    auto& ab = view_->world().compare();
+    auto& comparison = view_->world().compare();
     add(menu,
         {undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
          undo.canUndo()},
@@ -567,18 +574,18 @@ juce::PopupMenu MixerWindow::editMenu() {
          undo.canRedo()},
         [&undo] { undo.redo(); });
     auto& drawing = view_->world().drawing();
-    add(menu, {"Select all", "Ctrl+A"}, [&drawing] { drawing.chooseAll(); });
-    add(menu, {"Delete", "Del", !drawing.chosen().empty()},
-        [&drawing] { drawing.eraseAll(drawing.chosen()); });
+    add(menu, {"Select all", "Ctrl+A"}, [&drawing] { drawing.selectAll(); });
+    add(menu, {"Delete", "Del", !drawing.selected().empty()},
+        [&drawing] { drawing.eraseBodies(drawing.selected()); });
     menu.addSeparator();
-    add(menu, {"Levels of the file", {}, asked_.has_value()}, [this] { useAskedLevels(); });
+    add(menu, {"Levels of the file", {}, requestedMix_.has_value()}, [this] { applyRequestedLevels(); });
     menu.addSeparator();
     add(menu,
-        {ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A")
-                   : juce::String{"Compare: make B, a copy of what plays"},
+        {comparison.isOn() ? juce::String{"Play "} + (comparison.activeState() == 'A' ? "B" : "A")
+                           : juce::String{"Compare: make B, a copy of what plays"},
          "A"},
-        [&ab] { ab.toggle(); });
-    add(menu, {"Keep what plays", {}, ab.isOn()}, [this] {
+        [&comparison] { comparison.toggle(); });
+    add(menu, {"Keep what plays", {}, comparison.isOn()}, [this] {
         view_->world().compare().end();
         model_->sendChangeMessage();
     });
@@ -586,111 +593,115 @@ juce::PopupMenu MixerWindow::editMenu() {
 }
 
 juce::PopupMenu MixerWindow::worldMenu() {
-    juce::PopupMenu menu, fresh;
-    fresh.addItem("Empty", [this] { newScene(SceneGround::empty); });
-    fresh.addItem("Box", [this] { newScene(SceneGround::box); });
-    fresh.addItem("Floor", [this] { newScene(SceneGround::floor); });
-    menu.addSubMenu("New scene", fresh);
-    add(menu, {"Open a scene" + dots()}, [this] { import("Scene"); });
-    add(menu, {"Save as scene" + dots()}, [this] { saveScene(false); });
-    add(menu, {"Save as scene, bodies as they are now" + dots()}, [this] { saveScene(true); });
+    juce::PopupMenu menu, newScenes;
+    newScenes.addItem("Empty", [this] { newScene(SceneGround::empty); });
+    newScenes.addItem("Box", [this] { newScene(SceneGround::box); });
+    newScenes.addItem("Floor", [this] { newScene(SceneGround::floor); });
+    menu.addSubMenu("New scene", newScenes);
+    add(menu, {"Open a scene" + ellipsis()}, [this] { import("Scene"); });
+    add(menu, {"Save as scene" + ellipsis()}, [this] { saveScene(false); });
+    add(menu, {"Save as scene, bodies as they are now" + ellipsis()}, [this] { saveScene(true); });
     add(menu,
         {model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
          "Ctrl+Shift+R"},
         [this] { recordScript(); });
     menu.addSeparator();
-    add(menu, {"Open a layout" + dots()}, [this] { import("Layout of actuators"); });
-    add(menu, {"Save the layout" + dots()}, [this] { exportLayout(); });
+    add(menu, {"Open a layout" + ellipsis()}, [this] { import("Layout of actuators"); });
+    add(menu, {"Save the layout" + ellipsis()}, [this] { exportLayout(); });
     return menu;
 }
 
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
-        const auto tellLacking = [&] {
-            if (const auto words = lackingOf(session.value); words.isNotEmpty())
+        const auto warnOfUnsupported = [&] {
+            if (const auto words = unsupportedFeatures(session.value); words.isNotEmpty())
                 model_->messages().add({words, false, {}, "lacking"});
             return true;
         };
-        if (files_.isOwn(file, outputInUse())) { // nobody has changed it since
-            play(mixOf(session.value), document, endsPaused(session.value));
-            return tellLacking();
+        if (files_.isOwnSession(file, outputInUse())) { // unchanged since it was saved
+            beginSession(mixOf(session.value), document, endsPaused(session.value));
+            return warnOfUnsupported();
         }
-        // the copy may lack the last seconds; who has used this run has set other levels since
-        const bool isAsLeft = isOwn && before_ && !isChanged();
-        playLowered(isAsLeft ? *before_ : limits(), mixOf(session.value), document,
+        // the copy may lack the last seconds; edits of this run may have set other levels
+        const bool isUnchangedSinceCrash = isOwn && limitsBeforeCrash_ && !hasUnsavedChanges();
+        playLowered(isUnchangedSinceCrash ? *limitsBeforeCrash_ : limits(), mixOf(session.value), document,
                     endsPaused(session.value));
-        return tellLacking();
+        return warnOfUnsupported();
     }
-    if (!model_) play(firstMix(), {});
-    say(utf8(session.error));
+    if (!model_) beginSession(defaultMix(), {});
+    showError(utf8(session.error));
     return false;
 }
 
-void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused) {
-    std::vector<std::size_t> withoutEar;
-    if (device_.isHeadphones) withoutEar = placeNew(device_, mix.strips, 0); // L and R, whatever it played on
-    const Mix asked = mix;
-    const auto lowered = lowerTo(most, mix);
-    play(std::move(mix), document, isPaused);
-    reportNoEar(*model_, withoutEar);
-    reportLowered(lowered, asked, most);
+void MixerWindow::playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
+                              bool isPaused) {
+    std::vector<std::size_t> withoutHeadphone;
+    if (device_.isHeadphones)
+        withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // L and R instead of the outputs of the
+                                                                    // file
+    const Mix requested = mix;
+    const auto lowered = lowerToLimits(maxLevels, mix);
+    beginSession(std::move(mix), document, isPaused);
+    reportNoHeadphoneOutput(*model_, withoutHeadphone);
+    reportLowered(lowered, requested, maxLevels);
 }
 
-void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked, const DeskLimits& most) {
+void MixerWindow::reportLowered(const std::string& lowered, const Mix& requested,
+                                const MixerLimits& maxLevels) {
     const auto& strips = model_->mix().strips;
-    lost_.clear();
-    for (std::size_t j = 0; j < std::min(most.strips.size(), strips.size()); ++j)
-        if (strips[j].output < 0 && asked.strips[j].output >= 0 && most.strips[j].output >= 0)
-            lost_.emplace_back(j, most.strips[j]);
-    asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
-    if (asked_)
+    lostOutputs_.clear();
+    for (std::size_t j = 0; j < std::min(maxLevels.strips.size(), strips.size()); ++j)
+        if (strips[j].output < 0 && requested.strips[j].output >= 0 && maxLevels.strips[j].output >= 0)
+            lostOutputs_.emplace_back(j, maxLevels.strips[j]);
+    requestedMix_ = lowered.empty() ? std::nullopt : std::optional{requested};
+    if (requestedMix_)
         model_->messages().add({"Lowered to this desk: " + utf8(lowered),
                                 false,
-                                {"Levels of the file", [this] { useAskedLevels(); }},
+                                {"Levels of the file", [this] { applyRequestedLevels(); }},
                                 "levels"});
 }
 
-// An output that an actuator lost to a file is still the user's: the next session has it again, no louder
-// than what was played meanwhile.
-DeskLimits MixerWindow::limits() const {
+// An output that an actuator lost to a file remains the user's choice: the next session gets it back, no
+// louder than what was played meanwhile.
+MixerLimits MixerWindow::limits() const {
     if (!model_) return files_.limits();
-    DeskLimits now = DeskLimits::of(model_->mix());
-    const double loudestDb = now.loudestOutputDb() - now.levelDb;
-    for (const auto& [j, own] : lost_) {
+    MixerLimits now = MixerLimits::of(model_->mix());
+    const double maxGainDb = now.loudestOutputDb() - now.levelDb;
+    for (const auto& [j, own] : lostOutputs_) {
         if (j >= now.strips.size() || now.strips[j].output >= 0 ||
             std::ranges::find(now.strips, own.output, &Strip::output) != now.strips.end())
             continue;
         now.strips[j] = own;
-        now.strips[j].gainDb = std::min(own.gainDb, loudestDb);
+        now.strips[j].gainDb = std::min(own.gainDb, maxGainDb);
     }
     return now;
 }
 
 // The user may set levels that a file may not.
-void MixerWindow::useAskedLevels() {
-    if (!asked_) return;
+void MixerWindow::applyRequestedLevels() {
+    if (!requestedMix_) return;
     model_->change("Levels of the file", [this](Mix& mix) {
-        mix.levelDb = asked_->levelDb;
-        if (asked_->count() == mix.count()) mix.strips = asked_->strips;
+        mix.levelDb = requestedMix_->levelDb;
+        if (requestedMix_->count() == mix.count()) mix.strips = requestedMix_->strips;
     });
-    asked_.reset();
-    lost_.clear();
+    requestedMix_.reset();
+    lostOutputs_.clear();
     model_->messages().withdraw("levels");
 }
 
 // A file on the command line is not an edit, so there is nothing to save yet.
 void MixerWindow::start(const juce::File& file) {
     if (file.isDirectory()) {
-        play(firstMix(), {});
-        return say(file.getFullPathName() + ": expected a file, found a folder");
+        beginSession(defaultMix(), {});
+        return showError(file.getFullPathName() + ": expected a file, found a folder");
     }
-    if (!file.existsAsFile()) return play(firstMix(), file);
+    if (!file.existsAsFile()) return beginSession(defaultMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
-    const auto mix = mixWith(firstMix(), file);
+    const auto mix = mixWith(defaultMix(), file);
     if (mix) return playLowered(limits(), mix.value, {});
-    play(firstMix(), {});
-    say(utf8(mix.error));
+    beginSession(defaultMix(), {});
+    showError(utf8(mix.error));
 }
 
 juce::String MixerWindow::documentName() const {
@@ -699,27 +710,28 @@ juce::String MixerWindow::documentName() const {
 
 juce::File MixerWindow::folderOfDocuments() const {
     if (document_ != juce::File{}) return document_.getParentDirectory();
-    const auto folder = folder_->make();
+    const auto folder = folder_->create();
     return folder ? folder.value : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
 }
 
-/// Path from the home folder: a shorter one, as long words are broken.
+/// The path, relative to the home folder if possible: long words would be broken into lines.
 static juce::String fromHome(const juce::File& file) {
     const auto home = juce::File::getSpecialLocation(juce::File::userHomeDirectory);
     return file.isAChildOf(home) ? "~/" + file.getRelativePathFrom(home) : file.getFullPathName();
 }
 
-void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MixerAct act) {
+void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MessageAction act) {
     if (!act.run) act = {"Show", [file] { file.revealToUser(); }};
     MixerMessage message{words + " " + fromHome(file), true, std::move(act), savedLabel};
-    const bool isInFront = model_->isNews() || model_->messages().shown().label == noEarLabel; // which waits
+    const bool isInFront = model_->isInfo() || model_->messages().current().label ==
+                                                   noHeadphoneOutputLabel; // the latter is queued
     isInFront ? model_->messages().show(std::move(message)) : model_->messages().add(std::move(message));
 }
 
 void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
-                             std::function<void(const juce::File&)> use, const juce::String& suggested,
+                             std::function<void(const juce::File&)> onAccept, const juce::String& suggested,
                              const juce::File& in) {
-    const auto setting = "folder" + ending; // the last one, of each kind of file
+    const auto setting = "folder" + ending; // the last folder for each kind of file
     const juce::File last{files_.settings().getValue(setting)};
     const auto folder = in != juce::File{} ? in : last.isDirectory() ? last : folderOfDocuments();
     const auto name =
@@ -727,13 +739,13 @@ void MixerWindow::chooseFile(const juce::String& title, const juce::String& endi
             ? juce::String{}
             : folder.getNonexistentChildFile(suggested, ending, false).getFileNameWithoutExtension();
     askForFile(view_->topBar(), {title, ending, folder, isSaving, name},
-               [this, setting, use = std::move(use)](const juce::File& file) {
+               [this, setting, onAccept = std::move(onAccept)](const juce::File& file) {
                    files_.settings().setValue(setting, file.getParentDirectory().getFullPathName());
-                   use(file);
+                   onAccept(file);
                });
 }
 
-void MixerWindow::ask(const juce::String& title, const juce::String& words,
+void MixerWindow::ask(const juce::String& title, const juce::String& message,
                       std::vector<std::pair<juce::String, std::function<void()>>> answers,
                       const std::vector<QuestionCard::Field>& fields) {
     std::vector<QuestionCard::Answer> all;
@@ -741,27 +753,27 @@ void MixerWindow::ask(const juce::String& title, const juce::String& words,
         all.push_back({answer, [this, act = std::move(act)] { view_->setCard(nullptr), act(); }});
     all.push_back(
         {"Cancel", [this] { view_->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}});
-    view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
+    view_->setQuestion(std::make_unique<QuestionCard>(title, message, std::move(all), fields));
 }
 
-void MixerWindow::askThen(std::function<void()> goOn, const juce::String& words) {
-    if (!isChanged()) return goOn();
-    ask("Save the session?", words, {{"Save", [this, goOn] { save(goOn); }}, {"Do not save", goOn}});
+void MixerWindow::offerSaveThen(std::function<void()> proceed, const juce::String& words) {
+    if (!hasUnsavedChanges()) return proceed();
+    ask("Save the session?", words, {{"Save", [this, proceed] { save(proceed); }}, {"Do not save", proceed}});
 }
 
 void MixerWindow::newDocument() {
-    askThen([this] {
-        files_.copies().forget();
-        play(firstMix(), {});
+    offerSaveThen([this] {
+        files_.copies().discardOwn();
+        beginSession(defaultMix(), {});
     });
 }
 
 void MixerWindow::openDocument() { import("Open a session, a scene or a layout"); }
 
 void MixerWindow::openDocument(const juce::File& file) {
-    askThen([this, file] {
+    offerSaveThen([this, file] {
         if (!load(file, file)) return;
-        files_.copies().forget();
+        files_.copies().discardOwn();
         files_.addRecent(file);
     });
 }
@@ -769,104 +781,108 @@ void MixerWindow::openDocument(const juce::File& file) {
 void MixerWindow::openFile(const juce::File& file) {
     if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
     auto mix = mixWith(model_->mix(), file);
-    if (!mix) return say(utf8(mix.error));
-    const Mix asked = mix.value;
-    const DeskLimits most = limits();
-    const auto lowered = lowerTo(most, mix.value);
+    if (!mix) return showError(utf8(mix.error));
+    const Mix requested = mix.value;
+    const MixerLimits maxLevels = limits();
+    const auto lowered = lowerToLimits(maxLevels, mix.value);
     model_->edit(file.getFileName(), mix.value);
-    reportLowered(lowered, asked, most);
+    reportLowered(lowered, requested, maxLevels);
 }
 
-void MixerWindow::save(std::function<void()> then) {
-    if (document_ == juce::File{}) return saveAs(std::move(then));
+void MixerWindow::save(std::function<void()> onSaved) {
+    if (document_ == juce::File{}) return saveAs(std::move(onSaved));
     if (!saveTo(document_)) return;
-    then ? then() : announceSaved("Saved", document_);
+    onSaved ? onSaved() : announceSaved("Saved", document_);
 }
 
-void MixerWindow::saveAs(std::function<void()> then) {
+void MixerWindow::saveAs(std::function<void()> onSaved) {
     chooseFile(
         "Save the session", sessionEnding, true,
-        [this, then = std::move(then)](const juce::File& file) {
+        [this, onSaved = std::move(onSaved)](const juce::File& file) {
             if (!saveTo(file)) return;
-            if (then) then(); // which may open another session
+            if (onSaved) onSaved(); // which may open another session
             announceSaved("Saved", file);
         },
         documentName());
 }
 
 bool MixerWindow::saveTo(const juce::File& file) {
-    const auto edits = model_->edits();
-    const auto text = sessionJson(model_->saved(), std::filesystem::path{pathOf(file)}.parent_path());
-    if (const auto error = writeFile(pathOf(file), text); !error.empty()) return say(utf8(error)), false;
+    const auto edits = model_->editCount();
+    const auto text = sessionJson(model_->savedSession(), std::filesystem::path{pathOf(file)}.parent_path());
+    if (const auto error = writeFile(pathOf(file), text); !error.empty())
+        return showError(utf8(error)), false;
     device_ = model_->device().choice();
-    files_.addOwn(text, outputInUse());
+    files_.addOwnSession(text, outputInUse());
     document_ = file;
-    savedEdits_ = edits;
-    files_.copies().forget();
+    savedEditCount_ = edits;
+    files_.copies().discardOwn();
     files_.addRecent(file);
-    nameWindow();
+    updateTitle();
     return true;
 }
 
 void MixerWindow::record() {
     if (model_->recording().isRunning()) return model_->recording().stop();
-    const auto file = folder_->fresh(documentName() + "-take", {".wav", ".csv"});
+    const auto file = folder_->newFile(documentName() + "-take", {".wav", ".csv"});
     const auto error = file ? model_->recording().start(file.value) : file.error;
     view_->topBar().setRecording(error.empty());
-    if (!error.empty()) say(utf8(error));
+    if (!error.empty()) showError(utf8(error));
 }
 
 void MixerWindow::askSeconds(const juce::String& title, const juce::String& words, double seconds,
-                             juce::Range<double> limits, const juce::String& what,
-                             std::function<void(double)> use) {
+                             juce::Range<double> limits, const juce::String& quantity,
+                             std::function<void(double)> onAccept) {
     askForValues(
-        view_->topBar(), title, "Choose a file" + dots(), {secondsField(seconds)},
-        [this, limits, what, use = std::move(use)](const juce::StringArray& values) {
-            const double wanted = values[0].getDoubleValue();
-            if (wanted >= limits.getStart() && wanted <= limits.getEnd()) return use(wanted);
-            say(what + ": expected " + number(limits.getStart(), limits.getStart() < 1.0 ? 1 : 0) + " to " +
-                number(limits.getEnd(), 0));
+        view_->topBar(), title, "Choose a file" + ellipsis(), {secondsField(seconds)},
+        [this, limits, quantity, onAccept = std::move(onAccept)](const juce::StringArray& values) {
+            const double requested = values[0].getDoubleValue();
+            if (requested >= limits.getStart() && requested <= limits.getEnd()) return onAccept(requested);
+            showError(quantity + ": expected " + number(limits.getStart(), limits.getStart() < 1.0 ? 1 : 0) +
+                      " to " + number(limits.getEnd(), 0));
         },
         "It was played for " + tenths(playedSeconds()) + " s. " + words);
 }
 
 void MixerWindow::renderOffline() {
     askSeconds("Render the session", "Beyond that its last scene goes on by itself.", playedSeconds(),
-               {0.1, longestRender}, "Seconds to render", [this](double seconds) {
+               {0.1, maxRenderSeconds}, "Seconds to render", [this](double seconds) {
                    chooseFile(
                        "Render the session to", ".wav", true,
                        [this, seconds](const juce::File& file) { renderTo(file, seconds); }, documentName());
                });
 }
 
-void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
-    if (rendering_) return say(rendering_->file().getFileName() + " is being made: one file at a time");
-    rendering_ = std::make_unique<RenderTask>(
+void MixerWindow::startRender(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
+    if (renderTask_)
+        return showError(renderTask_->file().getFileName() + " is being made: one file at a time");
+    renderTask_ = std::make_unique<RenderTask>(
         file, std::move(work), [this, file, doneWords](const std::string& error, bool isCancelled) {
-            rendering_.reset();
+            renderTask_.reset();
             if (isCancelled)
                 model_->announce("Cancelled; nothing was written");
             else if (!error.empty())
-                say(utf8(error));
+                showError(utf8(error));
             else
                 announceSaved(doneWords, file);
         });
-    view_->setProgress(rendering_.get());
+    view_->setProgress(renderTask_.get());
 }
 
 void MixerWindow::renderTo(const juce::File& file, double seconds) {
     const int rateHz = std::max(8000, model_->output().sampleRateHz());
-    make(file, "Rendered",
-         [session = model_->saved(), seconds, rateHz, path = pathOf(file)](const auto& progress) {
-             return renderSessionWav(session, {rateHz, seconds, progress}, path, "physvib " PHYSVIB_VERSION);
-         });
+    startRender(
+        file, "Rendered",
+        [session = model_->savedSession(), seconds, rateHz, path = pathOf(file)](const auto& progress) {
+            return renderSessionWav(session, {rateHz, seconds, progress}, path, "physvib " PHYSVIB_VERSION);
+        });
 }
 
 void MixerWindow::saveMovie() {
     const double played = playedSeconds();
-    if (played < minMovieSeconds) return say("Save movie: expected a session of at least a second");
-    askSeconds("Save a movie", "The movie has the last seconds of that.", std::min(usualMovieSeconds, played),
-               {minMovieSeconds, longestMovieSeconds}, "Seconds of the movie", [this](double seconds) {
+    if (played < minMovieSeconds) return showError("Save movie: expected a session of at least a second");
+    askSeconds("Save a movie", "The movie has the last seconds of that.",
+               std::min(defaultMovieSeconds, played), {minMovieSeconds, maxMovieSeconds},
+               "Seconds of the movie", [this](double seconds) {
                    chooseFile(
                        "Save the movie", utf8(movieEnding()), true,
                        [this, seconds](const juce::File& file) { saveMovieTo(file, seconds); },
@@ -875,18 +891,19 @@ void MixerWindow::saveMovie() {
 }
 
 void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
-    make(file,
-         file.hasFileExtension("mp4") ? "Saved the movie"
-                                      : "Saved the movie without sound, which needs the program ffmpeg:",
-         [session = model_->saved(), layout = model_->mix().layout, seconds, path = pathOf(file)](
-             const auto& progress) { return writeSessionMovie(session, layout, seconds, path, progress); });
+    startRender(
+        file,
+        file.hasFileExtension("mp4") ? "Saved the movie"
+                                     : "Saved the movie without sound, which needs the program ffmpeg:",
+        [session = model_->savedSession(), layout = model_->mix().layout, seconds, path = pathOf(file)](
+            const auto& progress) { return writeSessionMovie(session, layout, seconds, path, progress); });
 }
 
 void MixerWindow::exportLayout() {
     chooseFile(
         "Save the layout to", sessionEnding, true,
         [this](const juce::File& file) {
-            if (model_->reportFault(writeFile(pathOf(file), layoutJson(model_->mix().layout)))) return;
+            if (model_->reportIfError(writeFile(pathOf(file), layoutJson(model_->mix().layout)))) return;
             announceSaved("Saved the layout", file);
         },
         "layout");
@@ -898,15 +915,15 @@ void MixerWindow::import(const juce::String& title) {
 
 // Shows the newest readable copy, with a line on the first unreadable one.
 void MixerWindow::offerRecovery() {
-    const auto copies = files_.copies().leftBehind();
-    const std::size_t most = std::min(copies.size(), maxOffered);
+    const auto copies = files_.copies().abandonedCopies();
+    const std::size_t total = std::min(copies.size(), maxOfferedCopies);
     std::size_t shown = 0;
-    for (; shown < most; ++shown) {
+    for (; shown < total; ++shown) {
         const auto session = RecoveryCopies::read(copies[shown]);
         if (session) break;
         if (shown == 0) model_->messages().add({utf8(session.error) + "; it stays until it is discarded"});
     }
-    showCopy(copies, shown == most ? 0 : shown);
+    showCopy(copies, shown == total ? 0 : shown);
 }
 
 void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at) {
@@ -914,69 +931,69 @@ void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std
         if (view_->question() != nullptr) view_->setQuestion(nullptr);
         return;
     }
-    const std::size_t most = std::min(copies.size(), maxOffered);
+    const std::size_t total = std::min(copies.size(), maxOfferedCopies);
     const auto copy = copies[at];
     const auto session = RecoveryCopies::read(copy);
     const auto count = [](std::size_t n) { return juce::String{static_cast<int>(n)}; };
     juce::String words = "The mixer ended without being closed. " + describe(copy, session);
-    if (most > 1) words += "\nCopy " + count(at + 1) + " of " + count(most) + ", the newest first.";
-    if (most < copies.size())
+    if (total > 1) words += "\nCopy " + count(at + 1) + " of " + count(total) + ", the newest first.";
+    if (total < copies.size())
         words +=
-            " " + count(copies.size() - most) + " older ones stay in " + utf8(copy.parent_path().string());
+            " " + count(copies.size() - total) + " older ones stay in " + utf8(copy.parent_path().string());
     const auto discard = [this](std::vector<std::filesystem::path> declined) {
         std::string error;
-        for (const auto& each : declined)
-            if (auto why = RecoveryCopies::remove(each); !why.empty()) error = std::move(why);
+        for (const auto& copyFile : declined)
+            if (auto why = RecoveryCopies::remove(copyFile); !why.empty()) error = std::move(why);
         offerRecovery();
-        if (!error.empty()) say(utf8(error));
+        if (!error.empty()) showError(utf8(error));
     };
     std::vector<QuestionCard::Answer> answers{
         {"Take it up", [this, copy] { recover(copy); }, static_cast<bool>(session)},
         {"Discard it", [discard, copy] { discard({copy}); }},
         {"Not now", [this] { view_->setQuestion(nullptr); }}};
-    if (most > 1) {
+    if (total > 1) {
         answers.push_back({"Newer", [this, copies, at] { showCopy(copies, at - 1); }, at > 0,
                            juce::KeyPress{juce::KeyPress::leftKey}});
-        answers.push_back({"Older", [this, copies, at] { showCopy(copies, at + 1); }, at + 1 < most,
+        answers.push_back({"Older", [this, copies, at] { showCopy(copies, at + 1); }, at + 1 < total,
                            juce::KeyPress{juce::KeyPress::rightKey}});
-        answers.push_back({"Discard all " + count(most), [discard, copies, most] {
-                               discard({copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(most)});
+        answers.push_back({"Discard all " + count(total), [discard, copies, total] {
+                               discard({copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(total)});
                            }});
     }
     view_->setQuestion(std::make_unique<QuestionCard>(
-        most > 1 ? "Take up a session?" : "Take up the last session?", words, std::move(answers)));
+        total > 1 ? "Take up a session?" : "Take up the last session?", words, std::move(answers)));
 }
 
 // The copy is kept until this run's own copy is on disk.
 void MixerWindow::recover(const std::filesystem::path& copy) {
-    askThen([this, copy] {
+    offerSaveThen([this, copy] {
         view_->setQuestion(nullptr);
         if (!load(juce::File{utf8(copy.string())}, {}, true)) return offerRecovery();
-        savedEdits_ = neverSaved;
-        files_.copies().forget(); // the previous session was saved or discarded by the user
-        files_.copies().goOnFrom(copy);
-        model_->reportFault(files_.keepNow(*model_));
+        savedEditCount_ = neverSaved;
+        files_.copies().discardOwn(); // the previous session was saved or discarded by the user
+        files_.copies().adopt(copy);
+        model_->reportIfError(files_.writeCopyNow(*model_));
     });
 }
 
-void MixerWindow::saveScene(bool isNow, const juce::File& in) {
+void MixerWindow::saveScene(bool hasCurrentPoses, const juce::File& in) {
     files_.scenesFolder().createDirectory();
     chooseFile(
         "Save as scene", ".json", true,
-        [this, isNow](const juce::File& file) {
-            if (model_->reportFault(saveSceneTo(file, isNow))) return;
+        [this, hasCurrentPoses](const juce::File& file) {
+            if (model_->reportIfError(saveSceneTo(file, hasCurrentPoses))) return;
             announceSaved("Saved the scene", file);
         },
         "scene", in != juce::File{} ? in : files_.scenesFolder());
 }
 
-std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
+std::string MixerWindow::saveSceneTo(const juce::File& file, bool hasCurrentPoses) {
     const auto& world = model_->world();
     Scene scene = world.drawing().drawn();
-    if (isNow) scene = sceneNow(scene, world.posesNow());
+    if (hasCurrentPoses) scene = sceneNow(scene, world.posesNow());
     scene.name = file.getFileNameWithoutExtension().toStdString();
     scene.variables.clear();
-    if (auto fault = validate(scene); !fault.empty()) return fault;
+    if (auto invalid = validate(scene); !invalid.empty()) return invalid;
     auto error = writeFile(pathOf(file), sceneJson(scene));
     if (error.empty()) view_->topBar().setOwnScenes(files_.ownScenes());
     return error;
@@ -985,29 +1002,31 @@ std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
 void MixerWindow::recordScript() {
     auto& script = model_->script();
     script.isRecording() ? script.stop() : script.start();
-    if (script.isRecording()) view_->world().drawing().use(DrawTool::hand);
+    if (script.isRecording()) view_->world().drawing().setTool(DrawTool::hand);
 }
 
 void MixerWindow::newScene(SceneGround ground) {
     model_->change("New scene", [&](Mix& mix) {
-        mix.scene = std::make_shared<const Scene>(physvib::newScene(*MixerModel::firstMix().scene, ground));
+        mix.scene = std::make_shared<const Scene>(physvib::newScene(*MixerModel::defaultMix().scene, ground));
     });
-    view_->world().drawing().use(DrawTool::ball);
+    view_->world().drawing().setTool(DrawTool::ball);
 }
 
 // Without the address of a page, it offers to start a server, or a movie or scene file.
-void MixerWindow::share(bool isElsewhere) {
+void MixerWindow::share(bool asksAddress) {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
-    if (!link) return say(utf8(link.error));
-    const auto kept = files_.settings().getValue(pageSetting);
-    const auto page = served_.isNotEmpty() ? served_ : isLoopback(kept) ? juce::String{} : kept;
-    if (page.isEmpty() && !isElsewhere) {
-        const bool canServe = PageServer::isThere();
-        std::vector<std::pair<juce::String, std::function<void()>>> ways{
-            {"Save movie" + dots(), [this] { saveMovie(); }},
-            {"Save as scene" + dots(), [this] { saveScene(false, folderOfDocuments()); }},
-            {"Other page" + dots(), [this] { share(true); }}};
-        if (canServe) ways.insert(ways.begin(), {serveWords, [this] { serve(); }});
+    if (!link) return showError(utf8(link.error));
+    const auto saved = files_.settings().getValue(pageSetting);
+    const auto page = servedAddress_.isNotEmpty() ? servedAddress_
+                      : isLoopback(saved)         ? juce::String{}
+                                                  : saved;
+    if (page.isEmpty() && !asksAddress) {
+        const bool canServe = PageServer::isAvailable();
+        std::vector<std::pair<juce::String, std::function<void()>>> options{
+            {"Save movie" + ellipsis(), [this] { saveMovie(); }},
+            {"Save as scene" + ellipsis(), [this] { saveScene(false, folderOfDocuments()); }},
+            {"Other page" + ellipsis(), [this] { share(true); }}};
+        if (canServe) options.insert(options.begin(), {serveLabel, [this] { startPageServer(); }});
         return ask("Share the world",
                    canServe
                        ? "Serve it here gives a web page with this world to phones in this network, with a "
@@ -1015,65 +1034,68 @@ void MixerWindow::share(bool isElsewhere) {
                        : "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
                          "PhysVib. That page is a part of a release (physvib-page): unpacked into the "
                          "mixer's folder, Share serves it to phones, with a code.",
-                   std::move(ways));
+                   std::move(options));
     }
-    const auto at = [behind = utf8(link.value)](const juce::String& address) {
-        return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+    const auto linkAt = [fragment = utf8(link.value)](const juce::String& address) {
+        return address.isEmpty() ? address
+                                 : address.upToFirstOccurrenceOf("#", false, false) + "#" + fragment;
     };
     const auto typed = std::make_shared<juce::String>(page);
-    const auto whole = [this, at, typed] {
-        if (*typed != served_) files_.settings().setValue(pageSetting, *typed);
-        return at(*typed);
+    const auto fullLink = [this, linkAt, typed] {
+        if (*typed != servedAddress_) files_.settings().setValue(pageSetting, *typed);
+        return linkAt(*typed);
     };
-    const auto show = [at, typed, isServed = served_.isNotEmpty()](QuestionCard& card,
-                                                                   const juce::String& address) {
+    const auto show = [linkAt, typed, isServed = servedAddress_.isNotEmpty()](QuestionCard& card,
+                                                                              const juce::String& address) {
         *typed = address;
-        const bool isAlone = isLoopback(address), isThere = address.isNotEmpty();
-        card.setValue(linkField, at(address));
-        for (const char* words : {copyWords, openWords}) card.enable(words, isThere);
-        const auto code = isAlone || !isThere ? juce::Image{} : qrPicture(at(address).toStdString());
-        card.setPicture(code, isAlone    ? "No code: this address leads nowhere on a phone, only here"
-                              : !isThere ? "A phone's code comes with the address"
-                                         : "No code: this world's link is too long for one");
-        card.say("Share the world",
-                 isThere
-                     ? juce::String{"Who opens the link gets the same world and samples."} +
-                           (isServed ? " The page is here while the mixer runs; a browser warns once of "
-                                       "its certificate."
-                                     : "")
-                     : "Type the address of a web page of PhysVib: the link to this world there follows.");
+        const bool isLoopbackPage = isLoopback(address), hasAddress = address.isNotEmpty();
+        card.setValue(linkField, linkAt(address));
+        for (const char* words : {copyLabel, openLabel}) card.enableAnswer(words, hasAddress);
+        const auto code =
+            isLoopbackPage || !hasAddress ? juce::Image{} : qrPicture(linkAt(address).toStdString());
+        card.setPicture(code, isLoopbackPage ? "No code: this address leads nowhere on a phone, only here"
+                              : !hasAddress  ? "A phone's code comes with the address"
+                                             : "No code: this world's link is too long for one");
+        card.setTexts(
+            "Share the world",
+            hasAddress ? juce::String{"Who opens the link gets the same world and samples."} +
+                             (isServed ? " The page is here while the mixer runs; a browser warns once of "
+                                         "its certificate."
+                                       : "")
+                       : "Type the address of a web page of PhysVib: the link to this world there follows.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
-        {copyWords,
-         [this, whole] {
-             const auto words = whole();
+        {copyLabel,
+         [this, fullLink] {
+             const auto words = fullLink();
              juce::SystemClipboard::copyTextToClipboard(words);
              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
          }},
-        {openWords, [whole] { openLink(whole()); }}};
-    if (served_.isEmpty() && PageServer::isThere()) answers.push_back({serveWords, [this] { serve(); }});
+        {openLabel, [fullLink] { openLink(fullLink()); }}};
+    if (servedAddress_.isEmpty() && PageServer::isAvailable())
+        answers.push_back({serveLabel, [this] { startPageServer(); }});
     ask("Share the world", {}, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }
 
-// Phones give no sound and no sensors to a page without https; its certificate takes a moment.
-void MixerWindow::serve() {
+// Phones allow sound and sensors only with https; making its certificate takes a moment, so a thread waits.
+void MixerWindow::startPageServer() {
     server_ = std::make_shared<PageServer>();
     juce::Thread::launch([server = server_, window = SafePointer{this}] {
-        juce::MessageManager::callAsync([window, address = server->begin()] {
+        juce::MessageManager::callAsync([window, address = server->start()] {
             if (window == nullptr) return;
-            if (!address) return window->say(utf8(address.error));
+            if (!address) return window->showError(utf8(address.error));
             if (isLoopback(utf8(address.value)))
-                return window->say("This computer is in no network: nobody would reach the page");
-            window->served_ = utf8(address.value);
+                return window->showError("This computer is in no network: nobody would reach the page");
+            window->servedAddress_ = utf8(address.value);
             window->share();
         });
     });
 }
 
 int MixerWindow::zoom() {
-    const int percent = files_.settings().getIntValue(zoomSetting); // which may hold anything
-    return std::ranges::find(zooms, percent) == zooms.end() ? 0 : percent;
+    const int percent = files_.settings().getIntValue(zoomSetting); // the file may hold any number
+    return std::ranges::find(zoomPercents, percent) == zoomPercents.end() ? 0 : percent;
 }
 
 void MixerWindow::setZoom(int percent) {
@@ -1081,10 +1103,11 @@ void MixerWindow::setZoom(int percent) {
     applyZoom();
 }
 
-void MixerWindow::stepZoom(int by) {
-    const int now = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
-    const auto at = std::ranges::lower_bound(zooms, now) - zooms.begin() + by;
-    if (at >= 0 && at < std::ssize(zooms) && fits(nth(zooms, at), displayRoom())) setZoom(nth(zooms, at));
+void MixerWindow::stepZoom(int steps) {
+    const int percentNow = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
+    const auto at = std::ranges::lower_bound(zoomPercents, percentNow) - zoomPercents.begin() + steps;
+    if (at >= 0 && at < std::ssize(zoomPercents) && windowFits(nth(zoomPercents, at), displayRoom()))
+        setZoom(nth(zoomPercents, at));
 }
 
 // The window keeps its size on the screen.
@@ -1092,7 +1115,8 @@ void MixerWindow::applyZoom() {
     auto& desktop = juce::Desktop::getInstance();
     const auto room = displayRoom();
     int percent = zoom() > 0 ? zoom() : automaticZoom(room);
-    while (percent > zooms.front() && !fits(percent, room)) percent = std::max(zooms.front(), percent - 25);
+    while (percent > zoomPercents.front() && !windowFits(percent, room))
+        percent = std::max(zoomPercents.front(), percent - 25);
     const float before = desktop.getGlobalScaleFactor(), after = 0.01f * static_cast<float>(percent);
     const float shrunk = std::min(1.0f, after); // JUCE has limits in pixels of the display
     setResizeLimits(juce::roundToInt(shrunk * MixerView::minWidth),
@@ -1103,18 +1127,18 @@ void MixerWindow::applyZoom() {
     if (isOnDesktop()) setBounds(bounds);
 }
 
-void MixerWindow::setShow(bool isShow) {
-    juce::Desktop::getInstance().setKioskModeComponent(isShow ? this : nullptr, false);
-    view_->setShow(isShow);
+void MixerWindow::setShowMode(bool isShowMode) {
+    juce::Desktop::getInstance().setKioskModeComponent(isShowMode ? this : nullptr, false);
+    view_->setShowMode(isShowMode);
     view_->grabKeyboardFocus();
 }
 
 juce::PopupMenu MixerWindow::viewMenu() {
     juce::PopupMenu menu, zoomMenu;
-    const bool isPlay = view_->mode() == Mode::play, isLight = view_->theme() == Theme::light;
+    const bool isPlayMode = view_->mode() == Mode::play, isLight = view_->theme() == Theme::light;
     const Panels panels = view_->panels();
-    add(menu, {"Play", "F2", true, isPlay}, [this] { view_->setMode(Mode::play); });
-    add(menu, {"Engineer", "F2", true, !isPlay}, [this] { view_->setMode(Mode::engineer); });
+    add(menu, {"Play", "F2", true, isPlayMode}, [this] { view_->setMode(Mode::play); });
+    add(menu, {"Engineer", "F2", true, !isPlayMode}, [this] { view_->setMode(Mode::engineer); });
     menu.addSeparator();
     add(menu, {"Strips, and what is played", "F3", true, panels.hasLower}, [this, panels] {
         view_->setPanels({panels.hasDrawer, !panels.hasLower});
@@ -1126,13 +1150,14 @@ juce::PopupMenu MixerWindow::viewMenu() {
     add(menu, {"Dark", {}, true, !isLight}, [this] { setTheme(Theme::dark); });
     add(menu, {"Light", {}, true, isLight}, [this] { setTheme(Theme::light); });
     add(zoomMenu, {"By the display", "Ctrl+0", true, zoom() == 0}, [this] { setZoom(0); });
-    for (const int percent : zooms)
-        add(zoomMenu, {juce::String{percent} + " %", {}, fits(percent, displayRoom()), zoom() == percent},
+    for (const int percent : zoomPercents)
+        add(zoomMenu,
+            {juce::String{percent} + " %", {}, windowFits(percent, displayRoom()), zoom() == percent},
             [this, percent] { setZoom(percent); });
     menu.addSubMenu("Zoom", zoomMenu);
-    add(menu, {"Full screen for a show", "F11", true, view_->isShow()},
-        [this] { setShow(!view_->isShow()); });
-    add(menu, {"Width of the display" + dots()}, [this] { askDisplayWidth(); });
+    add(menu, {"Full screen for a show", "F11", true, view_->isShowMode()},
+        [this] { setShowMode(!view_->isShowMode()); });
+    add(menu, {"Width of the display" + ellipsis()}, [this] { askDisplayWidth(); });
     return menu;
 }
 

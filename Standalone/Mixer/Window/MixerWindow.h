@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's window with its document: opens, saves, records, renders, and asks before changes are lost.
+// The mixer's window with its document: opens, saves, records, renders, shares, recovers lost sessions, and
+// asks before changes are lost.
 #pragma once
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Window/MixerFiles.h"
@@ -8,6 +9,7 @@
 
 namespace physvib {
 
+/// The window, which owns model and view of the open session. Message thread.
 class MixerWindow final : public juce::DocumentWindow,
                           public juce::FileDragAndDropTarget,
                           private juce::Timer {
@@ -24,33 +26,33 @@ public:
     void openDocument(const juce::File& file); ///< asks first if changes would be lost
     /// Opens a session, or applies a scene or layout; reports any other file.
     void openFile(const juce::File& file);
-    void save(std::function<void()> then = {}); ///< `then`: once it is saved
-    void saveAs(std::function<void()> then = {});
-    void record();        ///< starts or ends
+    void save(std::function<void()> onSaved = {}); ///< `onSaved` is called once it is saved
+    void saveAs(std::function<void()> onSaved = {});
+    void record();        ///< starts or ends a recording
     void renderOffline(); ///< asks for duration and file
     void renderTo(const juce::File& file, double seconds);
-    void saveMovie(); ///< of the last seconds; asks how many, and for a file
+    void saveMovie(); ///< of the last seconds; asks for their number and a file
     void saveMovieTo(const juce::File& file, double seconds);
-    void import(const juce::String& title); ///< a scene or a layout
+    void import(const juce::String& title); ///< asks for a scene or a layout and opens it
     void exportLayout();
-    /// Shows a link to the web page; `isElsewhere`: to one whose address is typed.
-    void share(bool isElsewhere = false);
-    /// Asks for a file; bodies as drawn, or at their current places. `in`: none, the folder of own scenes.
-    void saveScene(bool isNow, const juce::File& in = {});
-    std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
+    /// Shows a link to the web page; `asksAddress`: the user types the address of the page.
+    void share(bool asksAddress = false);
+    /// Saves bodies as drawn or as they are now, to a file asked for in `in`; none: the folder of own scenes.
+    void saveScene(bool hasCurrentPoses, const juce::File& in = {});
+    std::string saveSceneTo(const juce::File& file, bool hasCurrentPoses); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
     void newScene(SceneGround ground); ///< with the field and the materials of the first start
     /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
     /// window is lowered.
     void setZoom(int percent);
-    int zoom();            ///< %, as asked for
-    void stepZoom(int by); ///< to the next larger (1) or smaller (-1) one
+    int zoom();               ///< %, as chosen; 0: by the display's size
+    void stepZoom(int steps); ///< to the next larger (1) or smaller (-1) one
     /// Full screen: the world alone, and the button that silences.
-    void setShow(bool isShow);
+    void setShowMode(bool isShowMode);
     /// Asks if changes would be lost, then quits.
     void requestQuit();
 
-    bool isChanged() const { return model_->edits() != savedEdits_; }
+    bool hasUnsavedChanges() const { return model_->editCount() != savedEditCount_; }
     const juce::File& document() const noexcept { return document_; }
     const juce::File& lastRecording() const noexcept { return lastRecording_; }
     MixerModel& model() noexcept { return *model_; }
@@ -65,43 +67,45 @@ public:
 
 private:
     void timerCallback() override;
-    FirstStart& addFirstStart(std::vector<FeltChoice> choices);
-    void reportInstead();
+    FirstStart& addFirstStart(std::vector<PlaybackChoice> choices);
+    void suggestOtherDevice();
     void start(const juce::File& file);
-    void play(Mix mix, const juce::File& document, bool isPaused = false,
-              std::shared_ptr<MixerHistory> history = {});
-    /// `isOwn`: a copy of the run that crashed is lowered to the levels at its end.
+    void beginSession(Mix mix, const juce::File& document, bool isPaused = false,
+                      std::shared_ptr<MixerHistory> history = {});
+    /// `isOwn`: the file is a copy of the run that crashed, and is limited to the levels at its end.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
-    /// Plays a file with its levels lowered to `most`. Reports what was lowered; a button restores it.
-    void playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused = false);
-    void reportLowered(const std::string& lowered, const Mix& asked, const DeskLimits& most);
-    void useAskedLevels();
-    DeskLimits limits() const;
-    void useSinks(const DeviceChoice& choice);
-    /// The device and how it is worn: levels saved for one are not right for another.
+    /// Plays a file with its levels lowered to `maxLevels`. Reports what was lowered; a button restores it.
+    void playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
+                     bool isPaused = false);
+    void reportLowered(const std::string& lowered, const Mix& requested, const MixerLimits& max);
+    void applyRequestedLevels();
+    MixerLimits limits() const;
+    void setSinks(const DeviceChoice& choice);
+    /// The device and how it is worn. Levels that were saved for one output do not suit another.
     std::string outputInUse() const { return device_.name + (device_.isHeadphones ? " on the ears" : ""); }
     bool saveTo(const juce::File& file);
-    void askThen(std::function<void()> goOn,
-                 const juce::String& words = "What was changed since it was saved would be lost.");
+    void offerSaveThen(std::function<void()> proceed,
+                       const juce::String& words = "What was changed since it was saved would be lost.");
     /// `suggested`: a file name without extension; `in`: a folder instead of the last one.
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
-                    std::function<void(const juce::File&)> use, const juce::String& suggested = {},
+                    std::function<void(const juce::File&)> onAccept, const juce::String& suggested = {},
                     const juce::File& in = {});
     /// Asks in the window; each answer closes the card.
-    void ask(const juce::String& title, const juce::String& words,
+    void ask(const juce::String& title, const juce::String& message,
              std::vector<std::pair<juce::String, std::function<void()>>> answers,
              const std::vector<QuestionCard::Field>& fields = {});
-    /// Asks how many seconds; `what` begins the error if they are beyond the limits.
+    /// Asks for a duration in s; `quantity` begins the error message if it is beyond the limits.
     void askSeconds(const juce::String& title, const juce::String& words, double seconds,
-                    juce::Range<double> limits, const juce::String& what, std::function<void(double)> use);
+                    juce::Range<double> limits, const juce::String& quantity,
+                    std::function<void(double)> onAccept);
     void offerRecovery();
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
     void recover(const std::filesystem::path& copy);
     void offerMonitor();
-    void keepOrder(); ///< of the panels, in the settings
-    /// With the default levels, but no louder than the loudest actuator was left; on outputs that were in
-    /// use, and not on the monitor's.
-    Mix firstMix();
+    void savePanelLayout(); ///< to the settings
+    /// The default state, no louder than the loudest actuator of the last session, on the outputs that it
+    /// used, except those of the monitor.
+    Mix defaultMix();
     void showMenu(juce::Component& from);
     void setTheme(Theme theme);
     void applyZoom();
@@ -110,16 +114,16 @@ private:
     juce::PopupMenu worldMenu();
     juce::PopupMenu viewMenu();
     void askDisplayWidth();
-    void nameWindow();
-    void say(const juce::String& words) { model_->report(words); }
-    /// With a button that shows the file, or `act`.
-    void announceSaved(const juce::String& words, const juce::File& file, MixerAct act = {});
-    void serve();
+    void updateTitle();
+    void showError(const juce::String& error) { model_->report(error); }
+    /// Announces a written file, with a button that shows it, or with `act`.
+    void announceSaved(const juce::String& words, const juce::File& file, MessageAction act = {});
+    void startPageServer();
     void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
-    double playedSeconds() const { return 1e-9 * static_cast<double>(model_->saved().lengthNs); }
-    void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
+    double playedSeconds() const { return 1e-9 * static_cast<double>(model_->savedSession().lengthNs); }
+    void startRender(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
     AudioDrivers drivers_;
     MixerFiles files_;
@@ -129,14 +133,14 @@ private:
     std::unique_ptr<MixerModel> model_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
-    std::optional<Mix> asked_;                        // state of the last file, if its levels were lowered
-    std::vector<std::pair<std::size_t, Strip>> lost_; // outputs that it took from strips
-    std::optional<DeskLimits> before_;                // limits before a run that crashed
-    static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
-    std::uint64_t savedEdits_ = 0;
-    std::unique_ptr<RenderTask> rendering_;
+    std::optional<Mix> requestedMix_; // state of the last file, if its levels were lowered
+    std::vector<std::pair<std::size_t, Strip>> lostOutputs_; // strips that lost an output to it
+    std::optional<MixerLimits> limitsBeforeCrash_;           // limits before a run that crashed
+    static constexpr std::uint64_t neverSaved = UINT64_MAX;  // never equals a count of edits
+    std::uint64_t savedEditCount_ = 0;
+    std::unique_ptr<RenderTask> renderTask_;
     std::shared_ptr<PageServer> server_;
-    juce::String served_; // its address; empty: none
+    juce::String servedAddress_; // of the served page; empty: none
 };
 
 } // namespace physvib

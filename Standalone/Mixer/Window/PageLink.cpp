@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes a link as the page's link.js does.
+// Writes a link in the format of the page's link.js, opens links, and starts the server of the page.
 #include "Mixer/Window/PageLink.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/SceneFile.h"
@@ -10,12 +10,12 @@
 namespace physvib {
 namespace {
 
-constexpr int maxLinked = 8; // actuators of the page
+constexpr int maxLinkedActuators = 8; // as many as the page has
 constexpr int rawDeflate = -15;
 
 /// Escapes as URLSearchParams does, except for commas and equals signs.
-std::string encoded(const std::string& text) {
-    std::string made;
+std::string urlEncoded(const std::string& text) {
+    std::string encoded;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         const bool isPlain = (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') ||
@@ -23,17 +23,17 @@ std::string encoded(const std::string& text) {
                              std::string_view{"*-._,="}.find(c) != std::string_view::npos;
         constexpr const char* digits = "0123456789ABCDEF";
         if (isPlain)
-            made += c;
+            encoded += c;
         else if (c == ' ')
-            made += '+';
+            encoded += '+';
         else
-            made += {'%', digits[byte / 16], digits[byte % 16]};
+            encoded += {'%', digits[byte / 16], digits[byte % 16]};
     }
-    return made;
+    return encoded;
 }
 
 /// Deflated, in the base64 of URLs.
-std::string packed(const std::string& text) {
+std::string deflatedBase64(const std::string& text) {
     juce::MemoryOutputStream bytes;
     {
         juce::GZIPCompressorOutputStream deflate{bytes, 9, rawDeflate};
@@ -45,22 +45,22 @@ std::string packed(const std::string& text) {
         .toStdString();
 }
 
-std::string share(double place, double extent) {
-    return numberText(std::round(1000.0 * place / extent) / 1000.0);
+std::string shareText(double metres, double extentMetres) {
+    return numberText(std::round(1000.0 * metres / extentMetres) / 1000.0);
 }
 
 } // namespace
 
 Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     const auto& layout = mix.layout.geometry;
-    if (layout.count > maxLinked)
-        return Failure{"A link holds at most " + std::to_string(maxLinked) + " actuators, found " +
+    if (layout.count > maxLinkedActuators)
+        return Failure{"A link holds at most " + std::to_string(maxLinkedActuators) + " actuators, found " +
                        std::to_string(layout.count)};
     if (mix.exponent != 1.0) return Failure{"A link holds no exponent: expected 1"};
-    const Scene* const known = findBuiltInScene(drawn.name);
-    const bool isKnown = known != nullptr && *known == drawn;
-    std::string link = "scene=" + encoded(isKnown ? drawn.name : drawn.name + ".json");
-    if (!isKnown) link += "&file=" + packed(sceneJson(drawn));
+    const Scene* const builtIn = findBuiltInScene(drawn.name);
+    const bool isBuiltIn = builtIn != nullptr && *builtIn == drawn;
+    std::string link = "scene=" + urlEncoded(isBuiltIn ? drawn.name : drawn.name + ".json");
+    if (!isBuiltIn) link += "&file=" + deflatedBase64(sceneJson(drawn));
     if (mix.seed != 1) link += "&seed=" + std::to_string(mix.seed);
     std::string places;
     for (int j = 0; j < layout.count; ++j) {
@@ -68,11 +68,11 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
         if (place.zMetres != 0.0 || place.part != 0)
             return Failure{"A link holds actuators of a plane: expected no depth and no parts of the body"};
         if (j > 0) places += ' ';
-        places += share(place.xMetres, layout.extentWidthMetres) + ",";
-        places += share(place.yMetres, layout.extentHeightMetres);
+        places += shareText(place.xMetres, layout.extentWidthMetres) + ",";
+        places += shareText(place.yMetres, layout.extentHeightMetres);
     }
-    if (places != "0,1 1,1 0,0 1,0") link += "&at=" + encoded(places); // the page's own four corners
-    if (mix.law != PanningLaw::automatic) link += "&law=" + encoded(std::string{nameOf(mix.law)});
+    if (places != "0,1 1,1 0,0 1,0") link += "&at=" + urlEncoded(places); // the page's own four corners
+    if (mix.law != PanningLaw::automatic) link += "&law=" + urlEncoded(std::string{nameOf(mix.law)});
     return link;
 }
 
@@ -81,33 +81,33 @@ bool isLoopback(const juce::String& address) {
     return host.startsWith("127.") || host.startsWith("[::1]") || host.startsWithIgnoreCase("localhost");
 }
 
-// juce::URL would escape what separates the parts behind the #. A shell reads the words on some systems.
+// juce::URL would escape the separators after the #. On some systems a shell parses the link.
 void openLink(juce::String link) {
     for (const char c : std::string_view{"\"$`\\ "})
-        link = link.replace(juce::String::charToString(c), juce::String{encoded({c})}.replace("+", "%20"));
+        link = link.replace(juce::String::charToString(c), juce::String{urlEncoded({c})}.replace("+", "%20"));
     juce::Process::openDocument(link, {});
 }
 
-juce::File PageServer::page() {
+juce::File PageServer::pageFolder() {
     auto folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
     for (; !folder.isRoot(); folder = folder.getParentDirectory())
-        for (const char* at : {"build/web/page", "physvib-page", "share/physvib/physvib-page"})
-            if (folder.getChildFile(at).getChildFile("serve.py").existsAsFile())
-                return folder.getChildFile(at);
+        for (const char* path : {"build/web/page", "physvib-page", "share/physvib/physvib-page"})
+            if (folder.getChildFile(path).getChildFile("serve.py").existsAsFile())
+                return folder.getChildFile(path);
     return {};
 }
 
-Result<std::string> PageServer::begin() {
-    const auto folder = page();
-    juce::String words;
+Result<std::string> PageServer::start() {
+    const auto folder = pageFolder();
+    juce::String line;
     if (program_.start({"python3", folder.getChildFile("serve.py").getFullPathName(), "--with-parent",
                         folder.getFullPathName()}))
         for (char c = 0; program_.readProcessOutput(&c, 1) == 1 && c != '\n';)
-            words << juce::String::charToString(c);
-    const auto address = words.upToFirstOccurrenceOf(" ", false, false);
+            line << juce::String::charToString(c);
+    const auto address = line.upToFirstOccurrenceOf(" ", false, false);
     if (address.startsWith("https://")) return (address + "/").toStdString();
     return Failure{"The page is not served: " +
-                   (words.isEmpty() ? std::string{"expected python3"} : words.toStdString())};
+                   (line.isEmpty() ? std::string{"expected python3"} : line.toStdString())};
 }
 
 } // namespace physvib

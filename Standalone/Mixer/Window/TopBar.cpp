@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls and status text of the top bar.
+// Controls of scene, time and recording in the top bar, and its status of device, board and load.
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Window/MixerView.h"
 #include "Scene/SceneFile.h"
@@ -8,9 +8,9 @@ namespace physvib {
 
 namespace {
 
-constexpr int looksPerTime = 3, looksPerNumbers = 12;
+constexpr int updatesPerClock = 3, updatesPerNumbers = 12;
 constexpr int sceneFileId = 1000; // followed by the user's scenes
-constexpr std::array<int, 4> paces{1, 2, 4, 8};
+constexpr std::array<int, 4> slownessSteps{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
     const auto hundredths = ns / 10'000'000;
@@ -19,12 +19,12 @@ juce::String clock(std::int64_t ns) {
            juce::String{hundredths % 100}.paddedLeft('0', 2);
 }
 
-juce::String count(std::uint64_t n, const char* what) {
-    return number(static_cast<double>(n), 0) + " " + what;
+juce::String count(std::uint64_t n, const char* noun) {
+    return number(static_cast<double>(n), 0) + " " + noun;
 }
 
-const juce::String disc = juce::String::charToString(0x25cf) + " ";
-juce::String dotted(const juce::StringArray& parts) {
+const juce::String discSymbol = juce::String::charToString(0x25cf) + " ";
+juce::String joinedByDots(const juce::StringArray& parts) {
     return parts.joinIntoString("  " + juce::String::charToString(0x00b7) + "  ");
 }
 
@@ -35,7 +35,7 @@ TopBar::TopBar(MixerModel& model)
     , hasBoard_{!model.session().sinks().states().empty()} {
     setTitle("Transport and device");
     describe(menu_, "Menu", "Open, save, record, render (F10)");
-    menu_.setMouseClickGrabsKeyboardFocus(false); // after its menu the keys are again of who had them
+    menu_.setMouseClickGrabsKeyboardFocus(false); // the keyboard stays with its owner
     menu_.onClick = [this] { onMenu(menu_); };
     save_.onClick = [this] { onSave(); };
     undo_.onClick = [this] { model_.undoManager().undo(); };
@@ -47,8 +47,8 @@ TopBar::TopBar(MixerModel& model)
     step_.onClick = [this] { model_.session().world().stepOnce(); };
     describe(slow_, "Slow motion", "Slow motion: each press halves the speed of the world");
     slow_.onClick = [this] {
-        const auto at = std::ranges::find(paces, std::max(1, model_.session().world().slowness()));
-        model_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
+        const auto at = std::ranges::find(slownessSteps, std::max(1, model_.session().world().slowness()));
+        model_.setSlowness(at + 1 < slownessSteps.end() ? at[1] : 1);
     };
     restart_.onClick = [this] { model_.restart(model_.mix().seed); };
     describe(seed_, "Seed", "Seed of the scene: another seed is another course");
@@ -71,7 +71,7 @@ TopBar::TopBar(MixerModel& model)
     mode_.setTitle("Mode");
     mode_.onClick = [this] { onMode(); };
     silence_.getProperties().set(stopProperty, true);
-    silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
+    silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps the keyboard
     describe(silence_, "Silence",
              "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card, "
              "menu or drag it ends, and then silences only what sounds, or did 1.5 s before");
@@ -79,23 +79,23 @@ TopBar::TopBar(MixerModel& model)
     addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
                    &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
     setRecording(false);
-    setPlay(false);
+    setPlayMode(false);
     mixChanged();
 }
 
 void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
-    if (files == own_) return;
-    own_ = files;
+    if (files == ownScenes_) return;
+    ownScenes_ = files;
     listScenes();
     mixChanged();
 }
 
 void TopBar::listScenes() {
-    scene_.clear(quietly);
-    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
+    scene_.clear(dontNotify);
+    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(displayTitle(scene.name), id++);
     scene_.addSeparator();
-    for (int k = 0; k < own_.size(); ++k)
-        scene_.addItem(own_[k].getFileNameWithoutExtension(), sceneFileId + 1 + k);
+    for (int k = 0; k < ownScenes_.size(); ++k)
+        scene_.addItem(ownScenes_[k].getFileNameWithoutExtension(), sceneFileId + 1 + k);
     scene_.addItem(juce::String::fromUTF8("Scene file\xe2\x80\xa6"), sceneFileId);
 }
 
@@ -105,7 +105,7 @@ void TopBar::chooseScene() {
         mixChanged();
         onOpenScene();
     } else if (id > sceneFileId) {
-        onOwnScene(own_[id - sceneFileId - 1]);
+        onOwnScene(ownScenes_[id - sceneFileId - 1]);
     } else if (id > 0) {
         const auto& scene = nth(builtInScenes(), id - 1);
         if (scene == *model_.mix().scene) return;
@@ -115,16 +115,16 @@ void TopBar::chooseScene() {
 
 void TopBar::mixChanged() {
     const auto& mix = model_.mix();
-    scene_.setText(titleOf(mix.scene->name), quietly);
-    seed_.setText("seed " + juce::String{static_cast<juce::int64>(mix.seed)}, quietly);
+    scene_.setText(displayTitle(mix.scene->name), dontNotify);
+    seed_.setText("seed " + juce::String{static_cast<juce::int64>(mix.seed)}, dontNotify);
     const int slowness = model_.session().world().slowness();
-    pause_.setSign(slowness == 0 ? Sign::play : Sign::pause,
+    pause_.setIcon(slowness == 0 ? Icon::play : Icon::pause,
                    slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
-    pause_.setToggleState(slowness == 0, quietly);
+    pause_.setToggleState(slowness == 0, dontNotify);
     step_.setEnabled(slowness == 0);
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
-    slow_.setToggleState(slowness > 1, quietly);
-    silence_.setToggleState(model_.isSilent(), quietly);
+    slow_.setToggleState(slowness > 1, dontNotify);
+    silence_.setToggleState(model_.isSilent(), dontNotify);
     silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
     const auto& history = model_.undoManager();
     undo_.setEnabled(history.canUndo());
@@ -134,57 +134,61 @@ void TopBar::mixChanged() {
 }
 
 void TopBar::setRecording(bool isRecording) {
-    record_.setToggleState(isRecording, quietly);
+    record_.setToggleState(isRecording, dontNotify);
     isRecording_ = isRecording;
-    recordedFromNs_ = -1;
-    record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
+    recordingStartNs_ = -1;
+    record_.setButtonText(discSymbol + (isRecording ? "Recording" : "Record"));
 }
 
-void TopBar::refresh(const MixerMoment& moment) {
-    const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
-    if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), quietly);
-    if (turn != 0) return;
+void TopBar::refresh(const MixerSnapshot& snapshot) {
+    const int phase = updates_++ % updatesPerNumbers; // faster numbers are illegible
+    if (phase % updatesPerClock == 0) time_.setText(clock(snapshot.session.sessionNs), dontNotify);
+    if (phase != 0) return;
     if (isRecording_) {
-        if (recordedFromNs_ < 0) recordedFromNs_ = moment.session.sessionNs;
-        record_.setButtonText(disc + clock(moment.session.sessionNs - recordedFromNs_).dropLastCharacters(3));
+        if (recordingStartNs_ < 0) recordingStartNs_ = snapshot.session.sessionNs;
+        record_.setButtonText(discSymbol +
+                              clock(snapshot.session.sessionNs - recordingStartNs_).dropLastCharacters(3));
     }
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
-    const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
+    const bool isWithoutDevice = name.startsWith(juce::String{nullDeviceType} + ":");
     const auto numbers =
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
-    const auto felt = "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms ",
-               whole = felt + "after the contact";
-    const int beside = getHeight() > lineHeight ? 170 : 0; // for the name, in its line
-    const bool isWhole = text::pixels(text::font(text::small), whole) <= device_.getWidth() - beside;
-    const auto shown = isNone ? juce::String{"No device"} : name;
-    const bool isSeen = model_.isOnlySeen();
-    if (!moment.device.isRunning)
-        device_.set("No sound", model_.device().trouble().upToFirstOccurrenceOf(";", false, false),
+    const auto latencyText = "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms ",
+               longText = latencyText + "after the contact";
+    const int nameWidth = getHeight() > lineHeight ? 170 : 0; // width of the name in the second line
+    const bool hasRoom =
+        text::pixelWidth(text::font(text::small), longText) <= device_.getWidth() - nameWidth;
+    const auto deviceText = isWithoutDevice ? juce::String{"No device"} : name;
+    const bool isVisualOnly = model_.isVisualOnly();
+    if (!snapshot.device.isRunning)
+        device_.set("No sound", model_.device().error().upToFirstOccurrenceOf(";", false, false),
                     Shade::limit);
     else
-        device_.set(isPlay_ ? shown : dotted({shown, numbers, juce::String{output.blockFrames()}}),
-                    isSeen    ? juce::String{"seen, not felt"}
-                    : isWhole ? whole
-                              : felt + "later",
-                    isSeen ? Shade::now : Shade::text);
+        device_.set(isPlayMode_ ? deviceText
+                                : joinedByDots({deviceText, numbers, juce::String{output.blockFrames()}}),
+                    isVisualOnly ? juce::String{"seen, not felt"}
+                    : hasRoom    ? longText
+                                 : latencyText + "later",
+                    isVisualOnly ? Shade::highlight : Shade::text);
     device_.setTooltip(name);
-    const bool hadLoad = isToldOfLoad_;
-    const auto& r = moment.session.render;
-    constexpr double untilFineMs = 5e3; // without any more; Telemetry goes on counting
-    const Lost now{r.late, model_.session().world().drops() + r.untold};
-    if (std::exchange(lost_, now) != now) lostAtMs_ = nowMs();
-    if (nowMs() - lostAtMs_ > untilFineMs || now.late < lostBefore_.late || now.lost < lostBefore_.lost)
-        lostBefore_ = now; // fewer: of another device
-    const Lost news{now.late - lostBefore_.late, now.lost - lostBefore_.lost};
-    load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
-              dotted({count(news.late, "late"), count(news.lost, "lost")}),
-              news == Lost{} ? Shade::text : Shade::now);
-    isToldOfLoad_ = news.lost > 0 || moment.device.load > 0.5f;
+    const bool hadWarning = warnsOfLoad_;
+    const auto& r = snapshot.session.render;
+    constexpr double lossDisplayMs = 5e3; // losses are shown; Telemetry shows the totals
+    const Losses losses{r.late, model_.session().world().drops() + r.unsent};
+    if (std::exchange(losses_, losses) != losses) lostAtMs_ = nowMs();
+    if (nowMs() - lostAtMs_ > lossDisplayMs || losses.late < seenLosses_.late ||
+        losses.lost < seenLosses_.lost)
+        seenLosses_ = losses; // smaller counts: of another device
+    const Losses newLosses{losses.late - seenLosses_.late, losses.lost - seenLosses_.lost};
+    load_.set("Load " + number(100.0 * snapshot.device.load, 1) + " %",
+              joinedByDots({count(newLosses.late, "late"), count(newLosses.lost, "lost")}),
+              newLosses == Losses{} ? Shade::text : Shade::highlight);
+    warnsOfLoad_ = newLosses.lost > 0 || snapshot.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     board_.set(sinks.empty() ? juce::String{"Board: none"}
-               : areReady    ? titleOf(sinks.front().name) + ": ready"
+               : areReady    ? displayTitle(sinks.front().name) + ": ready"
                              : "No " + utf8(std::ranges::find(sinks, false, &SinkState::isReady)->name),
                model_.isSilent() ? juce::String{"silenced"}
                                  : count(static_cast<std::uint64_t>(r.liveModes),
@@ -192,69 +196,70 @@ void TopBar::refresh(const MixerMoment& moment) {
                sinks.empty() ? Shade::muted
                : areReady    ? Shade::accent
                              : Shade::limit);
-    if (hadLoad != isToldOfLoad_) resized();
+    if (hadWarning != warnsOfLoad_) resized();
 }
 
-void TopBar::setShow(bool isShow) {
-    isShow_ = isShow;
+void TopBar::setShowMode(bool isShowMode) {
+    isShowMode_ = isShowMode;
     showControls();
 }
 
-void TopBar::setPlay(bool isPlay) {
-    isPlay_ = isPlay;
-    mode_.setButtonText(isPlay ? "Engineer" : "Play");
-    mode_.setTooltip(isPlay ? "Strips, lanes, events, materials, outputs and studies as well (F2)"
-                            : "The world, and what one needs to play (F2)");
-    looks_ = 0; // its figures are of the mode
+void TopBar::setPlayMode(bool isPlayMode) {
+    isPlayMode_ = isPlayMode;
+    mode_.setButtonText(isPlayMode ? "Engineer" : "Play");
+    mode_.setTooltip(isPlayMode ? "Strips, lanes, events, materials, outputs and studies as well (F2)"
+                                : "The world, and what one needs to play (F2)");
+    updates_ = 0; // refreshes the figures, which depend on the mode
     showControls();
 }
 
 void TopBar::showControls() {
-    for (auto* child : getChildren()) child->setVisible(!isShow_ || child == &silence_);
-    physvib::setVisible({&step_, &slow_, &seed_, &time_}, !isShow_ && !isPlay_);
+    for (auto* child : getChildren()) child->setVisible(!isShowMode_ || child == &silence_);
+    physvib::setVisible({&step_, &slow_, &seed_, &time_}, !isShowMode_ && !isPlayMode_);
     resized();
 }
 
 void TopBar::resized() {
     auto area = getLocalBounds().reduced(gap, 9);
     const bool isOneLine = getHeight() <= lineHeight;
-    const auto states = area.removeFromBottom(isOneLine ? 0 : secondLine).translated(0, 5);
+    const auto states = area.removeFromBottom(isOneLine ? 0 : secondLineHeight).translated(0, 5);
     area.setHeight(lineHeight - 18);
-    constexpr int button = 36, between = 8, tight = 2;
+    constexpr int buttonWidth = 36, between = 8, tight = 2;
     silence_.setBounds(area.removeFromRight(166));
     area.removeFromRight(between);
     struct Control {
         juce::Component* component;
-        int width, after;
+        int width, gapAfter;
     };
-    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 60, between},
-                                                                                {&save_, button, tight},
-                                                                                {&undo_, button, tight},
-                                                                                {&redo_, button, between},
-                                                                                {&scene_, 134, between},
-                                                                                {&pause_, button, tight},
-                                                                                {&step_, button, tight},
-                                                                                {&slow_, button, tight},
-                                                                                {&restart_, button, between},
-                                                                                {&seed_, 66, 0},
-                                                                                {&time_, 82, 0},
-                                                                                {&record_, 90, between},
-                                                                                {&mode_, 66, between}}) {
+    for (const auto& [component, width, gapAfter] :
+         std::initializer_list<Control>{{&menu_, 60, between},
+                                        {&save_, buttonWidth, tight},
+                                        {&undo_, buttonWidth, tight},
+                                        {&redo_, buttonWidth, between},
+                                        {&scene_, 134, between},
+                                        {&pause_, buttonWidth, tight},
+                                        {&step_, buttonWidth, tight},
+                                        {&slow_, buttonWidth, tight},
+                                        {&restart_, buttonWidth, between},
+                                        {&seed_, 66, 0},
+                                        {&time_, 82, 0},
+                                        {&record_, 90, between},
+                                        {&mode_, 66, between}}) {
         if (!component->isVisible()) continue;
-        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not
-        area.removeFromLeft(after);
+        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // hidden without room
+        area.removeFromLeft(gapAfter);
     }
-    if (!isShow_) placeStates(isOneLine ? area : states);
+    if (!isShowMode_) placeStates(isOneLine ? area : states);
 }
 
-// To play, and where there is little room, a load and a board are seen when they have something to say.
+// In play mode, and where there is little room, load and board are shown only with a warning or a board.
 void TopBar::placeStates(juce::Rectangle<int> area) {
-    const bool isSecond = getHeight() > lineHeight,
-               hasRoom = !isPlay_ && (isSecond || getWidth() >= minFacts);
-    load_.setVisible(hasRoom || isToldOfLoad_);
+    const bool isSecondLine = getHeight() > lineHeight,
+               hasRoom = !isPlayMode_ && (isSecondLine || getWidth() >= minStatusWidth);
+    load_.setVisible(hasRoom || warnsOfLoad_);
     board_.setVisible(hasRoom || hasBoard_);
-    if (load_.isVisible()) load_.setBounds(area.removeFromRight(isSecond ? 200 : 112));
-    if (board_.isVisible()) board_.setBounds(area.removeFromRight(isSecond ? 200 : 108));
+    if (load_.isVisible()) load_.setBounds(area.removeFromRight(isSecondLine ? 200 : 112));
+    if (board_.isVisible()) board_.setBounds(area.removeFromRight(isSecondLine ? 200 : 108));
     device_.setBounds(area.withTrimmedRight(8));
 }
 

@@ -12,8 +12,8 @@ namespace physvib {
 /// through these steps:
 /// 1. mouseDown: the tool decides whether a stroke begins (shapes, joints), a selected body is gripped by one
 ///    of its handles, or the press goes on to the view below, which throws bodies (the hand tool).
-/// 2. mouseDrag: the stroke grows, snapped to the grid if snaps(). What it would become is painted each time
-///    from the stroke; the scene does not change yet, except by the eraser.
+/// 2. mouseDrag: the stroke grows, snapped to the grid if isSnapping(). What it would become is painted each
+///    time from the stroke; the scene does not change yet, except by the eraser.
 /// 3. mouseUp: the stroke becomes bodies, a joint, or new places of the selected bodies: one edit.
 /// Message thread.
 class DrawPane final : public juce::Component {
@@ -21,44 +21,44 @@ public:
     /// Both arguments outlive it. It is placed over `view`.
     DrawPane(MixerModel& model, WorldView& view);
 
-    void use(DrawTool tool); ///< the hand tool acts in the view below
+    void setTool(DrawTool tool); ///< the hand tool acts in the view below
     DrawTool tool() const noexcept { return tool_; }
-    void setMaterial(int material);  ///< for new bodies and, with the arrow, the selected ones
-    void giveMaterial(int material); ///< of the selected bodies only
+    void setMaterial(int material);         ///< for new bodies and, with the tool select, the selected ones
+    void setSelectedMaterial(int material); ///< of the selected bodies only
     int material() const noexcept { return material_; }
-    void setSnapping(bool snaps);
-    bool snaps() const noexcept { return snaps_; }
+    void setSnapping(bool isSnapping);
+    bool isSnapping() const noexcept { return isSnapping_; }
 
-    const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< selected bodies
-    void choose(std::vector<std::string> names);
-    void chooseAll();
+    const std::vector<std::string>& selected() const noexcept { return selected_; } ///< selected bodies
+    void select(std::vector<std::string> names);
+    void selectAll();
     /// Changes each selected body in place, as one edit.
-    void changeChosen(const juce::String& name,
-                      const std::function<void(const Scene&, BodyDescription&)>& change,
-                      bool continuesEdit = false);
+    void changeSelected(const juce::String& name,
+                        const std::function<void(const Scene&, BodyDescription&)>& change,
+                        bool continuesEdit = false);
 
     int rainCount() const noexcept { return rainCount_; }
     void setRainCount(int count);
     const RainPattern& rainPattern() const noexcept { return rain_.pattern(); }
     void setRainPattern(const RainPattern& pattern);
-    void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; call it at every refresh
+    void spawnDueBodies() { rain_.spawnDueBodies(); } ///< adds bodies of a rain; call it at every refresh
 
     // Menu commands, at places in metres of the field.
-    void addAt(DrawTool tool, Vector place); ///< a body of the usual size, or a joint
-    void joinAt(DrawTool tool, Vector place) { addAt(tool, place); }
-    void copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
-    bool hasCopy() const noexcept { return !copied_.bodies.empty(); }
+    void addAt(DrawTool tool, Vector place); ///< a body of the default size, or a joint
+    void addJointAt(DrawTool tool, Vector place) { addAt(tool, place); }
+    void copy(const std::vector<std::string>& names) { clipboard_ = copyBodies(drawing(), names); }
+    bool hasCopy() const noexcept { return !clipboard_.bodies.empty(); }
     void pasteAt(Vector place);
-    void eraseAll(const std::vector<std::string>& names, bool continuesEdit = false);
+    void eraseBodies(const std::vector<std::string>& names, bool continuesEdit = false);
 
     std::function<void()> onChange;                       ///< tool, selection or material changed
-    std::function<void(juce::Point<float> place)> onMenu; ///< right click
+    std::function<void(juce::Point<float> pixel)> onMenu; ///< right click
 
-    juce::Rectangle<float> chosenArea() const; ///< around what is selected, in pixels; empty: nothing is
+    juce::Rectangle<float> selectionBounds() const; ///< of the selected bodies, in pixels; empty: none
 
-    std::optional<BodyPlace> placeNow(const std::string& name) const; ///< nullopt: it is not there now
+    std::optional<BodyPlace> currentPlace(const std::string& name) const; ///< nullopt: it is not in the world
 
-    bool isDrawing() const noexcept { return isDrawing_; } ///< or moves what is selected
+    bool isDrawing() const noexcept { return isDrawing_; } ///< or moving the selected bodies
     void cancelStroke();
 
     void mixChanged(); ///< the mixer state changed
@@ -72,59 +72,64 @@ public:
 
 private:
     static constexpr double gridsPerField = 40.0, turnStep = juce::MathConstants<double>::pi / 12.0;
-    enum class Grip { none, move, size, turn, around };
+    enum class Grip { none, move, size, turn, marquee };
     struct Handles { // of one body, in pixels
         std::array<juce::Point<float>, 4> corners;
         juce::Point<float> turn, centre;
     };
     const SceneDrawing& drawing() const noexcept { return model_.world().drawing(); }
-    Vector at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
-    double grid() const { return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0; }
-    bool isBeside(juce::Point<float> place) const;
+    Vector snappedMetres(const juce::MouseEvent& e) const {
+        return snapToGrid(view_.metresAt(e.position), gridMetres());
+    }
+    double gridMetres() const {
+        return isSnapping_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
+    }
+    bool isOutsideField(juce::Point<float> pixel) const;
     std::optional<Handles> handles() const;
-    BodyDescription sizedNow() const;                  ///< the selected body as the drag sizes it
-    std::map<std::string, BodyPlace> movedNow() const; ///< selected bodies as the drag moves them
-    Result<BodyDescription> drawnNow() const;          ///< what the stroke would become
-    Result<std::vector<BodyDescription>> rainNow() const;
-    Result<BodyDescription> beltNow() const;
+    BodyDescription resizedBody() const;                  ///< the selected body as the drag sizes it
+    std::map<std::string, BodyPlace> movedPlaces() const; ///< selected bodies as the drag moves them
+    Result<BodyDescription> strokeBody() const;           ///< body that the stroke would become
+    Result<std::vector<BodyDescription>> strokeRain() const;
+    Result<BodyDescription> strokeBelt() const;
     void addStroke();
-    bool prepare(std::vector<BodyDescription>& bodies);
+    bool prepareBodies(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);
-    void join();
-    void erase(const juce::MouseEvent& e);
+    void addJoint();
+    void eraseAt(const juce::MouseEvent& e);
     void edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit = false);
-    void grip(const juce::MouseEvent& e);
+    void beginGrip(const juce::MouseEvent& e);
     void nudge(Vector byMetres, double byRadians);
-    void scaleChosen(double factor);
-    void paste(const Copied& copy, Vector beside);
+    void scaleSelected(double factor);
+    void paste(const CopiedBodies& copy, Vector beside);
     void closePolygon();
-    void addInTheMiddle();
+    void addAtCentre();
     bool handleToolKey(const juce::KeyPress& key);
-    std::string fieldBody(std::vector<Action>& actions, const Vector& place); ///< for a joint to the field
-    std::string jointAt(juce::Point<float> place) const;                      ///< its name; empty: none
-    Vector carried(const Vector& point, const std::string& body) const; ///< at the current pose of the body
-    juce::Line<float> lineNow(const JointDescription& joint) const;     ///< in pixels
+    std::string findOrAddAnchor(std::vector<Action>& actions, const Vector& place); ///< for a joint to the
+                                                                                    ///< field
+    std::string jointAt(juce::Point<float> pixel) const;                            ///< its name; empty: none
+    Vector atCurrentPose(const Vector& point, const std::string& body) const;       ///< moved with the body
+    juce::Line<float> jointLine(const JointDescription& joint) const;               ///< in pixels
     void drawBelts(juce::Graphics& g) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
                      juce::Colour colour, bool isFilled) const;
-    void drawChosen(juce::Graphics& g) const;
+    void drawSelection(juce::Graphics& g) const;
     void drawStroke(juce::Graphics& g) const;
 
     MixerModel& model_;
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
     int material_ = 0;
-    bool isPicked_ = false;              // a person chose the material
-    std::shared_ptr<const Scene> scene_; // for which it was chosen
+    bool isMaterialChosen_ = false;      // the user chose the material
+    std::shared_ptr<const Scene> scene_; // scene of that choice
     int rainCount_ = 50;
     Rain rain_;
-    bool snaps_ = false, isDrawing_ = false;
-    std::vector<std::string> chosen_;
-    Copied copied_;
+    bool isSnapping_ = false, isDrawing_ = false;
+    std::vector<std::string> selected_;
+    CopiedBodies clipboard_;
     Grip grip_ = Grip::none;
-    std::vector<Vector> stroke_; // since the mouse was pressed, or of the polygon; metres
-    Vector to_;                  // mouse position
+    std::vector<Vector> stroke_; // its points, or the corners of the polygon, in metres
+    Vector pointerMetres_;       // mouse position
 };
 
 } // namespace physvib

@@ -9,7 +9,7 @@ namespace physvib {
 
 enum class DrawTool {
     hand,
-    choose,
+    select,
     ball,
     box,
     polygon,
@@ -25,16 +25,16 @@ enum class DrawTool {
     eraser
 };
 
-struct DrawToolWords {
+struct DrawToolInfo {
     DrawTool tool;
     char key; ///< its key, with the focus in the world
-    const char *name, *does;
+    const char *name, *help;
 };
 
 /// In the order of the tool bar.
-inline constexpr std::array<DrawToolWords, 15> drawTools{{
+inline constexpr std::array<DrawToolInfo, 15> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
-    {DrawTool::choose, 's', "Select",
+    {DrawTool::select, 's', "Select",
      "Click a body, or drag around several; drag to move, handles to size and turn"},
     {DrawTool::ball, 'b', "Ball", "Drag from the centre outwards"},
     {DrawTool::box, 'x', "Box", "Drag from corner to corner"},
@@ -52,24 +52,24 @@ inline constexpr std::array<DrawToolWords, 15> drawTools{{
     {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
 }};
 
-inline bool isStroke(DrawTool tool) {
+inline bool isStrokeTool(DrawTool tool) {
     return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
            tool == DrawTool::wall || tool == DrawTool::rain || tool == DrawTool::conveyor;
 }
-inline bool isJoint(DrawTool tool) {
+inline bool isJointTool(DrawTool tool) {
     return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||
            tool == DrawTool::slider || tool == DrawTool::motor;
 }
 
-inline const DrawToolWords& wordsOf(DrawTool tool) { return nth(drawTools, tool); }
+inline const DrawToolInfo& infoOf(DrawTool tool) { return nth(drawTools, tool); }
 
 /// Icon around (0, 0), within 9 pixels in each direction.
-juce::Path signOf(DrawTool tool);
+juce::Path iconOf(DrawTool tool);
 
 /// How the bodies of a rain appear: all at once or at a rate in simulated time, where they were drawn or
 /// upwards from one place.
 struct RainPattern {
-    int perSecond = 0; ///< 0: all at once
+    int bodiesPerSecond = 0; ///< 0: all at once
     bool isFountain = false;
     bool operator==(const RainPattern&) const = default;
 };
@@ -82,14 +82,14 @@ public:
         : model_{model} {}
     const RainPattern& pattern() const noexcept { return pattern_; }
     void setPattern(const RainPattern& pattern) { pattern_ = pattern; }
-    void begin(std::vector<BodyDescription> bodies); ///< named, in the order of appearance
+    void start(std::vector<BodyDescription> bodies); ///< named, in the order of appearance
     void spawnDueBodies();                           ///< call it at every refresh
 
 private:
     MixerModel& model_;
     RainPattern pattern_;
-    std::vector<BodyDescription> falling_;  // not added yet; the next one is the last element
-    std::int64_t fromNs_ = 0, spawned_ = 0; // scene time of the start; bodies added since
+    std::vector<BodyDescription> pendingBodies_;  // not added yet; the next one is the last element
+    std::int64_t startNs_ = 0, spawnedCount_ = 0; // scene time of the start; bodies added since
 };
 
 } // namespace physvib

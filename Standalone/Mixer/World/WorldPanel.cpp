@@ -8,19 +8,19 @@
 namespace physvib {
 namespace {
 
-constexpr double shownMs = 900.0;    // minimum time that a hit is described, unless a stronger one comes
-constexpr double handMs = 10.0;      // between inputs while a body is held; mice report more often
-constexpr double handSeconds = 0.02; // of each grip; the next one comes before its end
+constexpr double minHitTextMs = 900.0;  // minimum time that a hit is described, unless a stronger one comes
+constexpr double gripIntervalMs = 10.0; // between inputs while a body is held; mice report more often
+constexpr double gripSeconds = 0.02;    // duration of each grip; the next one comes before its end
 // widths of the panel in pixels at which law, master and drag knob have room; height of the bottom row
-constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820, foot = 42;
-const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
+constexpr int minWidthWithLaw = 700, masterWidth = 260, minWidthWithKnob = 820, footerHeight = 42;
+const juce::String separator = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
-juce::String strengthWords(double g) {
+juce::String strengthText(double g) {
     return g < 0.02 ? "hardly felt" : g < 0.1 ? "felt softly" : g < 0.4 ? "felt" : "felt strongly";
 }
 
-constexpr double stepSeconds = 0.01; // one step of the world; a trim starts and ends at steps
+constexpr double stepSeconds = 0.01; // of the sliders, one step of the world
 
 } // namespace
 
@@ -28,81 +28,81 @@ WorldPanel::WorldPanel(MixerModel& model)
     : model_{model} {
     setTitle("World");
     setWantsKeyboardFocus(true);
-    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
+    view_.onFling = [this](const std::string& body, Vector screenMetres, Vector point) {
         const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
-        model_.reportFault(
-            model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
+        model_.reportIfError(
+            model_.world().apply(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
     };
     view_.onHold = [this](const std::string& body, Vector point, Vector to) {
-        hand_ = GripAction{body, to, point, handSeconds};
-        moveHand();
+        pendingGrip_ = GripAction{body, to, point, gripSeconds};
+        sendGrip();
     };
-    view_.onLetGo = [this](const std::string& body) {
-        hand_.reset();
-        model_.reportFault(model_.world().act(GripAction{body, {}, {}}));
+    view_.onRelease = [this](const std::string& body) {
+        pendingGrip_.reset();
+        model_.reportIfError(model_.world().apply(GripAction{body, {}, {}}));
     };
-    view_.pullText = [this](double screenMetres) {
+    view_.flingText = [this](double screenMetres) {
         return "drag " + number(1e-3 * model_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
                kiloNewtonSeconds;
     };
     view_.onAttach = [this](FieldShare at) { model_.attach(at.x, at.y); };
-    view_.onDetach = [this](int enchanter) { model_.detach(enchanter); };
+    view_.onDetach = [this](int actuator) { model_.detach(actuator); };
     view_.acceptsFiles = isClipDrag;
-    view_.onFiles = [this](const juce::StringArray& files, int enchanter, FieldShare at) {
-        if (enchanter >= 0)
-            model_.strikes().feelOn(files, enchanter);
+    view_.onFiles = [this](const juce::StringArray& files, int actuator, FieldShare at) {
+        if (actuator >= 0)
+            model_.eventPlayer().playClipOn(files, actuator);
         else
-            model_.strikes().feelAt(files, at.x, at.y);
+            model_.eventPlayer().playClipAt(files, at.x, at.y);
     };
-    view_.onMove = [this](int enchanter, FieldShare to) {
+    view_.onMove = [this](int actuator, FieldShare to) {
         model_.change(
-            "Move " + labelOf(model_.mix(), enchanter),
+            "Move " + labelOf(model_.mix(), actuator),
             [&](Mix& mix) {
                 auto& layout = mix.layout.geometry;
-                auto& place = nth(layout.places, enchanter); // depth and part stay
+                auto& place = nth(layout.places, actuator); // depth and part of the body stay unchanged
                 place.xMetres = to.x * layout.extentWidthMetres;
                 place.yMetres = to.y * layout.extentHeightMetres;
                 mix.layout.name = "own";
             },
-            std::exchange(isMoving_, true));
+            std::exchange(isBadgeMoving_, true));
     };
     view_.addMouseListener(this, false);
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) {
-        menuAt(place).showMenuAsync(
+        makeMenu(place).showMenuAsync(
             juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
     };
-    sentence_.setTitle("Strongest hit");
-    sentence_.setFont(text::font(text::medium));
-    law_.setBorderSize({0, 0, 0, 6});
-    for (auto* name : {&tiltName_, &dragName_}) name->setBorderSize({0, 5, 0, 0});
-    law_.setJustificationType(juce::Justification::centredRight);
+    hitLabel_.setTitle("Strongest hit");
+    hitLabel_.setFont(text::font(text::medium));
+    lawLabel_.setBorderSize({0, 0, 0, 6});
+    for (auto* name : {&tiltLabel_, &dragLabel_}) name->setBorderSize({0, 5, 0, 0});
+    lawLabel_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves())
-            play(player_->tilt(tilt_.angleRadians()));
+            sendInput(player_->tilt(tilt_.angleRadians()));
         else
-            model_.world().act(TiltAction{tilt_.angleRadians()});
+            model_.world().apply(TiltAction{tilt_.angleRadians()});
     };
     drag_.setTitle("Drag strength");
     drag_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
     drag_.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
     drag_.setTooltip("Drag strength: how hard a body is pushed per metre of the screen that it is dragged; "
                      "double click: as in the thesis");
-    drag_.setRange(leastDrag, mostDrag, 1'000.0);
+    drag_.setRange(minDrag, maxDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
     drag_.setDoubleClickReturnValue(true, thesisDrag);
     drag_.textFromValueFunction = [](double push) {
         return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m";
     };
-    onSlide(drag_, [this](bool continuesEdit) {
+    onSliderChange(drag_, [this](bool continuesEdit) {
         model_.change(
             "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
             continuesEdit);
     });
     compare_.setTitle("Compare A and B");
-    compare_.onClick = [this] { ab_.toggle(); };
-    addAll(*this,
-           {&view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_});
-    addHidden(*this, {&master_, &palette_, &body_, &script_});
+    compare_.onClick = [this] { comparison_.toggle(); };
+    addAll(*this, {&view_, &pane_, &bar_, &hitLabel_, &lawLabel_, &compare_, &tilt_, &tiltLabel_, &drag_,
+                   &dragLabel_});
+    addHidden(*this, {&master_, &palette_, &bodyPanel_, &scriptStrip_});
     pane_.onChange = [this] { showTools(); };
     mixChanged();
 }
@@ -110,155 +110,157 @@ WorldPanel::WorldPanel(MixerModel& model)
 void WorldPanel::mixChanged() {
     const auto& mix = model_.mix();
     const auto& scene = model_.world().scene();
-    if (shown_ != mix.scene) {
+    if (shownScene_ != mix.scene) {
         player_.emplace(scene);
-        first_.clear();
-        if (!player_->isThere()) player_.reset();
-        tiltName_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
+        pendingInputs_.clear();
+        if (!player_->isPresent()) player_.reset();
+        tiltLabel_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
     }
-    if (shown_ != mix.scene || shownEdits_ != model_.world().edits()) view_.show(scene);
-    shown_ = mix.scene;
-    shownEdits_ = model_.world().edits();
+    if (shownScene_ != mix.scene || shownEditCount_ != model_.world().editCount()) view_.show(scene);
+    shownScene_ = mix.scene;
+    shownEditCount_ = model_.world().editCount();
     pane_.mixChanged();
     showTools();
-    std::vector<bool> muted, without;
+    std::vector<bool> muted, withoutOutput;
     for (int j = 0; j < mix.count(); ++j) {
-        without.push_back(!model_.device().isPlayed(static_cast<std::size_t>(j)));
-        muted.push_back(mix.isSilent(j) || without.back());
+        withoutOutput.push_back(!model_.device().isPlayed(static_cast<std::size_t>(j)));
+        muted.push_back(mix.isSilent(j) || withoutOutput.back());
     }
-    view_.show(mix.layout, mix.panner(), std::move(muted), std::move(without));
+    view_.show(mix.layout, mix.panner(), std::move(muted), std::move(withoutOutput));
     master_.mixChanged();
     view_.setDisplayWidth(model_.displayWidthMetres());
-    law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
-                     number(mix.exponent, 1),
-                 juce::dontSendNotification);
-    const bool isB = ab_.isOn() && ab_.shown() == 'B';
-    compare_.setButtonText(!ab_.isOn() ? "A/B" : isB ? "B" : "A");
-    compare_.setToggleState(ab_.isOn(), juce::dontSendNotification);
-    compare_.setTooltip(!ab_.isOn()
+    lawLabel_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + separator + "exponent " +
+                          number(mix.exponent, 1),
+                      juce::dontSendNotification);
+    const bool isB = comparison_.isOn() && comparison_.activeState() == 'B';
+    compare_.setButtonText(!comparison_.isOn() ? "A/B" : isB ? "B" : "A");
+    compare_.setToggleState(comparison_.isOn(), juce::dontSendNotification);
+    compare_.setTooltip(!comparison_.isOn()
                             ? juce::String{"Compare two laws, layouts or mixes (A): B begins as a copy of A"}
-                            : juce::String{isB ? "B" : "A"} + " plays, " + number(ab_.loweredDb(), 1) +
+                            : juce::String{isB ? "B" : "A"} + " plays, " +
+                                  number(comparison_.loweredDb(), 1) +
                                   " dB lower, as loud as the other (A changes; the menu ends it)");
     if (!drag_.isMouseButtonDown())
         drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
-    dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
+    dragLabel_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
 }
 
 void WorldPanel::showTools() {
-    if (isShow_ && pane_.tool() != DrawTool::hand) return pane_.use(DrawTool::hand); // calls this again
-    bar_.show();
-    palette_.show();
-    palette_.setVisible(!isShow_ && pane_.tool() != DrawTool::hand);
-    script_.refresh(!isShow_ && pane_.tool() == DrawTool::hand);
-    body_.show();
-    placeInspector();
+    if (isShowMode_ && pane_.tool() != DrawTool::hand)
+        return pane_.setTool(DrawTool::hand); // calls this again
+    bar_.refresh();
+    palette_.refresh();
+    palette_.setVisible(!isShowMode_ && pane_.tool() != DrawTool::hand);
+    scriptStrip_.refresh(!isShowMode_ && pane_.tool() == DrawTool::hand);
+    bodyPanel_.refresh();
+    placeBodyPanel();
 }
 
 /// Place in the field where the body panel covers least of badges and selection. It stays where it is if no
 /// other place is better, and while the pointer is over it.
-juce::Rectangle<int> WorldPanel::withinField(int wide, int high) const {
-    const auto field = juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})}
+juce::Rectangle<int> WorldPanel::bodyPanelAreaInField(int width, int height) const {
+    const auto field = juce::Rectangle<float>{view_.pixelOfShare({0.0, 1.0}), view_.pixelOfShare({1.0, 0.0})}
                            .toNearestInt() +
                        view_.getPosition();
     const auto inner = field.reduced(24);
-    const auto chosen = pane_.chosenArea().toNearestInt().expanded(4) + pane_.getPosition();
+    const auto chosen = pane_.selectionBounds().toNearestInt().expanded(4) + pane_.getPosition();
     const auto covers = [&](juce::Rectangle<int> place) {
-        const auto overlap = [&place](juce::Rectangle<int> with) {
-            const auto both = place.getIntersection(with);
-            return both.getWidth() * both.getHeight();
+        const auto overlap = [&place](juce::Rectangle<int> other) {
+            const auto common = place.getIntersection(other);
+            return common.getWidth() * common.getHeight();
         };
         int sum = overlap(chosen);
         for (const auto& badge : view_.badges()) sum += overlap(badge.toNearestInt() + view_.getPosition());
         return sum;
     };
-    auto best = body_.getBounds();
-    const bool isThere = best.getWidth() == wide && best.getHeight() == high && inner.contains(best);
-    if (isThere && body_.isMouseOver(true)) return best;
-    int least = isThere ? covers(best) : std::numeric_limits<int>::max();
-    for (const int y : {inner.getY(), inner.getCentreY() - high / 2, inner.getBottom() - high})
-        for (const int x : {inner.getRight() - wide, inner.getX(), inner.getCentreX() - wide / 2})
-            if (const juce::Rectangle<int> place{x, y, wide, high}; covers(place) < least)
-                best = place, least = covers(place);
+    auto best = bodyPanel_.getBounds();
+    const bool isPlaced = best.getWidth() == width && best.getHeight() == height && inner.contains(best);
+    if (isPlaced && bodyPanel_.isMouseOver(true)) return best;
+    int minCovered = isPlaced ? covers(best) : std::numeric_limits<int>::max();
+    for (const int y : {inner.getY(), inner.getCentreY() - height / 2, inner.getBottom() - height})
+        for (const int x : {inner.getRight() - width, inner.getX(), inner.getCentreX() - width / 2})
+            if (const juce::Rectangle<int> place{x, y, width, height}; covers(place) < minCovered)
+                best = place, minCovered = covers(place);
     return best;
 }
 
-// Beside the field if there is room, else in a line above it, else in it.
-void WorldPanel::placeInspector() {
-    if (!body_.isVisible()) return;
-    const auto room = getLocalBounds()
-                          .withTrimmedTop(palette_.getBottom() + 2)
-                          .withTrimmedBottom(foot)
-                          .withLeft(palette_.getX())
-                          .withTrimmedRight(8);
+// The body panel is beside the field if there is room, else in a line above it, else in it.
+void WorldPanel::placeBodyPanel() {
+    if (!bodyPanel_.isVisible()) return;
+    const auto freeArea = getLocalBounds()
+                              .withTrimmedTop(palette_.getBottom() + 2)
+                              .withTrimmedBottom(footerHeight)
+                              .withLeft(palette_.getX())
+                              .withTrimmedRight(8);
     const auto edgeAt = [this](double metres) {
-        return juce::roundToInt(view_.placeOfMetres({metres, 0.0}).x) + view_.getX();
+        return juce::roundToInt(view_.pixelOfMetres({metres, 0.0}).x) + view_.getX();
     };
     // badges lie on the edge of the field, walls outside it
-    constexpr int apart = 20, least = 4, wide = BodyPanel::wide;
-    const int right = edgeAt(model_.world().scene().fieldWidthMetres), left = edgeAt(0.0) - wide;
-    const int high = body_.heightFor(wide);
-    juce::Rectangle<int> place{0, room.getCentreY() - high / 2, wide, high};
-    if (right + least + wide <= room.getRight())
-        place.setX(std::min(right + apart, room.getRight() - wide));
-    else if (left - least >= room.getX())
-        place.setX(std::max(left - apart, room.getX()));
+    constexpr int distance = 20, minGap = 4, width = BodyPanel::preferredWidth;
+    const int right = edgeAt(model_.world().scene().fieldWidthMetres), left = edgeAt(0.0) - width;
+    const int height = bodyPanel_.heightFor(width);
+    juce::Rectangle<int> place{0, freeArea.getCentreY() - height / 2, width, height};
+    if (right + minGap + width <= freeArea.getRight())
+        place.setX(std::min(right + distance, freeArea.getRight() - width));
+    else if (left - minGap >= freeArea.getX())
+        place.setX(std::max(left - distance, freeArea.getX()));
     else {
-        place = room.withHeight(body_.heightFor(room.getWidth()));
+        place = freeArea.withHeight(bodyPanel_.heightFor(freeArea.getWidth()));
         constexpr int badge = 15; // height of a badge above the field
-        const int top = juce::roundToInt(view_.placeOfShare({0.0, 1.0}).y) + view_.getY() - badge;
-        if (place.getBottom() > top) place = withinField(wide, high);
+        const int top = juce::roundToInt(view_.pixelOfShare({0.0, 1.0}).y) + view_.getY() - badge;
+        if (place.getBottom() > top) place = bodyPanelAreaInField(width, height);
     }
-    body_.setBounds(place);
+    bodyPanel_.setBounds(place);
 }
 
 juce::Rectangle<int> WorldPanel::bannerArea() const {
     auto row = getLocalBounds().reduced(8, 4);
-    if (isShow_) return row.withTrimmedRight(silenceWidth).withHeight(28);
+    if (isShowMode_) return row.withTrimmedRight(silenceWidth).withHeight(28);
     // beside the knobs and A/B if there is room
     if (const auto beside = row.withRight(tilt_.getX() - 8); hasMaster_ || beside.getWidth() >= 280)
         row = beside;
-    return row.removeFromBottom(foot - 9);
+    return row.removeFromBottom(footerHeight - 9);
 }
 
-void WorldPanel::setShow(bool isShow) {
-    isShow_ = isShow;
-    if (isShow) pane_.use(DrawTool::hand);
-    physvib::setVisible({&bar_, &sentence_, &tilt_, &tiltName_}, !isShow);
+void WorldPanel::setShowMode(bool isShow) {
+    isShowMode_ = isShow;
+    if (isShow) pane_.setTool(DrawTool::hand);
+    physvib::setVisible({&bar_, &hitLabel_, &tilt_, &tiltLabel_}, !isShow);
     showTools();
     resized();
 }
 
-void WorldPanel::setPlay(bool isPlay, bool hasMaster) {
-    isPlay_ = isPlay;
+void WorldPanel::setPlayMode(bool isPlay, bool hasMaster) {
+    isPlayMode_ = isPlay;
     hasMaster_ = hasMaster;
     resized();
 }
 
 /// Sends input of a player. The first one replaces the scene's script: the world restarts without it.
-void WorldPanel::play(const std::vector<Action>& actions) {
+void WorldPanel::sendInput(const std::vector<Action>& actions) {
     if (actions.empty()) return;
-    if (const Scene& drawn = model_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
-        auto scene = sceneForHands(drawn);
-        runsBefore_ = model_.saved().log.takes.size();
+    if (const Scene& drawn = model_.world().drawing().drawn(); sceneForUserInput(drawn) != drawn) {
+        auto scene = sceneForUserInput(drawn);
+        previousRunCount_ = model_.savedSession().log.runs.size();
         model_.change("Play",
                       [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
-        shown_ = model_.mix().scene; // keeps the player
-        first_ = actions;
+        shownScene_ = model_.mix().scene; // keeps the player
+        pendingInputs_ = actions;
         return;
     }
-    if (!first_.empty()) {
-        first_ = actions;
+    if (!pendingInputs_.empty()) {
+        pendingInputs_ = actions;
         return;
     }
-    for (const Action& action : actions) model_.reportFault(model_.world().act(action));
+    for (const Action& action : actions) model_.reportIfError(model_.world().apply(action));
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
-    if (!isShow_ && pane_.handleKey(key)) return true; // show mode has no tools
+    if (!isShowMode_ && pane_.handleKey(key)) return true; // show mode has no tools
     if (!player_) return tilt_.handleKey(key);
-    if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
-    if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
-    if (key == juce::KeyPress::downKey) return play(player_->steer(0)), true;
+    if (key == juce::KeyPress::leftKey) return sendInput(player_->steer(-1)), true;
+    if (key == juce::KeyPress::rightKey) return sendInput(player_->steer(1)), true;
+    if (key == juce::KeyPress::downKey) return sendInput(player_->steer(0)), true;
     return false;
 }
 
@@ -268,71 +270,71 @@ bool WorldPanel::keyStateChanged(bool isDown) {
     if (isDown || !player_ || !player_->moves() || KeyPress::isKeyCurrentlyDown(KeyPress::leftKey) ||
         KeyPress::isKeyCurrentlyDown(KeyPress::rightKey))
         return false;
-    return play(player_->steer(0)), false;
+    return sendInput(player_->steer(0)), false;
 }
 
-/// x on the field in metres, from an x in pixels of the view.
-double WorldPanel::metresAt(float x) const {
-    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
+double WorldPanel::fieldXMetres(float x) const {
+    const float left = view_.pixelOfShare({0.0, 0.0}).x, right = view_.pixelOfShare({1.0, 0.0}).x;
     return model_.world().scene().fieldWidthMetres * static_cast<double>((x - left) / (right - left));
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
-    isMoving_ = false;
-    if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
+    isBadgeMoving_ = false;
+    if (std::exchange(pointerMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
 void WorldPanel::cancelDrag() {
     view_.cancelDrag();
     pane_.cancelStroke();
-    if (std::exchange(isMoving_, false)) model_.undoManager().undo();
-    if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
+    if (std::exchange(isBadgeMoving_, false)) model_.undoManager().undo();
+    if (std::exchange(pointerMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
-void WorldPanel::lookAfterPlayer() {
+void WorldPanel::updatePlayer() {
     if (!player_) return;
     // the world has restarted
-    if (!first_.empty() && model_.saved().log.takes.size() > runsBefore_) play(std::exchange(first_, {}));
+    if (!pendingInputs_.empty() && model_.savedSession().log.runs.size() > previousRunCount_)
+        sendInput(std::exchange(pendingInputs_, {}));
     if (!player_->moves()) return;
-    const float at = view_.placeOfBody(player_->body()).x;
+    const float at = view_.pixelOfBody(player_->body()).x;
     if (at < -1e3f) return;
-    if (pointed_) play(player_->moveTowards(*pointed_, metresAt(at)));
-    for (const Action& action : player_->keepInside(metresAt(at))) model_.world().act(action);
+    if (pointerMetres_) sendInput(player_->moveTowards(*pointerMetres_, fieldXMetres(at)));
+    for (const Action& action : player_->keepInside(fieldXMetres(at))) model_.world().apply(action);
 }
 
-void WorldPanel::moveHand() {
-    if (!hand_ || nowMs() - handAtMs_ < handMs) return;
-    handAtMs_ = nowMs();
-    model_.reportFault(model_.world().act(*std::exchange(hand_, {})));
+void WorldPanel::sendGrip() {
+    if (!pendingGrip_ || nowMs() - lastGripMs_ < gripIntervalMs) return;
+    lastGripMs_ = nowMs();
+    model_.reportIfError(model_.world().apply(*std::exchange(pendingGrip_, {})));
 }
 
-juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
+juce::String WorldPanel::hitText(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
-    if (isClip(hit.sound)) return inLines({name, place});
-    const double g = strongestOf(model_, hit).levelG; // 0: its actuators are muted or have no output
-    const bool isSeen = g < 0.005 || (isPlay_ && model_.isOnlySeen());
-    auto felt = (isSeen    ? juce::String{"seen"}
-                 : isPlay_ ? strengthWords(g)
-                           : number(g, 2) + " g") +
+    if (isClip(hit.sound)) return fitInLines({name, place});
+    const double g = strongestActuatorFor(model_, hit).levelG; // 0: its actuators are muted or have no output
+    const bool isOnlySeen = g < 0.005 || (isPlayMode_ && model_.isVisualOnly());
+    auto felt = (isOnlySeen    ? juce::String{"seen"}
+                 : isPlayMode_ ? strengthText(g)
+                               : number(g, 2) + " g") +
                 " " + place;
-    if (isSeen) felt << ": " << whyOnlySeen(model_, hit);
-    if (isPlay_) return inLines({name, felt});
+    if (isOnlySeen) felt << ": " << reasonNotPlayed(model_, hit);
+    if (isPlayMode_) return fitInLines({name, felt});
     const auto hz = number(hit.frequencyHz, 0) + " Hz";
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
     for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
-        if (const auto words = inLines(parts); words.isNotEmpty()) return words;
-    return inLines({name, felt});
+        if (const auto words = fitInLines(parts); words.isNotEmpty()) return words;
+    return fitInLines({name, felt});
 }
 
 /// The parts in one or two lines; empty if they do not fit.
-juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
-    const auto font = sentence_.getFont();
-    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight() - 10;
+juce::String WorldPanel::fitInLines(const juce::StringArray& parts) const {
+    const auto font = hitLabel_.getFont();
+    const int freeWidth = hitLabel_.getWidth() - hitLabel_.getBorderSize().getLeftAndRight() - 10;
     juce::StringArray lines{parts[0]};
     for (int k = 1; k < parts.size(); ++k) {
-        const auto longer = lines.strings.getReference(lines.size() - 1) + dot + parts[k];
-        if (text::pixels(font, longer) <= room)
+        const auto longer = lines.strings.getReference(lines.size() - 1) + separator + parts[k];
+        if (text::pixelWidth(font, longer) <= freeWidth)
             lines.set(lines.size() - 1, longer);
         else
             lines.add(parts[k]);
@@ -341,122 +343,127 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
 }
 
 /// Why nothing is felt; empty if something is or may soon be felt.
-juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
-    constexpr double quietMs = 4000.0;
-    if (const auto why = whyMuted(); why.isNotEmpty()) return why;
+juce::String WorldPanel::findNothingFeltReason(double nowMs, bool isRunning) const {
+    constexpr double maxQuietMs = 4000.0;
+    if (const auto why = muteReason(); why.isNotEmpty()) return why;
     if (!isRunning) return "no device plays";
     if (model_.session().world().slowness() == 0) return "paused";
     const Scene& drawn = model_.world().drawing().drawn();
     const auto hasBody = [&drawn](auto is) {
         return std::ranges::any_of(drawn.bodies, is) ||
                std::ranges::any_of(drawn.script, [&is](const ScriptInput& input) {
-                   const auto* brought = bodyPutBy(input.action);
-                   return brought != nullptr && is(*brought);
+                   const auto* added = bodyAddedBy(input.action);
+                   return added != nullptr && is(*added);
                });
     };
     if (!hasBody([](const BodyDescription& body) { return body.type != BodyType::staticBody; }))
         return "draw a ball: B";
-    if (nowMs - hitAtMs_ > shownMs && !hasBody(isSource)) return "no body is a haptic source";
-    if (nowMs - hitAtMs_ <= quietMs) return "";
-    const bool areAllOut = std::ranges::all_of(drawn.bodies, [&](const BodyDescription& body) {
-        const auto at = body.type == BodyType::staticBody ? std::nullopt : pane_.placeNow(body.name);
+    if (nowMs - hitTimeMs_ > minHitTextMs && !hasBody(isSource)) return "no body is a haptic source";
+    if (nowMs - hitTimeMs_ <= maxQuietMs) return "";
+    const bool haveAllLeft = std::ranges::all_of(drawn.bodies, [&](const BodyDescription& body) {
+        const auto at = body.type == BodyType::staticBody ? std::nullopt : pane_.currentPlace(body.name);
         if (!at) return true;
         const auto [x, y] = at->metres;
         return x < 0.0 || y < 0.0 || x > drawn.fieldWidthMetres || y > drawn.fieldHeightMetres;
     });
-    return areAllOut && drawn.script.empty() ? "all that moves has left the field" : "no hits";
+    return haveAllLeft && drawn.script.empty() ? "all that moves has left the field" : "no hits";
 }
 
-void WorldPanel::showSentence() {
-    const auto hit = shownHit_.amplitude == 0.0 ? juce::String{} : sentenceOn(shownHit_);
-    sentence_.setText(why_.isEmpty() ? hit : inLines({"Nothing felt", why_}), juce::dontSendNotification);
+void WorldPanel::showHit() {
+    const auto hit = shownHit_.amplitude == 0.0 ? juce::String{} : hitText(shownHit_);
+    hitLabel_.setText(nothingFeltReason_.isEmpty() ? hit : fitInLines({"Nothing felt", nothingFeltReason_}),
+                      juce::dontSendNotification);
 }
 
-void WorldPanel::refresh(const MixerMoment& moment) {
+void WorldPanel::refresh(const MixerSnapshot& snapshot) {
     const double now = nowMs();
-    if (std::exchange(hitScene_, model_.mix().scene) != model_.mix().scene) shownHit_ = {}, hitAtMs_ = now;
-    bool isOther = false;
-    for (const auto& hit : moment.hits)
-        if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
-            shownHit_ = hit, hitAtMs_ = now, isOther = true;
-    if (const auto why = whyNothing(now, moment.device.isRunning); why != std::exchange(why_, why) || isOther)
-        showSentence();
-    if (hasMaster_) master_.refresh(moment);
-    lookAfterPlayer();
-    moveHand();
+    if (std::exchange(hitScene_, model_.mix().scene) != model_.mix().scene) shownHit_ = {}, hitTimeMs_ = now;
+    bool hasNewHit = false;
+    for (const auto& hit : snapshot.hits)
+        if (now - hitTimeMs_ > minHitTextMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
+            shownHit_ = hit, hitTimeMs_ = now, hasNewHit = true;
+    if (const auto why = findNothingFeltReason(now, snapshot.device.isRunning);
+        why != std::exchange(nothingFeltReason_, why) || hasNewHit)
+        showHit();
+    if (hasMaster_) master_.refresh(snapshot);
+    updatePlayer();
+    sendGrip();
     pane_.spawnDueBodies();
-    if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
-    placeInspector();
-    static constexpr decltype(moment.meters.peaks) none{};
-    const bool isFelt = whyMuted().isEmpty();
-    const auto& peaks = isFelt ? moment.meters.peaks : none; // badges glow only for what is felt
-    view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
+    if (model_.script().isRecording() || scriptStrip_.isVisible())
+        scriptStrip_.refresh(pane_.tool() == DrawTool::hand);
+    placeBodyPanel();
+    static constexpr decltype(snapshot.meters.peaks) none{};
+    const bool isFelt = muteReason().isEmpty();
+    const auto& peaks = isFelt ? snapshot.meters.peaks : none; // badges glow only for what is felt
+    view_.update({snapshot.poses, snapshot.posesNs, snapshot.latencyNs, snapshot.hits,
                   std::span{peaks}.first(static_cast<std::size_t>(model_.mix().count())), isFelt});
 }
 
 void WorldPanel::resized() {
-    auto row = getLocalBounds().reduced(panelInset, 0).removeFromBottom(foot).withTrimmedBottom(5);
-    const bool isEngineer = !isShow_ && !isPlay_;
-    law_.setVisible(isEngineer && getWidth() >= lawNeeds + (hasMaster_ ? masterNeeds : 0));
-    compare_.setVisible(isEngineer);
-    master_.setVisible(!isShow_ && hasMaster_);
-    physvib::setVisible({&drag_, &dragName_}, isEngineer && (!hasMaster_ || getWidth() >= knobNeeds));
+    auto row = getLocalBounds().reduced(panelInset, 0).removeFromBottom(footerHeight).withTrimmedBottom(5);
+    const bool showsFigures = !isShowMode_ && !isPlayMode_;
+    lawLabel_.setVisible(showsFigures && getWidth() >= minWidthWithLaw + (hasMaster_ ? masterWidth : 0));
+    compare_.setVisible(showsFigures);
+    master_.setVisible(!isShowMode_ && hasMaster_);
+    physvib::setVisible({&drag_, &dragLabel_},
+                        showsFigures && (!hasMaster_ || getWidth() >= minWidthWithKnob));
     if (hasMaster_) {
-        master_.setBounds(row.removeFromRight(getWidth() >= knobNeeds ? masterNeeds : 200));
+        master_.setBounds(row.removeFromRight(getWidth() >= minWidthWithKnob ? masterWidth : 200));
         row.removeFromRight(gap);
     }
-    if (isEngineer) compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
-    if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
+    if (showsFigures) compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
+    if (lawLabel_.isVisible()) lawLabel_.setBounds(row.removeFromRight(174));
     if (drag_.isVisible()) {
-        dragName_.setBounds(row.removeFromRight(104));
+        dragLabel_.setBounds(row.removeFromRight(104));
         drag_.setBounds(row.removeFromRight(38));
     }
-    tiltName_.setBounds(row.removeFromRight(58));
+    tiltLabel_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
-    sentence_.setBounds(row);
-    showSentence();
-    auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(foot);
-    const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
+    hitLabel_.setBounds(row);
+    showHit();
+    auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(footerHeight);
+    const int tools = isShowMode_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
-    constexpr int silenceHigh = 40;               // the button lies over the corner of a show
-    view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, foot - 14, 0});
-    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the bottom row
+    constexpr int silenceHeight = 40;             // the button lies over the corner of a show
+    view_.setPadding(isShowMode_
+                         ? juce::BorderSize<int>{silenceHeight, 0, 0, 0}
+                         : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, footerHeight - 14, 0});
+    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShowMode_ ? 0 : footerHeight - 4)); // above the row
     top.removeFromLeft(8);
-    script_.setBounds(top.withHeight(script_.getHeight()));
+    scriptStrip_.setBounds(top.withHeight(scriptStrip_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
-    placeInspector();
+    placeBodyPanel();
 }
 
-juce::PopupMenu WorldPanel::menuAt(juce::Point<float> place) {
+juce::PopupMenu WorldPanel::makeMenu(juce::Point<float> place) {
     juce::PopupMenu menu;
     const auto target = view_.targetAt(place);
-    if (target.enchanter >= 0)
-        addActuatorItems(menu, target.enchanter);
+    if (target.actuator >= 0)
+        addActuatorItems(menu, target.actuator);
     else if (!target.body.empty())
         addBodyItems(menu, target.body, view_.metresAt(place));
     else
-        addEmptyItems(menu, target.at, view_.metresAt(place));
+        addFieldItems(menu, target.at, view_.metresAt(place));
     menu.setLookAndFeel(&getLookAndFeel());
     return menu;
 }
 
-void WorldPanel::addActuatorItems(juce::PopupMenu& menu, int enchanter) {
-    menu.addSectionHeader("Actuator " + labelOf(model_.mix(), enchanter));
-    menu.addItem("Test pulse", [this, enchanter] { model_.strikes().testPulse(enchanter); });
-    menu.addItem("Sweep", [this, enchanter] { model_.strikes().testSweep(enchanter); });
-    const auto isMuted = [enchanter](auto& mix) -> auto& { return nth(mix.strips, enchanter).isMuted; };
+void WorldPanel::addActuatorItems(juce::PopupMenu& menu, int actuator) {
+    menu.addSectionHeader("Actuator " + labelOf(model_.mix(), actuator));
+    menu.addItem("Test pulse", [this, actuator] { model_.eventPlayer().testPulse(actuator); });
+    menu.addItem("Sweep", [this, actuator] { model_.eventPlayer().testSweep(actuator); });
+    const auto isMuted = [actuator](auto& mix) -> auto& { return nth(mix.strips, actuator).isMuted; };
     menu.addItem("Mute", true, isMuted(model_.mix()),
                  [this, isMuted] { model_.change("Mute", [&](Mix& mix) { isMuted(mix) = !isMuted(mix); }); });
-    menu.addItem("Output" + dots(), onOutput != nullptr, false, [this, enchanter] { onOutput(enchanter); });
-    menu.addItem("Name, profile" + dots(), onProfile != nullptr, false,
-                 [this, enchanter] { onProfile(enchanter); });
+    menu.addItem("Output" + ellipsis(), onOutput != nullptr, false, [this, actuator] { onOutput(actuator); });
+    menu.addItem("Name, profile" + ellipsis(), onProfile != nullptr, false,
+                 [this, actuator] { onProfile(actuator); });
     menu.addSeparator();
-    menu.addItem("Detach", model_.mix().count() > 1, false, [this, enchanter] { model_.detach(enchanter); });
+    menu.addItem("Detach", model_.mix().count() > 1, false, [this, actuator] { model_.detach(actuator); });
 }
 
-// Bodies that a script adds are not part of the drawing: they only change their material.
+// Bodies that a script adds are not part of the drawing: only their material can be changed.
 void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place) {
     juce::PopupMenu materials;
     const auto& scene = model_.world().drawing().drawn();
@@ -465,139 +472,144 @@ void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Ve
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i)
         materials.addItem(utf8(nth(scene.materials, i).name), true,
                           isDrawn && drawn->fixtures[0].material == i, [this, body, i] {
-                              model_.reportFault(model_.world().edit("Material of " + utf8(body),
-                                                                     MaterialAction{body, everyFixture, i}));
+                              model_.reportIfError(model_.world().edit(
+                                  "Material of " + utf8(body), MaterialAction{body, everyFixture, i}));
                           });
     menu.addSectionHeader(utf8(body));
     menu.addSubMenu("Material", materials);
-    const auto choose = [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); };
+    const auto choose = [this, body] { pane_.setTool(DrawTool::select), pane_.select({body}); };
     menu.addItem("Select", isDrawn, false, choose);
     if (isDrawn && motorOf(scene, body) != nullptr)
         menu.addItem("Motor: speed and torque", choose);
     else
-        menu.addItem("Motor here", moves, false, [this, place] { pane_.joinAt(DrawTool::motor, place); });
+        menu.addItem("Motor here", moves, false, [this, place] { pane_.addJointAt(DrawTool::motor, place); });
     if (isDrawn && springOf(scene, body) != nullptr)
         menu.addItem("Spring: stiffness", choose);
     else
-        menu.addItem("Spring here", moves, false, [this, place] { pane_.joinAt(DrawTool::spring, place); });
-    menu.addItem("Pin here", moves, false, [this, place] { pane_.joinAt(DrawTool::pin, place); });
+        menu.addItem("Spring here", moves, false,
+                     [this, place] { pane_.addJointAt(DrawTool::spring, place); });
+    menu.addItem("Pin here", moves, false, [this, place] { pane_.addJointAt(DrawTool::pin, place); });
     menu.addSeparator();
     menu.addItem("Copy", isDrawn, false, [this, body] { pane_.copy({body}); });
-    menu.addItem("Delete", isDrawn, false, [this, body] { pane_.eraseAll({body}); });
+    menu.addItem("Delete", isDrawn, false, [this, body] { pane_.eraseBodies({body}); });
 }
 
-void WorldPanel::addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place) {
+void WorldPanel::addFieldItems(juce::PopupMenu& menu, FieldShare at, Vector place) {
     for (const DrawTool tool : {DrawTool::ball, DrawTool::box, DrawTool::wall, DrawTool::rain})
-        menu.addItem("Add " + juce::String{wordsOf(tool).name}.toLowerCase(),
+        menu.addItem("Add " + juce::String{infoOf(tool).name}.toLowerCase(),
                      [this, tool, place] { pane_.addAt(tool, place); });
     menu.addItem("Paste here", pane_.hasCopy(), false, [this, place] { pane_.pasteAt(place); });
     menu.addSeparator();
-    menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxEnchanters, false,
+    menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxActuators, false,
                  [this, at] { model_.attach(at.x, at.y); });
 }
 
 ScriptStrip::ScriptStrip(MixerModel& model)
     : model_{model} {
     setTitle("Script of hands");
-    words_.setFont(text::font(text::medium));
-    for (auto* slider : {&from_, &to_}) {
+    status_.setFont(text::font(text::medium));
+    for (auto* slider : {&fromSlider_, &toSlider_}) {
         slider->setSliderStyle(juce::Slider::LinearBar);
         slider->setRange(0.0, 1.0, stepSeconds);
-        slider->valueFromTextFunction = [](const juce::String& words) {
-            return words.retainCharacters("0123456789.").getDoubleValue();
+        slider->valueFromTextFunction = [](const juce::String& typed) {
+            return typed.retainCharacters("0123456789.").getDoubleValue();
         };
-        slider->onDragEnd = [this] { use(); };
+        slider->onDragEnd = [this] { applyTrim(); };
         slider->onValueChange = [this, slider] {
-            if (!slider->isMouseButtonDown()) use();
+            if (!slider->isMouseButtonDown()) applyTrim();
             repaint();
         };
     }
-    describe(from_, "The script begins at", "Where the script begins, in seconds of the recording");
-    from_.textFromValueFunction = [](double s) { return "from " + number(s, 2) + " s"; };
-    describe(to_, "The script ends at", "Where the script ends, in seconds of the recording");
-    to_.textFromValueFunction = [](double s) { return "to " + number(s, 2) + " s"; };
-    describe(repeats_, "Repeat the script", "Begins again at its end, for ever");
-    repeats_.onClick = [this] { use(); };
-    describe(end_, "End the recording of hands", "End the recording of hands (Ctrl+Shift+R)");
-    end_.setToggleState(true, juce::dontSendNotification);
-    end_.onClick = [this] { model_.script().stop(); };
-    again_.setTitle("Play the script from the start");
-    again_.onClick = [this] { model_.restart(model_.mix().seed); };
-    describe(close_, "Close the script of hands", "The script stays");
-    close_.onClick = [this] {
-        closed_ = model_.mix().scene;
+    describe(fromSlider_, "The script begins at", "Where the script begins, in seconds of the recording");
+    fromSlider_.textFromValueFunction = [](double s) { return "from " + number(s, 2) + " s"; };
+    describe(toSlider_, "The script ends at", "Where the script ends, in seconds of the recording");
+    toSlider_.textFromValueFunction = [](double s) { return "to " + number(s, 2) + " s"; };
+    describe(repeatToggle_, "Repeat the script", "Begins again at its end, for ever");
+    repeatToggle_.onClick = [this] { applyTrim(); };
+    describe(endButton_, "End the recording of hands", "End the recording of hands (Ctrl+Shift+R)");
+    endButton_.setToggleState(true, juce::dontSendNotification);
+    endButton_.onClick = [this] { model_.script().stop(); };
+    restartButton_.setTitle("Play the script from the start");
+    restartButton_.onClick = [this] { model_.restart(model_.mix().seed); };
+    describe(closeButton_, "Close the script of hands", "The script stays");
+    closeButton_.onClick = [this] {
+        closedScene_ = model_.mix().scene;
         setVisible(false);
     };
-    addHidden(*this, {&words_, &from_, &to_, &repeats_, &end_, &again_, &close_});
-    setSize(400, high);
+    addHidden(*this, {&status_, &fromSlider_, &toSlider_, &repeatToggle_, &endButton_, &restartButton_,
+                      &closeButton_});
+    setSize(400, fullHeight);
 }
 
-void ScriptStrip::refresh(bool isHand) {
+void ScriptStrip::refresh(bool isHandTool) {
     const auto& script = model_.script();
-    const HandScript* hands = script.hands();
-    setVisible(isHand && (script.isRecording() || (hands != nullptr && closed_ != model_.mix().scene)));
+    const RecordedInputs* recorded = script.recording();
+    setVisible(isHandTool &&
+               (script.isRecording() || (recorded != nullptr && closedScene_ != model_.mix().scene)));
     if (!isVisible()) return;
-    const bool isOther = std::exchange(shown_, model_.mix().scene) != model_.mix().scene,
-               isTurned = std::exchange(wasRecording_, script.isRecording()) != script.isRecording();
-    if (isOther || isTurned) show();
-    const auto dot = "  " + juce::String::charToString(0x00b7) + "  ";
+    const bool hasNewScene = std::exchange(shownScene_, model_.mix().scene) != model_.mix().scene,
+               hasToggled = std::exchange(isRecordingShown_, script.isRecording()) != script.isRecording();
+    if (hasNewScene || hasToggled) showScript();
+    const auto separator = "  " + juce::String::charToString(0x00b7) + "  ";
     if (script.isRecording())
-        words_.setText("Recording hands" + dot + number(script.seconds(), 1) + " s" + dot +
-                           countOf(script.inputs(), "input"),
-                       juce::dontSendNotification);
+        status_.setText("Recording hands" + separator + number(script.seconds(), 1) + " s" + separator +
+                            countText(script.inputs(), "input"),
+                        juce::dontSendNotification);
     else
-        words_.setText("Script of hands" + dot + countOf(hands->inputs.size(), "input") + " in " +
-                           number(hands->lengthSeconds, 2) + " s",
-                       juce::dontSendNotification);
-    words_.setColour(juce::Label::textColourId,
-                     shade(*this, script.isRecording() ? Shade::limit : Shade::text));
+        status_.setText("Script of hands" + separator + countText(recorded->inputs.size(), "input") + " in " +
+                            number(recorded->lengthSeconds, 2) + " s",
+                        juce::dontSendNotification);
+    status_.setColour(juce::Label::textColourId,
+                      shade(*this, script.isRecording() ? Shade::limit : Shade::text));
 }
 
-void ScriptStrip::show() {
+void ScriptStrip::showScript() {
     const bool isRecording = model_.script().isRecording();
-    setSize(getWidth(), isRecording ? recordingHigh : high);
-    words_.setVisible(true);
-    end_.setVisible(isRecording);
-    physvib::setVisible({&from_, &to_, &repeats_, &again_, &close_}, !isRecording);
-    if (const HandScript* hands = model_.script().hands()) {
+    setSize(getWidth(), isRecording ? recordingHeight : fullHeight);
+    status_.setVisible(true);
+    endButton_.setVisible(isRecording);
+    physvib::setVisible({&fromSlider_, &toSlider_, &repeatToggle_, &restartButton_, &closeButton_},
+                        !isRecording);
+    if (const RecordedInputs* recorded = model_.script().recording()) {
         const ScriptTrim trim = model_.script().trim();
-        for (auto* slider : {&from_, &to_})
-            slider->setRange(0.0, std::max(stepSeconds, hands->lengthSeconds), stepSeconds);
-        from_.setValue(trim.fromSeconds, juce::dontSendNotification);
-        to_.setValue(trim.toSeconds, juce::dontSendNotification);
-        repeats_.setToggleState(trim.repeats, juce::dontSendNotification);
-        repeats_.setEnabled(model_.mix().scene->scriptPeriodSeconds == 0.0 ||
-                            trim.repeats); // otherwise the rest of the script has its own period
+        for (auto* slider : {&fromSlider_, &toSlider_})
+            slider->setRange(0.0, std::max(stepSeconds, recorded->lengthSeconds), stepSeconds);
+        fromSlider_.setValue(trim.fromSeconds, juce::dontSendNotification);
+        toSlider_.setValue(trim.toSeconds, juce::dontSendNotification);
+        repeatToggle_.setToggleState(trim.repeats, juce::dontSendNotification);
+        repeatToggle_.setEnabled(model_.mix().scene->scriptPeriodSeconds == 0.0 ||
+                                 trim.repeats); // otherwise the rest of the script has its own period
     }
     repaint();
 }
 
-void ScriptStrip::use() {
-    if (model_.script().hands() == nullptr) return;
-    if (to_.getValue() - from_.getValue() < stepSeconds) return show(); // the part would be empty
-    model_.script().setTrim({from_.getValue(), to_.getValue(), repeats_.getToggleState()});
+void ScriptStrip::applyTrim() {
+    if (model_.script().recording() == nullptr) return;
+    if (toSlider_.getValue() - fromSlider_.getValue() < stepSeconds)
+        return showScript(); // the part would be empty
+    model_.script().setTrim({fromSlider_.getValue(), toSlider_.getValue(), repeatToggle_.getToggleState()});
     repaint();
 }
 
-float ScriptStrip::placeOf(double seconds) const {
-    const auto at = lane().toFloat();
+float ScriptStrip::pixelOf(double seconds) const {
+    const auto at = track().toFloat();
     return at.getX() +
-           static_cast<float>(seconds / std::max(stepSeconds, from_.getMaximum())) * at.getWidth();
+           static_cast<float>(seconds / std::max(stepSeconds, fromSlider_.getMaximum())) * at.getWidth();
 }
 
 void ScriptStrip::paint(juce::Graphics& g) {
     fillRound(g, *this, Shade::raised, getLocalBounds().toFloat(), 8.0f, 0.96f);
-    const HandScript* hands = model_.script().hands();
-    if (hands == nullptr) return;
-    const auto at = lane().toFloat();
+    const RecordedInputs* recorded = model_.script().recording();
+    if (recorded == nullptr) return;
+    const auto at = track().toFloat();
     fillRound(g, *this, Shade::well, at, 4.0f);
-    const float from = placeOf(from_.getValue()), to = placeOf(to_.getValue());
+    const float from = pixelOf(fromSlider_.getValue()), to = pixelOf(toSlider_.getValue());
     g.setColour(shade(*this, Shade::accent).withAlpha(0.18f));
     g.fillRect(at.withLeft(from).withRight(to));
-    for (const LiveInput& input : hands->inputs) {
-        const float x = placeOf(input.timeSeconds);
-        const bool isIn = x >= from && x <= to, isHeld = std::holds_alternative<GripAction>(input.action);
-        g.setColour(shade(*this, isIn ? Shade::text : Shade::muted).withAlpha(isIn ? 0.9f : 0.35f));
+    for (const LiveInput& input : recorded->inputs) {
+        const float x = pixelOf(input.timeSeconds);
+        const bool isInTrim = x >= from && x <= to, isHeld = std::holds_alternative<GripAction>(input.action);
+        g.setColour(shade(*this, isInTrim ? Shade::text : Shade::muted).withAlpha(isInTrim ? 0.9f : 0.35f));
         g.fillRect(juce::Rectangle<float>{1.5f, isHeld ? 7.0f : 16.0f}.withCentre({x, at.getCentreY()}));
     }
     g.setColour(shade(*this, Shade::accent));
@@ -605,43 +617,44 @@ void ScriptStrip::paint(juce::Graphics& g) {
         g.fillRect(juce::Rectangle<float>{3.0f, at.getHeight()}.withCentre({x, at.getCentreY()}));
 }
 
-// Moves the nearer end.
+// Drags the nearer end of the trimmed part.
 void ScriptStrip::mouseDown(const juce::MouseEvent& e) {
-    dragged_ = nullptr;
-    if (model_.script().hands() == nullptr || !lane().expanded(6, 4).contains(e.getPosition())) return;
-    dragged_ =
-        std::abs(e.position.x - placeOf(from_.getValue())) < std::abs(e.position.x - placeOf(to_.getValue()))
-            ? &from_
-            : &to_;
+    draggedSlider_ = nullptr;
+    if (model_.script().recording() == nullptr || !track().expanded(6, 4).contains(e.getPosition())) return;
+    draggedSlider_ = std::abs(e.position.x - pixelOf(fromSlider_.getValue())) <
+                             std::abs(e.position.x - pixelOf(toSlider_.getValue()))
+                         ? &fromSlider_
+                         : &toSlider_;
     mouseDrag(e);
 }
 
 void ScriptStrip::mouseDrag(const juce::MouseEvent& e) {
-    if (dragged_ == nullptr) return;
-    const auto at = lane().toFloat();
-    dragged_->setValue(from_.getMaximum() * static_cast<double>((e.position.x - at.getX()) / at.getWidth()),
-                       juce::dontSendNotification);
+    if (draggedSlider_ == nullptr) return;
+    const auto at = track().toFloat();
+    draggedSlider_->setValue(fromSlider_.getMaximum() *
+                                 static_cast<double>((e.position.x - at.getX()) / at.getWidth()),
+                             juce::dontSendNotification);
     repaint();
 }
 
 void ScriptStrip::mouseUp(const juce::MouseEvent&) {
-    if (std::exchange(dragged_, nullptr) != nullptr) use();
+    if (std::exchange(draggedSlider_, nullptr) != nullptr) applyTrim();
 }
 
 void ScriptStrip::resized() {
     auto area = getLocalBounds().reduced(12, 8);
     auto row = area.removeFromTop(24);
-    for (auto* button : {&close_, &again_})
-        button->setBounds(row.removeFromRight(button == &close_ ? 60 : 110)), row.removeFromRight(6);
-    end_.setBounds(getLocalBounds().reduced(12, 8).removeFromTop(24).removeFromRight(90));
-    words_.setBounds(row);
+    for (auto* button : {&closeButton_, &restartButton_})
+        button->setBounds(row.removeFromRight(button == &closeButton_ ? 60 : 110)), row.removeFromRight(6);
+    endButton_.setBounds(getLocalBounds().reduced(12, 8).removeFromTop(24).removeFromRight(90));
+    status_.setBounds(row);
     area.removeFromTop(5);
     row = area.removeFromTop(22);
-    from_.setBounds(row.removeFromLeft(130));
+    fromSlider_.setBounds(row.removeFromLeft(130));
     row.removeFromLeft(8);
-    to_.setBounds(row.removeFromLeft(130));
+    toSlider_.setBounds(row.removeFromLeft(130));
     row.removeFromLeft(12);
-    repeats_.setBounds(row.removeFromLeft(90));
+    repeatToggle_.setBounds(row.removeFromLeft(90));
 }
 
 } // namespace physvib

@@ -4,7 +4,7 @@ const degreesPerKey = 15, tellEveryMs = 30, mostFingers = 10;
 
 /// `tell` sends a message to the player; `moved(isDone)` reports that an actuator was moved.
 export function dragOn(world, tell, moved) {
-    const { canvas } = world, holds = new Map(); // pointer: what it holds
+    const { canvas } = world, holds = new Map(); // by pointer id: the body or actuator that it drags
     const at = event => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
     const thingAt = (x, y) => {
         if (!world.scene) return null;
@@ -19,7 +19,7 @@ export function dragOn(world, tell, moved) {
         world.places[actuator] = world.placeAt(...at(event));
         moved(false);
     };
-    canvas.addEventListener('touchstart', event => { // a swipe beside all things scrolls the page
+    canvas.addEventListener('touchstart', event => { // a swipe beside bodies and actuators scrolls the page
         if ([...event.changedTouches].some(touch => thingAt(...at(touch)))) event.preventDefault();
     }, { passive: false });
     canvas.addEventListener('pointerdown', event => {

@@ -14,7 +14,7 @@ import { World } from './world.js';
 
 const $ = id => document.getElementById(id);
 const decibels = value => value.toFixed(0).replace('-', '−') + ' dB';
-const tellMs = 1000; // for so long the strongest hit is told
+const tellMs = 1000; // duration for which the strongest hit is displayed
 const recordSeconds = 10;
 const arrangements = { 'four corners': [[0, 1], [1, 1], [0, 0], [1, 0]], 'left and right': [[0, 0.5], [1, 0.5]], 'three in a row': [[0, 0.5], [0.5, 0.5], [1, 0.5]], 'one in the middle': [[0.5, 0.5]] };
 
@@ -61,7 +61,7 @@ function fault(line) {
 function told(message) {
     if (message.fault) {
         fault(message.fault);
-        if (!world.scene && !hasFallenBack) hasFallenBack = true, open(freshWorld()); // what the link asks for was refused
+        if (!world.scene && !hasFallenBack) hasFallenBack = true, open(freshWorld()); // the world of the link was rejected
     }
     if (message.scene) show(message);
     if ('recorded' in message) recorded(message.recorded);
@@ -272,7 +272,7 @@ async function begin() {
     for (let i = 0; i < scenes.length; i += 2) $('scene').add(Object.assign(new Option(scenes[i].replaceAll('-', ' '), scenes[i]), { title: scenes[i + 1] }));
     $('scene').add(own);
     $('law').add(Object.assign(new Option('default', ''), { title: 'neighbours on a row, grid or belt of actuators; elsewhere linear, and surfaces that roll or slide by energy' }));
-    for (const law of laws) if (law !== 'auto') $('law').add(new Option(law)); // which is the default
+    for (const law of laws) if (law !== 'auto') $('law').add(new Option(law)); // auto is the default entry
     await openLink();
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) pause(true);
     else preview.run();
@@ -282,6 +282,6 @@ async function begin() {
     $('start').hidden = why !== '';
     if (why) $('beginText').textContent = why, $('output').textContent = 'Silent.';
     for (const id of ['scene', 'pause', 'again', 'sharing', 'start']) $(id).disabled = false;
-    navigator.serviceWorker?.register('service-worker.js').catch(() => {}); // without one, it needs the network
+    navigator.serviceWorker?.register('service-worker.js').catch(() => {}); // without it, the page needs the network
 }
 begin().catch(error => fault(`the page is not whole: ${error.message}; load it again`));

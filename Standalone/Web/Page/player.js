@@ -38,7 +38,7 @@ export class Player {
             if (this.#recording) this.#endRecording(null);
             this.#forget();
             this.post({ key: wanted.key, scene: next.text(next.run('scene')), variables: next.text(next.run('variables')), isPlayed: !!next.run('isPlayed') });
-            this.#send(); // so that a world that stands is seen
+            this.#send(); // so that a paused world is displayed
         } catch (error) {
             const why = error.message.startsWith('internal:') ? 'expected a scene that a page can hold, found more' : error.message;
             this.post({ fault: why.startsWith(wanted.name) ? why : `${wanted.name}: ${why}` });
@@ -68,7 +68,7 @@ export class Player {
         module.run('placed', law);
         if (this.count === places.length) return;
         this.count = places.length;
-        this.#forget(); // one report is of one number of actuators, and so is a recording
+        this.#forget(); // a report and a recording have one number of actuators
         if (this.#recording) this.#endRecording(null);
     }
 
@@ -111,7 +111,7 @@ export class Player {
     }
 
     #begin(channels) {
-        this.#takeHits(); // those before are none of it
+        this.#takeHits(); // earlier impacts do not belong to the recording
         this.#recording = { channels, frames: 0, hits: [], since: this.frame / this.rate };
     }
     #record(samples, frames) {

@@ -27,7 +27,7 @@ export async function share(compiled, world) {
     $('link').value = link;
     const isCopied = await (navigator.clipboard?.writeText(link).then(() => true, () => false) ?? false);
     $('copied').textContent = isCopied ? 'Copied.' : 'Copy it from here:';
-    const isOwn = /^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname), fits = !isOwn && drawCode(compiled, link, $('code')); // an address that only this computer has
+    const isOwn = /^(localhost|127\.[\d.]+|\[::1\])$/.test(location.hostname), fits = !isOwn && drawCode(compiled, link, $('code')); // such an address works on this computer only
     $('code').hidden = !fits;
     $('codeNote').textContent = fits ? 'Or go on with a phone:' : isOwn ? 'No phone can open this address, which only this computer has: Standalone/Web/serve.py serves the page to phones.' : 'This scene is too large for a QR code; the link holds all of it.';
     $('share').showModal();

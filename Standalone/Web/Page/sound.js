@@ -6,7 +6,7 @@ import { mostEnchanters } from './link.js';
 export const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 const rampSeconds = 0.0015; // time constant: 58 dB within 10 ms, and still no click
 
-/// Why sound is not possible here, in a sentence; empty if it is.
+/// Returns the reason why sound is not possible here, in a sentence; empty if it is possible.
 export function silentBecause() {
     if (globalThis.isSecureContext === false) // browsers give audio worklets to https and to the machine itself only
         return 'No sound here: this page came by http; browsers give sound and vibration to https only. On the computer that serves it, run Standalone/Web/serve.py.';
@@ -27,7 +27,7 @@ export class Sound {
         const context = this.#context = new AudioContext({ latencyHint: 'interactive' });
         this.#firstOutputs = this.outputs;
         this.#watch = new Watch(context, () => this.#changed());
-        const isRunning = this.#watch.resume(); // while it is a click's doing
+        const isRunning = this.#watch.resume(); // must happen within the click
         await context.audioWorklet.addModule('worklet.js');
         const node = this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [mostEnchanters], processorOptions: { code, first } });
         node.port.onmessage = ({ data }) => this.onTold(data);
@@ -48,7 +48,7 @@ export class Sound {
     /// 'running', 'suspended' or 'device lost'.
     get state() { return this.#watch.state; }
 
-    /// Whether there was no device at the start, and now is: start anew.
+    /// True if a device has appeared since a start without one: start again.
     get isLate() { return this.#firstOutputs === 0 && this.outputs > 0; }
 
     #changed() {
@@ -69,7 +69,7 @@ export class Sound {
         this.#connected = '';
         this.connect(places);
     }
-    /// 0.3 s at one actuator.
+    /// Plays 0.3 s of a tone at one actuator.
     buzz(actuator) {
         const source = buzzOf(this.#context, mostEnchanters, actuator);
         source.connect(this.#mix);

@@ -5,7 +5,7 @@ import { Player } from './player.js';
 class PhysVib extends AudioWorkletProcessor {
     constructor({ processorOptions: { code, first }, outputChannelCount: [outputs] }) {
         super();
-        this.player = new Player(new WebAssembly.Module(code), sampleRate, outputs, (message, given) => this.port.postMessage(message, given)); // here: not every browser sends modules to this thread
+        this.player = new Player(new WebAssembly.Module(code), sampleRate, outputs, (message, given) => this.port.postMessage(message, given)); // compiled here, because not every browser sends modules to this thread
         this.port.onmessage = ({ data }) => this.player.obey(data);
         this.player.open(first);
     }

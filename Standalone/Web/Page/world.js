@@ -21,7 +21,7 @@ export class World {
         this.materials = new Map(scene.materials.map((material, index) => [material.name, index]));
         for (const body of scene.bodies) for (const fixture of body.fixtures) fixture.outline = outlineOf(fixture);
     }
-    add(hits) { if (!document.hidden) for (const hit of hits) this.#hits.push({ hit, at: performance.now() }); } // a page that is hidden draws none, and forgets none
+    add(hits) { if (!document.hidden) for (const hit of hits) this.#hits.push({ hit, at: performance.now() }); } // a hidden page draws none, so none would expire
 
     /// Maps metres of the field to pixels of the canvas, and back.
     get map() {
@@ -77,7 +77,7 @@ export class World {
         context.rotate(-angle);
         context.scale(scale, -scale);
         for (const fixture of body.fixtures) {
-            context.globalAlpha = body.type === 'static' ? 0.65 : 1; // what moves stands out
+            context.globalAlpha = body.type === 'static' ? 0.65 : 1; // static bodies are paler
             context.fillStyle = look.materialColour(this.materials.get(fixture.material) ?? 0);
             context.strokeStyle = fixture.camera ? look.camera : context.fillStyle;
             context.lineWidth = (fixture.camera ? 2 : 1) / scale;

@@ -21,7 +21,7 @@ struct Source {
 };
 
 int main(int, char** arguments) {
-    EnchanterLayout layout;
+    ActuatorLayout layout;
     layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(

@@ -125,7 +125,7 @@ TEST(InputListeners, AnOffComesInItsTurnAndLiftsNoLaterOn) {
 TEST(InputListeners, WhatOneInputAsksForAnotherDoesNotLift) {
     Listening one;
     const auto byOsc = [&](bool isOn) {
-        return actOn(SilenceControl{isOn}, one.session, one.output, MuteRequester::osc);
+        return applyInput(SilenceControl{isOn}, one.session, one.output, MuteRequester::osc);
     };
     one.write(on);
     ASSERT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
@@ -151,7 +151,7 @@ TEST(InputListeners, ADoorSetsNoCeilingAboveThatOfTheMachine) {
         control.kind = RenderControl::Kind::ceiling;
         control.channel = channel;
         control.value = value;
-        return actOn(control, one.session, one.output, MuteRequester::osc);
+        return applyInput(control, one.session, one.output, MuteRequester::osc);
     };
     EXPECT_EQ(ask(0, 1.0f), "ceiling: expected at most 0.1, as --ceiling was set, found 1");
     EXPECT_EQ(ask(0, 0.1001f).substr(0, 32), "ceiling: expected at most 0.1, a");

@@ -22,7 +22,7 @@ int play(bool isCeilingLow) {
         player->buffer.write(frames, tileFrames);
         starts = starts || player->buffer.level() >= FrameBuffer<channels>::targetFrames;
         if (!starts) continue;
-        player->allow(true);
+        player->setAllowed(true);
         player->render(tile);
         if (std::fwrite(&tile, sizeof tile, 1, stdout) != 1) return 1;
     }

@@ -9,7 +9,7 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Shots/StudyShots.h"
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/MixerWidgets.h"
 #include "Mixer/Window/MixerView.h"
 #include "Scene/SceneFile.h"
 #include <cmath>
@@ -62,7 +62,7 @@ void showMaterials(MixerModel& model, MixerView& view) {
     tab->finishMeasuring();
     folder.deleteRecursively();
     model.dispatchPendingMessages();
-    tab->feelAt({0.3, 0.62});
+    tab->playAt({0.3, 0.62});
 }
 
 // For so long, and then until something has been struck: a picture without a hit says little.
@@ -88,13 +88,13 @@ void chooseContacts(MixerView& view) {
 }
 
 void showFirstStart(MixerModel& model, MixerView& view) {
-    const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
+    const DeviceChoice none{std::string{nullDeviceType} + ":" + nullDeviceName};
     view.setFirstStart(std::make_unique<FirstStart>(
-        model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", none, 8},
-                                       {"Headphones: ALSA:USB Headset", none, 2, false, true},
-                                       {"Game controller: DualSense", none, 2, true},
-                                       {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},
-                                       {"No device: seen, not felt", none, 0}}));
+        model, std::vector<PlaybackChoice>{{"JACK:system, 8 outputs", none, 8},
+                                           {"Headphones: ALSA:USB Headset", none, 2, false, true},
+                                           {"Game controller: DualSense", none, 2, true},
+                                           {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},
+                                           {"No device: seen, not felt", none, 0}}));
 }
 
 // Two hands; one of them and a strip rise and fall.
@@ -116,7 +116,7 @@ void showLanes(MixerModel& model, MixerView& view) {
 /// So many actuators on a grid, with names as people give them.
 void showActuators(MixerModel& model, int count) {
     model.change("Many", [count](Mix& m) {
-        EnchanterLayout many = m.layout.geometry;
+        ActuatorLayout many = m.layout.geometry;
         const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count)));
         const int rows = (count + columns - 1) / columns;
         for (many.count = 0; many.count < count; ++many.count)
@@ -124,7 +124,7 @@ void showActuators(MixerModel& model, int count) {
                 (many.count % columns + 0.5) / columns * many.extentWidthMetres,
                 (many.count / columns + 0.5) / rows * many.extentHeightMetres};
         m.layout = describeLayout("many", many);
-        m.layout.enchanters.back().label = "Left hand, ring finger, second joint";
+        m.layout.actuators.back().label = "Left hand, ring finger, second joint";
         m.resizeStrips();
         m.levelDb = -3.0;
     });
@@ -133,10 +133,10 @@ void showActuators(MixerModel& model, int count) {
 void showRain(MixerModel& model, MixerView& view) {
     model.dispatchPendingMessages();
     auto& pane = view.world().drawing();
-    pane.use(DrawTool::rain);
+    pane.setTool(DrawTool::rain);
     pane.addAt(DrawTool::rain, {3.2, 2.4});
-    pane.use(DrawTool::choose);
-    pane.choose({"rain 1"});
+    pane.setTool(DrawTool::select);
+    pane.select({"rain 1"});
 }
 
 std::vector<State> sheetStates() {
@@ -147,7 +147,7 @@ std::vector<State> sheetStates() {
          [](MixerModel& d, MixerView& v) { v.setTheme(Theme::light), showActuators(d, 64); }},
         {"sheet-show", 1440, 900, 3.0,
          [](MixerModel& d, MixerView& v) {
-             v.setShow(true);
+             v.setShowMode(true);
              d.messages().add(
                  {"A has no output: another actuator has it", false, {"Give a free output", [] {}}});
          }},
@@ -184,7 +184,7 @@ std::vector<State> mixerStates() {
         {"first-start", 1440, 900, 2.0, [](MixerModel& d, MixerView& v) { showFirstStart(d, v); }},
         {"first-test", 1440, 900, 0.2,
          [](MixerModel& d, MixerView& v) {
-             showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt();
+             showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->confirmPulse();
          }},
         {"four-enchanters", 1440, 900, 4.0,
          [](MixerModel& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
@@ -199,7 +199,7 @@ std::vector<State> mixerStates() {
         {"telemetry", 1440, 900, 3.0, [](MixerModel&, MixerView& v) { v.scope().choose("Telemetry"); }},
         {"output", 1440, 900, 3.0,
          [](MixerModel& d, MixerView& v) {
-             d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7),
+             d.device().listening().setMonitor({4, 5}, defaultContactDb), d.device().listening().setMarker(7),
                  v.tabs().choose("Output");
          }},
         {"board",
@@ -265,7 +265,7 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     if (state == states().end())
         return "expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
     MixerModel model{test::onlyNoDevice(),
-                     {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
+                     {std::string{nullDeviceType} + ":" + nullDeviceName, 48000, 128, state->sinks}};
     MixerView view{model};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
     state->reach(model, view);

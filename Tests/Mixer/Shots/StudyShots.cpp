@@ -53,7 +53,7 @@ void answerUntil(const Protocol& protocol, StudyTask task, int trial) {
     while (!isThere()) {
         if (study.experiment().mayEnd())
             study.endSession();
-        else if (!study.take(observer.answer(study.experiment())))
+        else if (!study.acceptAnswer(observer.answer(study.experiment())))
             return;
     }
 }
@@ -94,7 +94,7 @@ std::vector<juce::File> simulatedTrials(const std::string& name, int participant
         const Participant participant{"S0" + std::to_string(number), number, "simulated-RING"};
         StudyInProgress study{{protocol, participant, folder().getFullPathName().toStdString()}};
         const SimulatedObserver observer{*observerNamed(participant.observer), protocol, participant};
-        while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {
+        while (!study.experiment().isDone() && study.acceptAnswer(observer.answer(study.experiment()))) {
         }
         files.emplace_back(study.path().string());
     }
@@ -116,7 +116,7 @@ void type(StudyScreen* screen, char key) {
 std::string shortBox() {
     Protocol p = findProtocol("eight-methods").value;
     p.name = "eight-methods-short";
-    for (SessionPlan& session : p.sessions) session.leastSeconds = 1.0;
+    for (SessionPlan& session : p.sessions) session.minSeconds = 1.0;
     const auto file = folder().getChildFile("eight-methods-short.json");
     return file.replaceWithText(utf8(protocolJson(p))) ? file.getFullPathName().toStdString() : std::string{};
 }
@@ -186,7 +186,7 @@ const std::vector<StudyShot>& studyShots() {
          }},
         {"studies-korean",
          [](MixerModel&, MixerView& v) {
-             studies(v).chooseWords("ko");
+             studies(v).chooseLanguage("ko");
              auto* screen = show(v, shortBox(), StudyTask::rate, 5);
              for (const char pair : {'1', '2', '3'}) shake(v, screen, pair);
              press(v, "Pause");

@@ -96,11 +96,11 @@ void click(MixerWindow& window, juce::Point<float> at) {
 
 void share(const char* what, Painted& painted) {
     painted.count = 0;
-    const double from = seconds(), fromThread = threadSeconds(), fromProcess = processSeconds();
+    const double from = seconds(), fromThread = threadCpuSeconds(), fromProcess = processSeconds();
     runFor(5.0);
     const double passed = seconds() - from;
     std::printf("%s: %.0f pictures a second, %.1f %% of a core by the window's thread, %.1f %% by all\n",
-                what, painted.count / passed, 100.0 * (threadSeconds() - fromThread) / passed,
+                what, painted.count / passed, 100.0 * (threadCpuSeconds() - fromThread) / passed,
                 100.0 * (processSeconds() - fromProcess) / passed);
 }
 
@@ -116,11 +116,11 @@ void measureSpread(int bodies, const juce::File& folder) {
     runFor(3.0);
     std::printf("%d bodies\n", bodies);
     share("moving", painted);
-    world.drawing().use(DrawTool::ball);
+    world.drawing().setTool(DrawTool::ball);
     std::vector<double> times;
     for (int k = 1; k <= 9; ++k) {
         const double from = seconds();
-        const auto at = world.view().placeOfShare({0.1 * k, 0.9});
+        const auto at = world.view().pixelOfShare({0.1 * k, 0.9});
         click(window, window.getLocalPoint(&world.view(), at));
         const auto name = "ball " + std::to_string(k);
         runUntil([&] { return world.view().poseOfBody(name).has_value(); });
@@ -153,13 +153,13 @@ void measurePaint(int bodies) {
             poses.push_back({body.positionMetres.x + 0.02 * std::sin(at),
                              body.positionMetres.y + 0.02 * std::sin(1.7 * at), at, true});
         }
-        const double from = threadSeconds();
+        const double from = threadCpuSeconds();
         view.update({std::move(poses), 20'000'000LL * (k + 2), 0, {}, {}});
         {
             juce::Graphics g{image};
             view.paintEntireComponent(g, true);
         }
-        if (k >= 0) spent += threadSeconds() - from; // the first fills what is kept
+        if (k >= 0) spent += threadCpuSeconds() - from; // the first fills what is kept
     }
     std::printf("%d bodies: %.2f ms of a core for a picture\n", bodies, 1e3 * spent / pictures);
 }
@@ -167,7 +167,7 @@ void measurePaint(int bodies) {
 void measure(int bodies, const juce::File& folder) {
     const auto scene = folder.getChildFile("heap.json");
     scene.replaceWithText(heap(bodies));
-    const double began = seconds(), beganThread = threadSeconds();
+    const double began = seconds(), beganThread = threadCpuSeconds();
     std::optional<MixerWindow> window{std::in_place, onlyNoDevice(), "None:no device", scene,
                                       folder.getChildFile("config")};
     Painted painted;
@@ -175,22 +175,22 @@ void measure(int bodies, const juce::File& folder) {
     runUntil([&] { return painted.count > 0 && !window->view().latest().poses.empty(); });
     std::printf("%d bodies\nfirst picture: %.2f s after it was opened, %.2f s of processor time of the "
                 "window's thread\n",
-                bodies, seconds() - began, threadSeconds() - beganThread);
-    const bool isTold = runUntil([&] { return window->model().trouble().contains("of real time"); });
+                bodies, seconds() - began, threadCpuSeconds() - beganThread);
+    const bool isTold = runUntil([&] { return window->model().messageText().contains("of real time"); });
     std::printf("message: %.2f s after it was opened, at %.2f s of the session: %s\n", seconds() - began,
                 1e-9 * static_cast<double>(window->view().latest().session.sessionNs),
-                isTold ? window->model().trouble().toRawUTF8() : "none");
+                isTold ? window->model().messageText().toRawUTF8() : "none");
     painted.count = 0;
     painted.longest = 0.0;
-    const double from = seconds(), fromThread = threadSeconds();
+    const double from = seconds(), fromThread = threadCpuSeconds();
     runFor(5.0);
     std::printf("then in %.1f s: %d pictures, %.2f s of processor time of the window's thread; longest time "
                 "without one %.2f s\n",
-                seconds() - from, painted.count, threadSeconds() - fromThread, painted.longest);
-    const double quit = seconds(), quitThread = threadSeconds();
+                seconds() - from, painted.count, threadCpuSeconds() - fromThread, painted.longest);
+    const double quit = seconds(), quitThread = threadCpuSeconds();
     window.reset();
     std::printf("quit: %.2f s, %.2f s of processor time of the window's thread\n", seconds() - quit,
-                threadSeconds() - quitThread);
+                threadCpuSeconds() - quitThread);
 }
 
 } // namespace

@@ -32,21 +32,24 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     const SystemChooser chooser{folder.folder};
     std::unique_ptr<MixerWindow> window;
     const char* const device = std::getenv("PHYSVIB_STOP_DEVICE"); // by Hostile/stop-walk.sh
-    StopWalk walk{
-        {[&] {
-             window.reset();
-             window = std::make_unique<MixerWindow>(device ? withNoDevice(hostAudioDrivers) : onlyNoDevice(),
-                                                    device ? device : "None:no device", juce::File{},
-                                                    folder("config"));
-             window->view().setOrder("play 00 01"); // as at a first start: the walk finds the other mode
-             if (device == nullptr) window->model().setSlowness(0); // pictures of a world at rest are few
-         },
-         [&] {
-             if (!window->isChanged()) window->model().change("Level", [](Mix& mix) { mix.levelDb -= 0.01; });
-         },
-         [&] { return window->model().isSilent() && window->model().output().isSilent(); },
-         [&] { window->model().setSilent(false); },
-         [](const juce::StringArray& steps) { return steps.size() > 3 && steps[2] == "item Quit"; }, 2}};
+    StopWalk walk{{[&] {
+                       window.reset();
+                       window = std::make_unique<MixerWindow>(
+                           device ? withNullDevice(hostAudioDrivers) : onlyNoDevice(),
+                           device ? device : "None:no device", juce::File{}, folder("config"));
+                       window->view().setPanelLayout("play 00 01"); // as at a first start: the walk finds the
+                                                                    // other mode
+                       if (device == nullptr)
+                           window->model().setSlowness(0); // pictures of a world at rest are few
+                   },
+                   [&] {
+                       if (!window->hasUnsavedChanges())
+                           window->model().change("Level", [](Mix& mix) { mix.levelDb -= 0.01; });
+                   },
+                   [&] { return window->model().isSilent() && window->model().output().isSilent(); },
+                   [&] { window->model().setSilent(false); },
+                   [](const juce::StringArray& steps) { return steps.size() > 3 && steps[2] == "item Quit"; },
+                   2}};
     if (device != nullptr)
         walk.setMeasure([&](const juce::String& what) {
             if (what.isEmpty()) {
@@ -54,8 +57,8 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
                 return;
             }
             if (auto& output = window->model().device(); output.choice().name != device)
-                output.open({device});                            // the walk has chosen another
-            window->model().inputs().use({OscUse::thisComputer}); // a tone comes there
+                output.open({device});                                     // the walk has chosen another
+            window->model().inputs().configure({OscAccess::thisComputer}); // a tone comes there
             runFor(0.6);
             std::cout << "over " << msWaited() << '\n';
             std::cout << "stop " << juce::Time::currentTimeMillis() << ' ' << what << std::endl;

@@ -96,7 +96,7 @@ juce::AudioBuffer<float> samplesOf(const juce::File& file) {
 constexpr const char* none = "None:no device";
 
 bool isPlayedTo(MixerModel& model, std::int64_t ns = 500'000'000) {
-    return runUntil([&] { return model.look().session.sessionNs > ns; });
+    return runUntil([&] { return model.poll().session.sessionNs > ns; });
 }
 
 /// The card for a file, when it is open; throws where none comes.
@@ -124,12 +124,12 @@ struct Window : Windows {
     /// In the test's folder.
     void saveAs(const juce::String& name) {
         auto& card = fileCard(window);
-        card.enter(folder.folder);
+        card.openFolder(folder.folder);
         card.setName(name);
         card.accept();
     }
-    juce::Point<float> at(double x, double y) { return hand.placeOf(world, world.placeOfShare({x, y})); }
-    const std::vector<LiveInput>& inputs() { return model.saved().log.takes.back().inputs; }
+    juce::Point<float> at(double x, double y) { return hand.placeOf(world, world.pixelOfShare({x, y})); }
+    const std::vector<LiveInput>& inputs() { return model.savedSession().log.runs.back().inputs; }
     std::size_t bodies() { return model.world().drawing().drawn().bodies.size(); }
 };
 
@@ -142,11 +142,11 @@ TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindo
          {juce::Point<int>{1440, 900}, {MixerView::minWidth, MixerView::minHeight}, {1200, 880}}) {
         window.setSize(size.x, size.y);
         runFor(0.2);
-        const auto ball = world.placeOfBody("large rubber ball");
+        const auto ball = world.pixelOfBody("large rubber ball");
         hand.drag(hand.placeOf(world, ball), hand.placeOf(world, ball + juce::Point<float>{32.0f, -24.0f}));
         const auto& pulls = inputs();
         ASSERT_EQ(pulls.size(), ++drags);
-        const auto push = std::get<ImpulseAction>(pulls.back().action).newtonSeconds;
+        const auto push = std::get<ImpulseAction>(pulls.back().action).impulseNewtonSeconds;
         EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
         EXPECT_NEAR(push.y, 192.0, 0.01) << size.x;
     }
@@ -157,29 +157,30 @@ TEST_F(Windows, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     speakers.outputs = 2;
     {
         MixerWindow window{fakeDrivers({&speakers}), "Fake:hands", folder("hands.json"), config};
-        EXPECT_TRUE(window.model().device().choice().monitor.empty());
+        EXPECT_TRUE(window.model().device().choice().monitorOutputs.empty());
         ASSERT_TRUE(runUntil([&] {
-            if (window.model().trouble().contains("no output")) window.model().report({}); // it waits behind
-            return window.model().trouble().contains("headphones");
-        })) << window.model().trouble();
-        ASSERT_EQ(window.model().monitorInstead({0, 1}, -30.0), "");
+            if (window.model().messageText().contains("no output"))
+                window.model().report({}); // it waits behind
+            return window.model().messageText().contains("headphones");
+        })) << window.model().messageText();
+        ASSERT_EQ(window.model().moveOutputsToMonitor({0, 1}, -30.0), "");
         window.save(); // or the next one would ask for it
         runFor(0.7);   // the settings are written twice a second
     }
     MixerWindow again{fakeDrivers({&speakers}), "", {}, config};
-    EXPECT_EQ(again.model().device().choice().monitor, (std::vector{0, 1}));
+    EXPECT_EQ(again.model().device().choice().monitorOutputs, (std::vector{0, 1}));
     EXPECT_EQ(again.model().device().choice().monitorDb, -30.0);
     EXPECT_EQ(again.model().device().listening().settings().contacts, (std::vector{0, 1}))
         << "a new session's enchanters leave them alone";
     runFor(0.7);
-    EXPECT_FALSE(again.model().trouble().contains("headphones")) << again.model().trouble();
+    EXPECT_FALSE(again.model().messageText().contains("headphones")) << again.model().messageText();
 }
 
 TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     ASSERT_TRUE(isPlayedTo(model));
     model.setSlowness(0);
     runFor(0.3);
-    const auto ball = world.placeOfBody("large rubber ball");
+    const auto ball = world.pixelOfBody("large rubber ball");
     ASSERT_TRUE(world.getLocalBounds().toFloat().contains(ball));
     const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
     hand.drag(hand.placeOf(world, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(world, to),
@@ -187,7 +188,7 @@ TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     const auto told = inputs();
     ASSERT_GE(told.size(), 3u);
     const Scene& scene = model.world().scene();
-    const auto left = world.placeOfShare({0.0, 0.0}), right = world.placeOfShare({1.0, 1.0});
+    const auto left = world.pixelOfShare({0.0, 0.0}), right = world.pixelOfShare({1.0, 1.0});
     for (std::size_t i = 0; i + 1 < told.size(); ++i) {
         const auto& grip = std::get<GripAction>(told[i].action);
         EXPECT_EQ(grip.body, "large rubber ball");
@@ -205,7 +206,7 @@ TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
                 static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
     EXPECT_FALSE(std::get<GripAction>(told.back().action).toMetres.has_value()) << "let go";
     EXPECT_FALSE(world.isHolding());
-    EXPECT_EQ(model.trouble(), "");
+    EXPECT_EQ(model.messageText(), "");
 }
 
 TEST_F(Windows, APersonsWayThroughTheMixer) {
@@ -219,21 +220,21 @@ TEST_F(Windows, APersonsWayThroughTheMixer) {
         ASSERT_TRUE(isPlayedTo(window.model()));
         window.model().setSlowness(0); // a ball that lies still is easier to grasp
         runFor(0.3);
-        const auto ball = view.placeOfBody("large rubber ball");
+        const auto ball = view.pixelOfBody("large rubber ball");
         ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
         hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{60.0f, -40.0f}));
-        const auto& pulls = window.model().saved().log.takes.back().inputs;
+        const auto& pulls = window.model().savedSession().log.runs.back().inputs;
         ASSERT_EQ(pulls.size(), 1u);
         const auto& pull = std::get<ImpulseAction>(pulls[0].action);
         EXPECT_EQ(pull.body, "large rubber ball");
-        EXPECT_GT(pull.newtonSeconds.x, 0.0);
-        EXPECT_GT(pull.newtonSeconds.y, 0.0);
-        EXPECT_TRUE(window.isChanged());
+        EXPECT_GT(pull.impulseNewtonSeconds.x, 0.0);
+        EXPECT_GT(pull.impulseNewtonSeconds.y, 0.0);
+        EXPECT_TRUE(window.hasUnsavedChanges());
         window.model().setSlowness(1);
-        hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")),
-                  hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
-        EXPECT_TRUE(
-            std::holds_alternative<GripAction>(window.model().saved().log.takes.back().inputs.back().action))
+        hand.drag(hand.placeOf(view, view.pixelOfBody("large rubber ball")),
+                  hand.placeOf(view, view.pixelOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
+        EXPECT_TRUE(std::holds_alternative<GripAction>(
+            window.model().savedSession().log.runs.back().inputs.back().action))
             << "what is held renders again to the bit as well";
 
         auto* place = find(window.view(), "Attach an actuator");
@@ -267,11 +268,11 @@ TEST_F(Windows, APersonsWayThroughTheMixer) {
         hand.key('r', juce::ModifierKeys::commandModifier);
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         wav = window.lastRecording();
-        from = window.model().recording().from();
+        from = window.model().recording().startFrame();
         playOut = window.model().session().timeline().outputLatencyFrames();
-        EXPECT_EQ(window.model().look().session.render.late, 0u);
+        EXPECT_EQ(window.model().poll().session.render.late, 0u);
         hand.key('s', juce::ModifierKeys::commandModifier);
-        EXPECT_FALSE(window.isChanged());
+        EXPECT_FALSE(window.hasUnsavedChanges());
     }
     const auto saved = loadSession(pathOf(folder("hands.json")));
     ASSERT_TRUE(saved) << saved.error;
@@ -307,8 +308,8 @@ TEST_F(Windows, APersonsWayThroughTheMixer) {
     MixerWindow again{onlyNoDevice(), none, folder("hands.json"), config};
     EXPECT_EQ(again.model().mix().count(), 5);
     EXPECT_TRUE(again.model().mix().strips[1].isMuted);
-    EXPECT_EQ(again.model().trouble(), "");
-    EXPECT_FALSE(again.isChanged());
+    EXPECT_EQ(again.model().messageText(), "");
+    EXPECT_FALSE(again.hasUnsavedChanges());
 }
 
 TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
@@ -320,11 +321,11 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
         mix.scene = std::make_shared<const Scene>(scene);
     });
     window.newScene(SceneGround::floor);
-    EXPECT_EQ(model.mix().scene->materials, MixerModel::firstMix().scene->materials)
+    EXPECT_EQ(model.mix().scene->materials, MixerModel::defaultMix().scene->materials)
         << "not of the scene before";
     runFor(0.5);
     const auto draw = [&](DrawTool tool, juce::Point<float> from, juce::Point<float> to) {
-        pane.use(tool);
+        pane.setTool(tool);
         hand.drag(from, to);
         runFor(0.2);
     };
@@ -332,41 +333,42 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     draw(DrawTool::ball, at(0.1, 0.9), at(0.13, 0.9));
     draw(DrawTool::box, at(0.4, 0.14), at(0.75, 0.18)); // a see-saw
     draw(DrawTool::pin, at(0.575, 0.16), at(0.575, 0.16));
-    pane.use(DrawTool::polygon); // a bell
+    pane.setTool(DrawTool::polygon); // a bell
     for (const auto& corner : {at(0.8, 0.3), at(0.9, 0.3), at(0.85, 0.45)}) hand.drag(corner, corner);
     hand.key(KeyPress::returnKey);
     draw(DrawTool::rope, at(0.85, 0.4), at(0.85, 0.8));
     const auto& drawn = model.world().drawing();
-    ASSERT_EQ(bodies(), 5U) << model.trouble();
-    ASSERT_EQ(drawn.drawn().joints.size(), 2U) << model.trouble();
-    pane.use(DrawTool::choose);
-    pane.choose({"polygon 1"});
+    ASSERT_EQ(bodies(), 5U) << model.messageText();
+    ASSERT_EQ(drawn.drawn().joints.size(), 2U) << model.messageText();
+    pane.setTool(DrawTool::select);
+    pane.select({"polygon 1"});
     runFor(0.2);
     const auto& materials = drawn.drawn().materials;
     ASSERT_GT(materials.back().frequencyHz, 0.0) << "a haptic source has to sound";
     ASSERT_NE(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1);
     hand.click(*find(view, "Material " + utf8(materials.back().name)));
-    EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1) << model.trouble();
+    EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1)
+        << model.messageText();
     runFor(1.0); // its sound is over
 
-    pane.use(DrawTool::hand);
+    pane.setTool(DrawTool::hand);
     hand.key('r', juce::ModifierKeys::commandModifier);
     ASSERT_TRUE(model.recording().isRunning());
     hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
     ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 0.3; }));
-    const auto plank = world.placeOfBody("box 1");
+    const auto plank = world.pixelOfBody("box 1");
     hand.drag(hand.placeOf(world, plank + juce::Point<float>{40.0f, 0.0f}),
               hand.placeOf(world, plank + juce::Point<float>{40.0f, -60.0f}));
     for (int k = 0; k < 4; ++k) hand.key(KeyPress::leftKey);
-    const auto ball = world.placeOfBody("ball 1");
+    const auto ball = world.pixelOfBody("ball 1");
     hand.drag(hand.placeOf(world, ball), hand.placeOf(world, ball + juce::Point<float>{50.0f, -30.0f}),
               juce::ModifierKeys::shiftModifier);
     ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 3.0; }));
-    const std::size_t take = model.saved().log.takes.size() - 1;
+    const std::size_t take = model.savedSession().log.runs.size() - 1;
     hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
-    ASSERT_NE(model.script().hands(), nullptr) << model.trouble();
-    const double length = model.script().hands()->lengthSeconds;
-    EXPECT_GT(model.script().hands()->inputs.size(), 5U);
+    ASSERT_NE(model.script().recording(), nullptr) << model.messageText();
+    const double length = model.script().recording()->lengthSeconds;
+    EXPECT_GT(model.script().recording()->inputs.size(), 5U);
     hand.key('r', juce::ModifierKeys::commandModifier);
     ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
     ASSERT_EQ(window.saveSceneTo(folder("own.json"), false), "");
@@ -374,13 +376,13 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     const auto scene = loadScene(pathOf(folder("own.json")));
     ASSERT_TRUE(scene) << scene.error;
     const auto rendered =
-        runScene(scene.value, {model.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
+        simulateScene(scene.value, {model.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
     const auto live = loadEventsCsv(pathOf(window.lastRecording().withFileExtension("csv")));
     ASSERT_TRUE(live) << live.error;
     EXPECT_GT(rendered.size(), 2U);
     const auto& recorded = live.value.events;
     ASSERT_GE(recorded.size(), rendered.size());
-    const bool hasWaited = !model.saved().log.takes[take].stalls.empty();
+    const bool hasWaited = !model.savedSession().log.runs[take].stalls.empty();
     std::size_t same = 0;
     for (std::size_t i = 0; i < rendered.size(); ++i) {
         CollisionEvent felt = recorded[i];
@@ -398,11 +400,11 @@ juce::File loudSession(const TestFolder& folder) {
     MixerModel model{onlyNoDevice(), {"None:no device", 0, 0}};
     model.change("loud", [](Mix& mix) {
         mix.levelDb = 0.0;
-        for (Strip& strip : mix.strips) strip.gainDb = mostStripDb;
+        for (Strip& strip : mix.strips) strip.gainDb = maxStripDb;
         mix.strips[3].output = 5;
     });
     const auto file = folder("theirs.json");
-    EXPECT_EQ(writeFile(pathOf(file), sessionJson(model.saved())), "");
+    EXPECT_EQ(writeFile(pathOf(file), sessionJson(model.savedSession())), "");
     return file;
 }
 
@@ -430,7 +432,7 @@ TEST_F(Windows, AStrangersSessionIsNoLouderThanTheDeskWas) {
         ASSERT_EQ(window.document(), theirs);
         expectLowered(window.model().mix());
         EXPECT_TRUE(window.model().isSilent()) << "what was silenced by hand stays so";
-        const auto told = window.model().trouble();
+        const auto told = window.model().messageText();
         EXPECT_TRUE(told.startsWith(
             "Lowered to this desk: master 0.0 to -30.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -18.0 dB"))
             << told;
@@ -488,10 +490,10 @@ TEST_F(Windows, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     EXPECT_EQ(strips[1].gainDb, 0.0) << "levels belong to the session that was left";
     EXPECT_EQ(strips[2].output, -1) << "no new output";
     leave(-6.0, true);
-    next(-6.0, MixerModel::firstMix().levelDb, true); // the lower of what was left and what is asked
+    next(-6.0, MixerModel::defaultMix().levelDb, true); // the lower of what was left and what is asked
     folder("left.json").deleteFile();
     leave(-6.0, false);
-    next(-6.0, MixerModel::firstMix().levelDb, false);
+    next(-6.0, MixerModel::defaultMix().levelDb, false);
 }
 
 TEST_F(Windows, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
@@ -503,16 +505,16 @@ TEST_F(Windows, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
         window.model().setSlowness(0);
         window.newScene(SceneGround::floor);
         runFor(0.5);
-        window.view().world().drawing().use(DrawTool::box);
-        hand.drag(hand.placeOf(view, view.placeOfShare({0.4, 0.3})),
-                  hand.placeOf(view, view.placeOfShare({0.6, 0.4})));
+        window.view().world().drawing().setTool(DrawTool::box);
+        hand.drag(hand.placeOf(view, view.pixelOfShare({0.4, 0.3})),
+                  hand.placeOf(view, view.pixelOfShare({0.6, 0.4})));
         runFor(0.3);
-        ASSERT_EQ(window.model().world().drawing().drawn().bodies.size(), 2u) << window.model().trouble();
+        ASSERT_EQ(window.model().world().drawing().drawn().bodies.size(), 2u) << window.model().messageText();
         const double level = window.model().mix().levelDb;
         window.model().change("Master gain", [](Mix& mix) { mix.levelDb -= 6.0; });
         DeviceChoice other = window.model().device().choice();
         other.sinks = {{"BOARD", "/dev/not-there"}};
-        window.model().device().onSinksWanted(other);
+        window.model().device().onSinksRequested(other);
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
         window.view().question()->answer(answer);
         ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
@@ -558,24 +560,25 @@ TEST_F(Windows, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     for (int k = 0; k < 2; ++k) {
         MixerWindow window{onlyNoDevice(), none, {}, config};
         window.record();
-        ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
-        window.model().strikes().testPulse(0);
+        ASSERT_TRUE(window.model().recording().isRunning()) << window.model().messageText();
+        window.model().eventPlayer().testPulse(0);
         runUntil([&] { return window.model().recording().seconds() > 0.5; });
-        reportNoEar(window.model(), {2, 3}); // waits behind what was recorded
+        reportNoHeadphoneOutput(window.model(), {2, 3}); // waits behind what was recorded
         window.record();
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
         EXPECT_EQ(window.lastRecording().getParentDirectory(), documents.getChildFile("PhysVib"));
-        EXPECT_TRUE(window.model().trouble().contains(window.lastRecording().getFileName()));
-        ASSERT_EQ(window.model().messages().shown().act.name, "Play");
+        EXPECT_TRUE(window.model().messageText().contains(window.lastRecording().getFileName()));
+        ASSERT_EQ(window.model().messages().current().action.name, "Play");
         window.model().setSlowness(0); // what is felt is the recording
         runFor(0.3);
-        const auto inputs = window.model().edits();
-        window.model().messages().shown().act.run();
-        EXPECT_TRUE(runUntil([&] { return window.model().edits() > inputs; })) << "it is played";
+        const auto inputs = window.model().editCount();
+        window.model().messages().current().action.run();
+        EXPECT_TRUE(runUntil([&] { return window.model().editCount() > inputs; })) << "it is played";
         names.add(window.lastRecording().getFileName());
         window.model().report({});
-        EXPECT_TRUE(window.model().trouble().startsWith("C, D have no output")) << window.model().trouble();
+        EXPECT_TRUE(window.model().messageText().startsWith("C, D have no output"))
+            << window.model().messageText();
     }
     EXPECT_NE(names[0], names[1]);
     EXPECT_EQ(cwd.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
@@ -586,43 +589,43 @@ TEST_F(Window, ARecordingOfNothingSaysSo) {
     const auto record = [&](bool isStruck) {
         const auto last = window.lastRecording();
         window.record();
-        if (isStruck) model.strikes().testPulse(0);
+        if (isStruck) model.eventPlayer().testPulse(0);
         runUntil([&] { return model.recording().seconds() > 0.5; });
         window.record();
         EXPECT_TRUE(runUntil([&] { return window.lastRecording() != last; }));
-        return model.trouble();
+        return model.messageText();
     };
     model.setSlowness(0);
     ASSERT_TRUE(runUntil([&] {
         view.refresh();
-        return std::ranges::all_of(view.latest().holds, [](float h) { return h == 0.0f; });
+        return std::ranges::all_of(view.latest().heldPeaks, [](float h) { return h == 0.0f; });
     }));
-    EXPECT_TRUE(record(false).startsWith("Nothing was played")) << model.trouble();
-    EXPECT_EQ(model.messages().shown().act.name, "Show");
-    EXPECT_TRUE(record(true).startsWith("Recorded")) << model.trouble();
-    EXPECT_EQ(model.messages().shown().act.name, "Play");
+    EXPECT_TRUE(record(false).startsWith("Nothing was played")) << model.messageText();
+    EXPECT_EQ(model.messages().current().action.name, "Show");
+    EXPECT_TRUE(record(true).startsWith("Recorded")) << model.messageText();
+    EXPECT_EQ(model.messages().current().action.name, "Play");
 }
 
 TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
     window.share();
     ASSERT_NE(view.question(), nullptr);
     auto& files = *view.question();
-    EXPECT_EQ(files.getWidth(), QuestionCard::wide) << "no hole for a code";
-    if (PageServer::isThere())
+    EXPECT_EQ(files.getWidth(), QuestionCard::cardWidth) << "no hole for a code";
+    if (PageServer::isAvailable())
         EXPECT_TRUE(the<juce::Button>(files, "Serve it here").getToggleState());
     else
-        EXPECT_TRUE(files.words().contains("physvib-page")) << files.words();
+        EXPECT_TRUE(files.message().contains("physvib-page")) << files.message();
     for (const char* words : {"Save movie", "Save as scene"})
-        EXPECT_TRUE(the<juce::Button>(files, words + dots()).isEnabled()) << words;
-    files.answer("Save as scene" + dots());
+        EXPECT_TRUE(the<juce::Button>(files, words + ellipsis()).isEnabled()) << words;
+    files.answer("Save as scene" + ellipsis());
     auto& saving = fileCard(window);
     EXPECT_FALSE(saving.folder().isAChildOf(config)) << "nobody looks there";
     EXPECT_FALSE(saving.folder().getFullPathName().contains("/."));
     saving.setName("for a friend");
     saving.accept();
-    ASSERT_TRUE(runUntil([&] { return model.trouble().contains("for a friend.json"); }));
+    ASSERT_TRUE(runUntil([&] { return model.messageText().contains("for a friend.json"); }));
     window.share();
-    view.question()->answer("Other page" + dots());
+    view.question()->answer("Other page" + ellipsis());
     ASSERT_TRUE(runUntil([&] {
         auto* next = view.question();
         return next != nullptr && find(*next, "Address of the page") != nullptr;
@@ -659,7 +662,7 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
               first.begin() + 2)
         << "what leads on is at the right";
     address.setText("localhost", true);
-    ASSERT_TRUE(runUntil([&] { return card->withoutPicture().contains("leads nowhere"); }));
+    ASSERT_TRUE(runUntil([&] { return card->placeholder().contains("leads nowhere"); }));
     EXPECT_EQ(places(), first);
     address.setText("https://example.org/page/", true);
     ASSERT_TRUE(runUntil([&] { return card->picture().isValid(); })) << "a code for a phone";
@@ -668,7 +671,7 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
     EXPECT_EQ(places(), first) << "nothing moves while one types";
     EXPECT_TRUE(card->keyPressed(KeyPress{KeyPress::returnKey}));
     ASSERT_TRUE(runUntil([&] { return view.question() == nullptr; }));
-    EXPECT_TRUE(model.trouble().startsWith("Copied a link of ")) << model.trouble();
+    EXPECT_TRUE(model.messageText().startsWith("Copied a link of ")) << model.messageText();
     window.share();
     EXPECT_EQ(view.question()->value("Address of the page"), "https://example.org/page/") << "kept";
 }
@@ -684,11 +687,11 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
         auto& fader = the<juce::Slider>(view, title);
         const float middle = 0.5f * static_cast<float>(fader.getWidth());
         const auto high = static_cast<float>(fader.getHeight());
-        const auto edits = model.edits();
+        const auto edits = model.editCount();
         for (const float share : {0.1f, 0.25f, 0.4f, 0.8f, 0.95f})
             hand.click(fader, {middle, share * high}), runFor(0.6); // no double click
         EXPECT_EQ(levelOf(title), -20.0) << title;
-        EXPECT_EQ(model.edits(), edits) << title;
+        EXPECT_EQ(model.editCount(), edits) << title;
         const float handle = fader.getPositionOfValue(-20.0);
         hand.drag(hand.placeOf(fader, {middle, 0.9f * high}),
                   hand.placeOf(fader, {middle, 0.9f * high - 30.0f}));
@@ -700,10 +703,10 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
 }
 
 TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 200'000'000; }));
+    ASSERT_TRUE(runUntil([&] { return model.poll().session.sessionNs > 200'000'000; }));
     model.setSlowness(0);
     const auto drawn = bodies();
-    const auto edits = model.edits();
+    const auto edits = model.editCount();
     auto& slow = *find(view, "Slow motion");
     const struct {
         const char* name;
@@ -758,11 +761,11 @@ TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
                 hand.click(*behind);
         EXPECT_FALSE(window.isInterestedInFileDrag({folder("scene.json").getFullPathName()}));
         EXPECT_EQ(view.openCard(), opened) << card.name;
-        EXPECT_EQ(model.edits(), edits) << card.name;
+        EXPECT_EQ(model.editCount(), edits) << card.name;
         EXPECT_EQ(bodies(), drawn) << card.name;
         EXPECT_EQ(model.session().world().slowness(), 0) << card.name;
         EXPECT_EQ(view.world().drawing().tool(), DrawTool::hand) << card.name;
-        EXPECT_FALSE(view.isShow()) << card.name;
+        EXPECT_FALSE(view.isShowMode()) << card.name;
         EXPECT_EQ(juce::PopupMenu::dismissAllActiveMenus(), false) << card.name;
         auto& silence = *find(view, "Silence");
         model.setSilent(false);
@@ -788,9 +791,9 @@ TEST_F(Window, APressThatClosesAMenuDrawsNothing) {
     model.setSlowness(0);
     window.newScene(SceneGround::floor);
     runFor(0.5);
-    pane.use(DrawTool::ball);
+    pane.setTool(DrawTool::ball);
     const auto before = bodies();
-    const auto place = world.placeOfShare({0.5, 0.5});
+    const auto place = world.pixelOfShare({0.5, 0.5});
     for (const char* title : {"Menu", "Scene"}) {
         hand.click(*find(view, title));
         ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() != nullptr; }))
@@ -808,7 +811,7 @@ TEST_F(Windows, EscClosesAMenuAndSilencesWhatSounds) {
     FakeInterface hands;
     MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("menu.json"), config};
     Hand hand{window};
-    window.model().strikes().testPulse(0);
+    window.model().eventPlayer().testPulse(0);
     for (int k = 0; k < 100; ++k) hands.play(64);
     hand.click(*find(window.view(), "Menu"));
     ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() != nullptr; }));
@@ -834,10 +837,10 @@ TEST_F(Windows, EscClosesACardAndSilencesOnlyWhatSounds) {
     model.setSlowness(0);
     ASSERT_TRUE(runUntil([&] {
         hands.play(64), view.refresh();
-        return std::ranges::all_of(view.latest().holds, [](float hold) { return hold == 0.0f; });
+        return std::ranges::all_of(view.latest().heldPeaks, [](float hold) { return hold == 0.0f; });
     }));
     EXPECT_FALSE(isSilentAfterACard()) << "nothing sounded";
-    model.strikes().testPulse(0);
+    model.eventPlayer().testPulse(0);
     for (int k = 0; k < 100; ++k) hands.play(64);
     EXPECT_TRUE(isSilentAfterACard());
     model.setSilent(false);
@@ -850,7 +853,7 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
     model.setSlowness(0);
     runFor(0.3);
     const auto before = model.mix();
-    const auto edits = model.edits();
+    const auto edits = model.editCount();
     const auto escapeDuring = [&](juce::Point<float> from, int keys = 0) {
         const int pressed = juce::ModifierKeys::leftButtonModifier | keys;
         const auto at = hand.placeOf(world, from), to = at + juce::Point<float>{70.0f, 40.0f};
@@ -864,21 +867,21 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
         hand.move(to);
         EXPECT_FALSE(model.isSilent()) << "nothing sounded";
     };
-    const auto ball = world.placeOfBody("large rubber ball");
+    const auto ball = world.pixelOfBody("large rubber ball");
     escapeDuring(ball);
-    EXPECT_EQ(model.edits(), edits) << "thrown";
+    EXPECT_EQ(model.editCount(), edits) << "thrown";
     escapeDuring(ball, juce::ModifierKeys::shiftModifier);
     EXPECT_FALSE(world.isHolding());
     EXPECT_FALSE(std::get<GripAction>(inputs().back().action).toMetres) << "held";
-    escapeDuring(world.placeOfEnchanter(0));
+    escapeDuring(world.actuatorPixel(0));
     EXPECT_EQ(layoutJson(model.mix().layout), layoutJson(before.layout)) << "moved";
     const auto drawn = bodies();
     for (const DrawTool tool : {DrawTool::ball, DrawTool::line, DrawTool::polygon}) {
-        pane.use(tool);
-        escapeDuring(world.placeOfShare({0.3, 0.7}));
+        pane.setTool(tool);
+        escapeDuring(world.pixelOfShare({0.3, 0.7}));
         EXPECT_EQ(bodies(), drawn) << static_cast<int>(tool);
     }
-    pane.use(DrawTool::choose);
+    pane.setTool(DrawTool::select);
     escapeDuring(ball);
     EXPECT_EQ(model.world().drawing().find("large rubber ball")->positionMetres,
               before.scene
@@ -892,9 +895,9 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
 
 TEST_F(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
     OscChoice choice;
-    choice.use = OscUse::thisComputer, choice.receiver = "127.0.0.1:9";
-    EXPECT_EQ(model.inputs().use(choice), "");
-    model.strikes().testPulse(0);
+    choice.access = OscAccess::thisComputer, choice.receiver = "127.0.0.1:9";
+    EXPECT_EQ(model.inputs().configure(choice), "");
+    model.eventPlayer().testPulse(0);
     runFor(0.3);
     window.saveAs();
     runFor(0.1);
@@ -934,7 +937,7 @@ TEST_F(Windows, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft
         runFor(0.7); // the settings are written twice a second
     };
     leave([](Mix& mix) { // C where A will be
-        giveOutput(mix.strips, 2, 0);
+        assignOutput(mix.strips, 2, 0);
         mix.strips[2].gainDb = -27.7;
     });
     {
@@ -957,7 +960,7 @@ TEST_F(Windows, ARouteThatWasChosenIsKeptByTheNextSessions) {
     };
     {
         MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("left.json"), config};
-        window.model().change("Output", [](Mix& mix) { giveOutput(mix.strips, 0, 5); });
+        window.model().change("Output", [](Mix& mix) { assignOutput(mix.strips, 0, 5); });
         window.save();
         runFor(0.7); // the settings are written twice a second
         window.newDocument();
@@ -972,7 +975,7 @@ TEST_F(Windows, ARouteThatWasChosenIsKeptByTheNextSessions) {
         MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), config};
         window.model().change("Preset", [](Mix& mix) {
             setLayout(mix, "phone2");
-            giveOutput(mix.strips, 1, 2);
+            assignOutput(mix.strips, 1, 2);
         });
         window.save();
     }
@@ -986,11 +989,11 @@ TEST_F(Windows, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextSt
     {
         MixerWindow window{fakeDrivers({&hands}), "Fake:hands", mine, config};
         window.model().change("Mine", [](Mix& mix) {
-            giveOutput(mix.strips, 0, 5);
+            assignOutput(mix.strips, 0, 5);
             mix.strips[1].gainDb = -19.5;
         });
         window.save();
-        ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
+        ASSERT_EQ(openHeadphones(window.model(), window.model().device().choice()), "");
         window.save();
         runFor(0.7);
     }
@@ -1011,13 +1014,13 @@ TEST_F(Windows, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextSt
         EXPECT_EQ(strips[2].output, -1);
         EXPECT_EQ(strips[3].output, -1);
         EXPECT_EQ(strips[1].gainDb, -19.5);
-        EXPECT_EQ(window.model().mix().levelDb, safeContactDb);
-        EXPECT_FALSE(window.model().trouble().contains("without")) << window.model().trouble();
+        EXPECT_EQ(window.model().mix().levelDb, defaultContactDb);
+        EXPECT_FALSE(window.model().messageText().contains("without")) << window.model().messageText();
         runFor(0.7);
     }
     for (int start = 0; start < 3; ++start) {
         MixerWindow window{fakeDrivers({&hands}), "", {}, config};
-        EXPECT_EQ(window.model().mix().levelDb, safeContactDb) << start;
+        EXPECT_EQ(window.model().mix().levelDb, defaultContactDb) << start;
         EXPECT_EQ(window.model().output().channelMap(), (std::vector{0, 1})) << start;
         runFor(0.7);
     }
@@ -1027,7 +1030,7 @@ TEST_F(Windows, HeadphonesAreKept) {
     FakeInterface hands; // of eight outputs
     {
         MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), config};
-        ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
+        ASSERT_EQ(openHeadphones(window.model(), window.model().device().choice()), "");
         window.save();
         runFor(0.7);
     }
@@ -1035,9 +1038,9 @@ TEST_F(Windows, HeadphonesAreKept) {
         MixerWindow again{fakeDrivers({&hands}), "", {}, config};
         EXPECT_TRUE(again.model().device().choice().isHeadphones);
         EXPECT_EQ(again.model().output().channelMap(), (std::vector{0, 1})) << "two actuators";
-        EXPECT_EQ(again.model().mix().levelDb, safeContactDb);
+        EXPECT_EQ(again.model().mix().levelDb, defaultContactDb);
         DeviceChoice actuators = again.model().device().choice();
-        EXPECT_EQ(actuators.beforeEars, (std::vector{0, 1, 2, 3})) << "of the session before";
+        EXPECT_EQ(actuators.outputsBeforeHeadphones, (std::vector{0, 1, 2, 3})) << "of the session before";
         runFor(0.7);
     }
     MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, config};
@@ -1053,7 +1056,9 @@ TEST_F(Windows, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
         FirstStart card{model, {{"Headphones: Fake:hands", {"Fake:hands"}, 8, false, true}}};
         card.keyPressed(KeyPress{KeyPress::returnKey});
         ASSERT_EQ(model.output().channelMap(), (std::vector{0, 1}));
-        ASSERT_EQ(model.open({.name = "Fake:hands", .beforeEars = model.device().choice().beforeEars}), "");
+        ASSERT_EQ(model.open({.name = "Fake:hands",
+                              .outputsBeforeHeadphones = model.device().choice().outputsBeforeHeadphones}),
+                  "");
         window.save();
         runFor(0.7);
     }
@@ -1063,7 +1068,7 @@ TEST_F(Windows, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
 
 TEST_F(Windows, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     const auto file = folder("eight.json");
-    EnchanterLayout eight = presetLayout("phone4").geometry;
+    ActuatorLayout eight = presetLayout("phone4").geometry;
     for (; eight.count < 8; ++eight.count) nth(eight.places, eight.count) = {0.01 * eight.count, 0.01};
     ASSERT_EQ(writeFile(pathOf(file), layoutJson(describeLayout("eight", eight))), "");
     MixerWindow window{onlyNoDevice(), none, {}, config};
@@ -1071,7 +1076,7 @@ TEST_F(Windows, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     const auto& strips = window.model().mix().strips;
     ASSERT_EQ(strips.size(), 8u);
     for (std::size_t j = 0; j < 8; ++j) EXPECT_EQ(strips[j].output, j < 4 ? static_cast<int>(j) : -1);
-    EXPECT_TRUE(window.model().trouble().contains("E without output 5")) << window.model().trouble();
+    EXPECT_TRUE(window.model().messageText().contains("E without output 5")) << window.model().messageText();
     window.model().undoManager().undo();
     EXPECT_EQ(window.model().mix().strips.size(), 4u);
 }
@@ -1089,17 +1094,17 @@ TEST_F(Windows, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
     window.getPeer()->handleDragDrop(drop);
     const auto& concrete = window.model().world().scene().materials[3]; // the first that sounds is chosen
-    ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.model().trouble();
+    ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.model().messageText();
     EXPECT_NEAR(concrete.frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(concrete.decayPerSecond, 98.0, 2.0);
 
     auto& world = window.view().world().view();
-    hand.click(world, world.placeOfShare({0.25, 0.75}));
-    hand.longClick(world, world.placeOfShare({0.75, 0.25}));
+    hand.click(world, world.pixelOfShare({0.25, 0.75}));
+    hand.longClick(world, world.pixelOfShare({0.75, 0.25}));
     auto& feel = *find(tab, "Feel the material at the spot");
     feel.grabKeyboardFocus();
     hand.key(KeyPress::returnKey);
-    const auto& strikes = window.model().saved().log.strikes;
+    const auto& strikes = window.model().savedSession().log.strikes;
     ASSERT_EQ(strikes.size(), 3u);
     EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
     EXPECT_NEAR(strikes[0].x / window.model().world().scene().fieldWidthMetres, 0.25, 0.01);
@@ -1122,10 +1127,10 @@ TEST_F(Windows, ABrokenSessionIsNamedAndNothingIsLost) {
     window.model().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
     window.model().undoManager().undo();
     MixerWindow broken{onlyNoDevice(), none, folder("broken.json"), config};
-    EXPECT_TRUE(broken.model().trouble().contains("broken.json: seconds: expected a number from 0 to "))
-        << broken.model().trouble();
+    EXPECT_TRUE(broken.model().messageText().contains("broken.json: seconds: expected a number from 0 to "))
+        << broken.model().messageText();
     EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
-    EXPECT_TRUE(runUntil([&] { return broken.model().look().session.render.played > 3; }))
+    EXPECT_TRUE(runUntil([&] { return broken.model().poll().session.render.played > 3; }))
         << "the mixer plays on";
 }
 
@@ -1142,13 +1147,13 @@ TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     auto window = start("scene.json");
     EXPECT_EQ(window->model().mix().scene->name, "mine");
     EXPECT_EQ(window->document(), juce::File{}) << "saving would replace the scene";
-    EXPECT_FALSE(window->isChanged());
+    EXPECT_FALSE(window->hasUnsavedChanges());
     window = start("layout.json");
     EXPECT_EQ(window->model().mix().count(), 3);
     EXPECT_EQ(window->model().mix().strips.size(), 3u);
     window = start("other.json");
-    EXPECT_TRUE(window->model().trouble().endsWith("other.json: expected a session, a scene or a layout"))
-        << window->model().trouble();
+    EXPECT_TRUE(window->model().messageText().endsWith("other.json: expected a session, a scene or a layout"))
+        << window->model().messageText();
     window->model().report({});
 
     const auto drop = [&](const char* name) {
@@ -1160,7 +1165,7 @@ TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     EXPECT_FALSE(window->isInterestedInFileDrag({folder("take.wav").getFullPathName()}))
         << "recordings are for others";
     drop("other.json");
-    EXPECT_TRUE(window->model().trouble().contains("other.json"));
+    EXPECT_TRUE(window->model().messageText().contains("other.json"));
     drop("scene.json");
     EXPECT_EQ(window->model().mix().scene->name, "mine");
     drop("layout.json");
@@ -1171,7 +1176,7 @@ TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     EXPECT_EQ(window->model().mix().count(), 4);
 
     window->model().change("Level", [](Mix& mix) { mix.levelDb = -30.0; });
-    folder("session.json").replaceWithText(sessionJson(window->model().saved()));
+    folder("session.json").replaceWithText(sessionJson(window->model().savedSession()));
     window = start("session.json");
     EXPECT_EQ(window->model().mix().levelDb, -30.0);
     EXPECT_EQ(window->document(), folder("session.json"));
@@ -1179,11 +1184,11 @@ TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
 
 TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
     ASSERT_TRUE(isPlayedTo(model));
-    const auto before = model.look().session.sessionNs;
+    const auto before = model.poll().session.sessionNs;
     window.renderTo(folder("long.wav"), 20.0);
-    ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("long.wav"); }, 60.0))
-        << model.trouble();
-    EXPECT_GT(model.look().session.sessionNs, before);
+    ASSERT_TRUE(runUntil([&] { return model.isInfo() && model.messageText().contains("long.wav"); }, 60.0))
+        << model.messageText();
+    EXPECT_GT(model.poll().session.sessionNs, before);
     const auto samples = samplesOf(folder("long.wav"));
     EXPECT_EQ(samples.getNumSamples(), 20 * 48000);
     EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
@@ -1193,9 +1198,10 @@ TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeave
     EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << "the mixer can be used meanwhile";
     runFor(0.3);
     window.renderTo(folder("second.wav"), 1.0);
-    EXPECT_TRUE(model.trouble().contains("cancelled.wav")) << "one at a time: " << model.trouble();
+    EXPECT_TRUE(model.messageText().contains("cancelled.wav")) << "one at a time: " << model.messageText();
     cancel.onClick();
-    EXPECT_TRUE(runUntil([&] { return model.trouble().contains("nothing was written"); })) << model.trouble();
+    EXPECT_TRUE(runUntil([&] { return model.messageText().contains("nothing was written"); }))
+        << model.messageText();
     EXPECT_EQ(find(view, "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
@@ -1205,21 +1211,22 @@ TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
         folder, "ffmpeg", // the pictures become the movie
         "for word; do case $before in -i) [ \"$first\" ] || first=$word;; esac; before=$word; "
         "done\ncat \"$first\" >\"$word\"\n"};
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 2'500'000'000; }));
+    ASSERT_TRUE(runUntil([&] { return model.poll().session.sessionNs > 2'500'000'000; }));
     const auto ask = [&](const char* seconds) {
         window.saveMovie();
         EXPECT_GE(view.question()->value("Seconds").getDoubleValue(), 2.5) << "all of it";
         view.question()->setValue("Seconds", seconds);
-        view.question()->answer("Choose a file" + dots());
+        view.question()->answer("Choose a file" + ellipsis());
     };
     ask("601");
-    ASSERT_TRUE(runUntil([&] { return model.trouble().contains("expected 1 to 600"); })) << model.trouble();
+    ASSERT_TRUE(runUntil([&] { return model.messageText().contains("expected 1 to 600"); }))
+        << model.messageText();
     EXPECT_EQ(view.card(), nullptr);
     model.report({}); // news wait behind trouble
     ask("1.0");
     saveAs("short");
     const auto movie = folder("short.mp4");
-    ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("short.mp4"); }, 60.0));
+    ASSERT_TRUE(runUntil([&] { return model.isInfo() && model.messageText().contains("short.mp4"); }, 60.0));
     juce::MemoryBlock bytes;
     movie.loadFileAsData(bytes);
     const std::string_view text{static_cast<const char*>(bytes.getData()), bytes.getSize()};
@@ -1228,18 +1235,19 @@ TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
         ++pictures;
     EXPECT_EQ(pictures, 20) << "a second";
 
-    const auto before = model.look().session.sessionNs;
+    const auto before = model.poll().session.sessionNs;
     {
         const FileSizeLimit full{20'000};
         window.saveMovieTo(folder("full.mp4"), 2.0);
         const auto told = folder("full.mp4").getFullPathName() + ": cannot be written";
-        ASSERT_TRUE(runUntil([&] { return model.trouble().contains(told); }, 60.0)) << model.trouble();
-        EXPECT_FALSE(model.isNews());
+        ASSERT_TRUE(runUntil([&] { return model.messageText().contains(told); }, 60.0))
+            << model.messageText();
+        EXPECT_FALSE(model.isInfo());
     }
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "full*"), 0);
     EXPECT_TRUE(movie.existsAsFile());
     EXPECT_EQ(find(view, "Progress"), nullptr);
-    EXPECT_TRUE(runUntil([&] { return model.look().session.sessionNs > before + 500'000'000; }));
+    EXPECT_TRUE(runUntil([&] { return model.poll().session.sessionNs > before + 500'000'000; }));
 }
 
 /// A folder as a crash leaves it: a copy of a session at -30 dB, settings of a model that was then turned
@@ -1249,7 +1257,7 @@ struct AfterACrash : TestFolder {
     AfterACrash() {
         MixerWindow window{onlyNoDevice(), "None:no device", folder.getChildFile("mine.json"),
                            folder.getChildFile("config")};
-        window.model().exposure().goOnFrom(12.5);
+        window.model().exposure().addEarlierExposure(12.5);
         const auto change = [&](double levelDb) {
             window.model().change("Level", [levelDb](Mix& mix) { mix.levelDb = levelDb; });
         };
@@ -1289,7 +1297,7 @@ TEST_F(Windows, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
             << (isTakenUp ? "the copy is older than the desk was" : "discarded");
         EXPECT_GE(window.model().exposure().squareGSeconds(), 12.5);
         EXPECT_EQ(window.view().question(), nullptr);
-        EXPECT_EQ(window.isChanged(), isTakenUp);
+        EXPECT_EQ(window.hasUnsavedChanges(), isTakenUp);
     }
 }
 
@@ -1313,11 +1321,11 @@ TEST_F(Windows, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) 
         EXPECT_EQ(window.zoom(), 0) << "by the display";
         window.setZoom(125);
         window.keyPressed(KeyPress{KeyPress::F11Key});
-        EXPECT_TRUE(window.view().isShow());
+        EXPECT_TRUE(window.view().isShowMode());
         window.keyPressed(KeyPress{KeyPress::escapeKey});
-        EXPECT_TRUE(window.view().isShow() && window.model().isSilent()) << "Esc only silences";
+        EXPECT_TRUE(window.view().isShowMode() && window.model().isSilent()) << "Esc only silences";
         window.keyPressed(KeyPress{KeyPress::F11Key});
-        EXPECT_FALSE(window.view().isShow());
+        EXPECT_FALSE(window.view().isShowMode());
         window.model().setSilent(false);
         window.view().setDividers({0.5, 0.4, 0.6});
         runFor(1.2); // the settings are written twice a second
@@ -1327,19 +1335,19 @@ TEST_F(Windows, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) 
         EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr);
         window.view().question()->answer("Cancel");
         EXPECT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
-        EXPECT_TRUE(window.isChanged());
+        EXPECT_TRUE(window.hasUnsavedChanges());
         window.view().tabs().choose("Output");
         chooseIn(window.view(), "Device", "Game controller: none is plugged in");
-        window.model().messages().shown().act.run();
+        window.model().messages().current().action.run();
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
         EXPECT_EQ(the<juce::ComboBox>(window.view(), "Device").getText(), "No device: seen, not felt")
             << "until the question is answered";
         window.view().question()->answer("Do not save");
         ASSERT_TRUE(runUntil([&] { return !window.model().device().choice().sinks.empty(); }));
-        EXPECT_TRUE(window.isChanged()) << "its mix is in no file";
-        window.setShow(true);
+        EXPECT_TRUE(window.hasUnsavedChanges()) << "its mix is in no file";
+        window.setShowMode(true);
         EXPECT_EQ(window.view().world().getBounds(), window.view().getLocalBounds());
-        window.setShow(false);
+        window.setShowMode(false);
     }
     MixerWindow again{onlyNoDevice(), none, folder("zoom.json"), config};
     EXPECT_EQ(again.zoom(), 125);
@@ -1356,11 +1364,11 @@ TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     fileCard(window);
     EXPECT_EQ(window.model().mix().levelDb, -18.0) << "not before it is saved";
     saveAs("kept");
-    ASSERT_TRUE(runUntil([&] { return folder("kept.json").existsAsFile() && !window.isChanged(); }));
+    ASSERT_TRUE(runUntil([&] { return folder("kept.json").existsAsFile() && !window.hasUnsavedChanges(); }));
     EXPECT_TRUE(runUntil([&] { return !window.model().undoManager().canUndo(); })) << "a new session";
     EXPECT_EQ(window.document(), juce::File{});
-    EXPECT_TRUE(window.model().trouble().contains("kept.json")) << window.model().trouble();
-    EXPECT_EQ(window.model().messages().shown().act.name, "Show");
+    EXPECT_TRUE(window.model().messageText().contains("kept.json")) << window.model().messageText();
+    EXPECT_EQ(window.model().messages().current().action.name, "Show");
 
     window.model().change("Level", [](Mix& mix) { mix.levelDb = -20.0; });
     window.newDocument(); // who gives up at the file stays
@@ -1368,7 +1376,7 @@ TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     fileCard(window).onCancel();
     ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; }));
     EXPECT_EQ(window.model().mix().levelDb, -20.0);
-    EXPECT_TRUE(window.isChanged());
+    EXPECT_TRUE(window.hasUnsavedChanges());
 }
 
 TEST_F(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
@@ -1400,7 +1408,7 @@ TEST_F(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     EXPECT_EQ(menu(), nullptr);
     EXPECT_EQ(model.session().world().slowness(), 0) << "Space is the world's";
     choose(1, 0); // Help: First steps
-    EXPECT_TRUE(model.trouble().contains("Drag a ball"));
+    EXPECT_TRUE(model.messageText().contains("Drag a ball"));
     hand.key(KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
     EXPECT_EQ(model.session().world().slowness(), 1) << "without a card as well";
@@ -1425,7 +1433,7 @@ TEST_F(Windows, ACopyIsKeptUntilTheWindowIsClosedWell) {
 /// Copies that runs left behind, the first the newest; of each the words of its scene's name.
 struct LeftBehind : TestFolder {
     explicit LeftBehind(int count) {
-        Mix mix = MixerModel::firstMix();
+        Mix mix = MixerModel::defaultMix();
         for (int k = 0; k < count; ++k) {
             Scene scene = *mix.scene;
             scene.name = "s" + std::to_string(k);
@@ -1433,7 +1441,7 @@ struct LeftBehind : TestFolder {
             MixerModel model{onlyNoDevice(), noDevice, mix};
             const auto file = copy(k);
             file.create();
-            file.replaceWithText(utf8(sessionJson(model.saved())));
+            file.replaceWithText(utf8(sessionJson(model.savedSession())));
             file.setLastModificationTime(juce::Time::getCurrentTime() -
                                          juce::RelativeTime::seconds(10.0 * k));
         }
@@ -1449,7 +1457,7 @@ struct LeftBehind : TestFolder {
 TEST_F(Windows, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     LeftBehind left{4};
     MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
-    const auto words = [&] { return window.view().question()->words(); };
+    const auto words = [&] { return window.view().question()->message(); };
     const auto answer = [&](const char* with, auto isDone) {
         window.view().question()->answer(with);
         ASSERT_TRUE(runUntil(isDone)) << with;
@@ -1464,9 +1472,9 @@ TEST_F(Windows, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     ASSERT_TRUE(runUntil([&] { return words().contains("S2 on"); }));
     answer("Take it up", [&] { return window.view().question() == nullptr; });
     EXPECT_EQ(window.model().mix().scene->name, "s2");
-    EXPECT_TRUE(window.isChanged());
+    EXPECT_TRUE(window.hasUnsavedChanges());
     window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
-    EXPECT_TRUE(window.isChanged()) << "after one edit as well";
+    EXPECT_TRUE(window.hasUnsavedChanges()) << "after one edit as well";
     EXPECT_FALSE(left.copy(2).existsAsFile()) << "this run's own is on the disk";
     EXPECT_TRUE(left.copy(0).existsAsFile() && left.copy(3).existsAsFile());
     EXPECT_EQ(left.copies(), 3);
@@ -1476,11 +1484,12 @@ TEST_F(Windows, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     LeftBehind left{2};
     left.copy(0).replaceWithText(left.copy(0).loadFileAsString().dropLastCharacters(500));
     MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
-    EXPECT_TRUE(window.model().trouble().contains("recovery-90000000.json: ")) << window.model().trouble();
-    EXPECT_FALSE(window.model().trouble().containsChar('\n'));
+    EXPECT_TRUE(window.model().messageText().contains("recovery-90000000.json: "))
+        << window.model().messageText();
+    EXPECT_FALSE(window.model().messageText().containsChar('\n'));
     auto* question = window.view().question();
     ASSERT_NE(question, nullptr);
-    EXPECT_TRUE(question->words().contains("S1 on 4 actuators")) << question->words();
+    EXPECT_TRUE(question->message().contains("S1 on 4 actuators")) << question->message();
     question->answer("Not now");
     ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
     EXPECT_EQ(left.copies(), 2);
@@ -1493,7 +1502,8 @@ TEST_F(Windows, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
         const FileSizeLimit full{4000};
         window.view().question()->answer("Take it up");
         ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
-        EXPECT_TRUE(window.model().trouble().contains("cannot be written")) << window.model().trouble();
+        EXPECT_TRUE(window.model().messageText().contains("cannot be written"))
+            << window.model().messageText();
         EXPECT_TRUE(left.copy(0).existsAsFile());
     }
     MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
@@ -1509,12 +1519,12 @@ TEST_F(Windows, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
     MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
     auto* question = window.view().question();
     ASSERT_NE(question, nullptr);
-    EXPECT_TRUE(question->words().contains("Copy 1 of 20") &&
-                question->words().contains("25 older ones stay in "))
-        << question->words();
+    EXPECT_TRUE(question->message().contains("Copy 1 of 20") &&
+                question->message().contains("25 older ones stay in "))
+        << question->message();
     question->answer("Discard all 20");
     EXPECT_TRUE(runUntil([&] { return left.copies() == 25; }));
-    EXPECT_TRUE(runUntil([&] { return window.view().question()->words().contains("5 older ones stay"); }))
+    EXPECT_TRUE(runUntil([&] { return window.view().question()->message().contains("5 older ones stay"); }))
         << "the next are offered";
 }
 

@@ -11,7 +11,7 @@
 static_assert(PHYSVIB_VERSION_MAJOR * 100 + PHYSVIB_VERSION_MINOR >= 1, "expected a version");
 
 int main() {
-    physvib::EnchanterLayout layout;
+    physvib::ActuatorLayout layout;
     physvib::layoutPreset("phone2", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare(

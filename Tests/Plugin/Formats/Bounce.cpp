@@ -16,7 +16,7 @@ namespace {
 using namespace physvib;
 
 PluginState inALine(PluginState state, int enchanters) {
-    EnchanterLayout line{enchanters - 1.0, 1.0, enchanters, {}};
+    ActuatorLayout line{enchanters - 1.0, 1.0, enchanters, {}};
     for (int j = 0; j < enchanters; ++j)
         line.places[static_cast<std::size_t>(j)] = {static_cast<double>(j), 0.5};
     state.layout = describeLayout("line", line);

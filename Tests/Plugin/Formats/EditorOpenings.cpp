@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
             return 1;
         }
         test::runFor(0.005);
-        plugin.takes().drainLog(); // which grows while the plug-in plays
+        plugin.runs().drainLog(); // which grows while the plug-in plays
     }
     const double growth = bytesInUse() - before;
     std::printf("editor: %d openings; %.1f MB in use, and %.0f kB while it is open; %.0f bytes more per "

@@ -134,11 +134,11 @@ TEST(HostKeys, AWindowOfItsOwnHasNoHost) {
     if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
     const HostWindow other;
     HostKeys keys;
-    keys.watch(editor->getWindowHandle());
+    keys.setWindow(editor->getWindowHandle());
     XSetInputFocus(other.display, reinterpret_cast<Window>(editor->getWindowHandle()), RevertToParent,
                    CurrentTime);
     type(other.display, {XK_s});
-    EXPECT_FALSE(keys.send(XK_s));
+    EXPECT_FALSE(keys.forward(XK_s));
 }
 
 } // namespace

@@ -73,7 +73,7 @@ TEST(HostedFormats, StateGoesThroughTheFormats) {
         ASSERT_NE(second, nullptr);
         int world = 0; // LV2's hosts list presets in any order
         while (world < first->getNumPrograms() &&
-               first->getProgramName(world).toStdString() != shownName(builtInScenes()[1].name))
+               first->getProgramName(world).toStdString() != displayName(builtInScenes()[1].name))
             ++world;
         ASSERT_LT(world, first->getNumPrograms()) << identifier;
         first->setCurrentProgram(world);

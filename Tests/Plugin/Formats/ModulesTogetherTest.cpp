@@ -30,7 +30,7 @@ Samples felt(const Samples& signal, int latency, int frames) {
 /// The first world, as the LV2 module has it from its presets: chosen, so as strong as an instrument.
 PluginState firstWorld() {
     PluginState state = newPluginState();
-    useBuiltIn(state, 0);
+    applyBuiltInPreset(state, 0);
     state.parameters.clear();
     return state;
 }

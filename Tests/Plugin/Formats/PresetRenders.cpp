@@ -2,9 +2,9 @@
 // Ten seconds of every preset of the plug-in, bounced, with a phrase that suits an instrument: NAME.wav (32
 // bits, a channel for each actuator), NAME.csv (what was felt) and NAME.json (its layout). presets.sh draws
 // them. Usage: physvib-plugin-presets FOLDER
-#include "FeltExport.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Wav/WavSink.h"
+#include "PlayedExport.h"
 #include "PluginProcessor.h"
 #include "PluginSettings.h"
 #include "Scene/LayoutFile.h"
@@ -52,19 +52,19 @@ void addClicks(juce::AudioBuffer<float>& buffer, int at) {
 }
 
 bool render(const std::string& name, int program, const juce::File& folder) {
-    PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, BusPlan::widestBus}};
+    PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, BusPlan::maxBusChannels}};
     auto layout = plugin.getBusesLayout();
     layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
     plugin.setBusesLayout(layout);
     auto state = plugin.state();
-    useBuiltIn(state, program);
+    applyBuiltInPreset(state, program);
     plugin.open(state);
     state = plugin.state();
     plugin.setNonRealtime(true);
     plugin.prepareToPlay(rateHz, block);
-    const int channels = enchantersOf(state), latency = plugin.getLatencySamples();
+    const int channels = actuatorCount(state), latency = plugin.getLatencySamples();
     std::vector<std::vector<float>> signal(static_cast<std::size_t>(channels));
-    juce::AudioBuffer<float> buffer{BusPlan::widestBus, block};
+    juce::AudioBuffer<float> buffer{BusPlan::maxBusChannels, block};
     const bool isInstrument = state.scene.bodies.empty();
     for (int at = 0; at < blocks + latency / block + 1; ++at) {
         addClicks(buffer, at);
@@ -77,13 +77,14 @@ bool render(const std::string& name, int program, const juce::File& folder) {
                                                        buffer.getReadPointer(c) + block);
     }
     plugin.drainEvents();
-    const auto events = plugin.felt().events(false);
+    const auto events = plugin.playedEvents().events(false);
     const auto path = [&](const char* ending) {
         return folder.getChildFile(juce::File::createLegalFileName(name).replaceCharacter(' ', '-') + ending)
             .getFullPathName()
             .toStdString();
     };
-    const auto written = exportFelt({events, state, pannerOf(state, PanningLaw::linear, 1.0)}, path(".csv"));
+    const auto written =
+        exportPlayed({events, state, pannerOf(state, PanningLaw::linear, 1.0)}, path(".csv"));
     std::string error = written ? writeFile(path(".json"), layoutJson(state.layout)) : written.error;
     float peak = 0.0f;
     if (error.empty()) {

@@ -98,7 +98,7 @@ bool writeAutomation(const std::vector<Point>& all, const juce::File& path) {
 PluginState songState() {
     PluginState state = newPluginState();
     const auto& names = presetNames();
-    useBuiltIn(state, static_cast<int>(std::ranges::find(names, "MPE pad") - names.begin()));
+    applyBuiltInPreset(state, static_cast<int>(std::ranges::find(names, "MPE pad") - names.begin()));
     state.transport = TransportMode::restartOnPlay;
     return state;
 }
@@ -127,7 +127,7 @@ public:
         point = queues_[parameter][next_[parameter]++];
         return true;
     }
-    int lastOfLine(std::size_t parameter) noexcept override {
+    int lastPointFrame(std::size_t parameter) noexcept override {
         return queues_[parameter].empty() ? -1 : queues_[parameter].back().frame;
     }
 
@@ -180,7 +180,7 @@ private:
         if (as_ == As::vst3) {
             const int frames = static_cast<int>(std::min<std::int64_t>(end - now, block_));
             lines_.begin(points_, now, frames);
-            plugin.expectPoints(lines_);
+            plugin.setPointSource(lines_);
             return frames;
         }
         for (; point_ < points_.size() && points_[point_].frame <= now; ++point_) {

@@ -28,7 +28,7 @@ TEST(StopWalk, EveryStateOfTheEditorIsSilencedByEscAndByAPress) {
                        editor->setVisible(true);
                    },
                    [] {}, [&] { return host.plugin->isStopped() || bypass.getValue() >= 0.5f; },
-                   [&] { host.plugin->stop(false), bypass.setValueNotifyingHost(0.0f); },
+                   [&] { host.plugin->setStopped(false), bypass.setValueNotifyingHost(0.0f); },
                    [](const juce::StringArray&) { return false; }, 2}};
     walk.run(std::numeric_limits<int>::max(), 250.0);
     for (const auto& state : walk.modal()) std::cout << state << '\n';

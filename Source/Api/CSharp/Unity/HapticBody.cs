@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib in Unity, 2D: on every Rigidbody2D that feels or strikes. Untried in Unity; Docs/csharp.md says how to set it up.
+// Component for each Rigidbody2D in Unity that is a haptic source or strikes one: reports its contacts to HapticWorld. Untried in Unity; Docs/csharp.md says how to set it up.
 using PhysVib;
 using UnityEngine;
 
@@ -32,19 +32,19 @@ public class HapticBody : MonoBehaviour {
 
     void Tell(Collision2D now, bool isNew) {
         var other = now.collider.GetComponentInParent<HapticBody>();
-        if (other != null && other.id > id) return; // it tells of this pair
+        if (other != null && other.id > id) return; // the other body reports this pair
         Weigh();
         if (other != null) other.Weigh();
         var point = now.GetContact(0);
         var contact = Contact.Create(id, other != null ? other.id : 0);
         contact.X_m = point.point.x;
         contact.Y_m = point.point.y;
-        contact.NormalX = -point.normal.x; // Unity's points to this body
+        contact.NormalX = -point.normal.x; // Unity's normal points to this body
         contact.NormalY = -point.normal.y;
         contact.ApproachMPerS = isNew ? Mathf.Abs(Vector2.Dot(now.relativeVelocity, point.normal)) : 0;
         contact.Restitution = restitution;
         contact.Gap_m = point.separation;
-        contact.GapFraction = 1; // told after the step
+        contact.GapFraction = 1; // contacts are reported after the step
         contact.PointId = Contact.ByPlace;
         HapticWorld.it.world.Touch(contact);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib in Unity, 2D: once, on the object with the AudioListener. Untried in Unity; Docs/csharp.md says how to set it up.
+// Component for the object with the AudioListener in Unity, 2D: steps the world and mixes its output into the audio. Untried in Unity; Docs/csharp.md says how to set it up.
 using System.Collections.Generic;
 using PhysVib;
 using UnityEngine;
@@ -9,7 +9,7 @@ using Renderer = PhysVib.Renderer;
 [DefaultExecutionOrder(-100)] // before the bodies
 public class HapticWorld : MonoBehaviour {
     public static HapticWorld it;
-    public Vector2 corner = new Vector2(-5, -3), size = new Vector2(10, 6); // what the actuators span
+    public Vector2 corner = new Vector2(-5, -3), size = new Vector2(10, 6); // area that the actuators span, m
     public float driveGain = 1;
     public int firstOutput = 4;
     public World world;
@@ -19,7 +19,7 @@ public class HapticWorld : MonoBehaviour {
     readonly Event[] events = new Event[256];
     float[] samples = new float[0];
     long laterNs, startNs;
-    int next = 1; // 0: all that has no HapticBody
+    int next = 1; // 0: all bodies without a HapticBody
     bool isStepping;
 
     public int Next() { return next++; }
@@ -31,7 +31,7 @@ public class HapticWorld : MonoBehaviour {
         how.FieldX_m = corner.x;
         how.FieldY_m = corner.y;
         how.DriveGain = driveGain;
-        how.FullScaleImpulse_Ns = WorldSettings.Automatic; // driveGain 1: the hardest usual hit is half of full scale
+        how.FullScaleImpulse_Ns = WorldSettings.Automatic; // driveGain 1: the hardest typical hit has half of full scale
         world = new World(how);
         world.SetBody(0, Body.Create());
         settings = RendererSettings.Create(); // phone4: A upper left, B upper right, C and D below
@@ -48,13 +48,13 @@ public class HapticWorld : MonoBehaviour {
             world.EndStep();
             Send();
         }
-        foreach (int body in gone) world.RemoveBody(body); // not within a step
+        foreach (int body in gone) world.RemoveBody(body); // not allowed within a step
         gone.Clear();
         world.BeginStep(Time.fixedDeltaTime, Physics2D.gravity.magnitude);
         isStepping = true;
     }
 
-    void Send() { // world time to audio time; aligned anew when they are 0.05 s apart
+    void Send() { // converts world time to audio time, and aligns them again when they differ by 0.05 s
         long apart = output.Status.Frames * 1000000000L / settings.RateHz - world.TimeNs;
         if (System.Math.Abs(apart - startNs) > 50000000) startNs = apart;
         int count = world.Take(events);

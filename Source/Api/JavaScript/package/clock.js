@@ -17,7 +17,7 @@ export class Clock {
     #world = null; #now = 0; #rate = 1; // the line: at that time of the world, and how fast it goes
     #step = null; #old = 0; #lastNow = 0; // the world's time after the last step, and before this picture's first
     #learnsUntil = Infinity; #spread = 0; #wasSudden = false; #changed = 0; #patience = calmNs; #isFixed;
-    /** How often the line was begun anew, or the latency changed: a game that stood still, or whose pace changed. */
+    /** How often the line was restarted or the latency changed, as after a pause or a change of pace. */
     moves = 0;
 
     /** `latency`: from a collision to its vibration, s; undefined: as little as the game's steps and pictures, and the page's clock, allow. */
@@ -27,7 +27,7 @@ export class Clock {
         this.latencyNs = this.#isFixed ? latency * 1e9 : 60e6; // until it is learned
     }
 
-    /** After a step: the world's time and the other's. */
+    /** To be called after each step, with the world's time and that of the other clock, ns. */
     align(worldNs, nowNs) {
         if (worldNs === this.#step) return;
         if (this.#step === null || worldNs < this.#step) this.#begin(worldNs, nowNs);
@@ -36,7 +36,7 @@ export class Clock {
         [this.#step, this.#lastNow] = [worldNs, nowNs];
     }
 
-    /** When what happened at that time of the world is felt. */
+    /** Time of the other clock, ns, at which an event of that world time is felt. */
     at(worldNs) { return this.#lineAt(worldNs) + this.latencyNs; }
     #lineAt(worldNs) { return this.#now + (worldNs - this.#world) * this.#rate; }
 
@@ -46,7 +46,7 @@ export class Clock {
         this.#learnsUntil = nowNs + firstLearningNs;
     }
 
-    // A picture has ended: its last step says where the game is, since some catch up in several.
+    // A picture has ended. Its last step gives the game's time, since some games catch up in several steps.
     #end(nowNs) {
         const world = this.#step, now = this.#lastNow, error = now - this.#lineAt(world), last = (this.#next + room - 1) % room;
         const isSudden = this.#count > 0 && Math.abs(error - (this.#nows[last] - this.#lineAt(this.#worlds[last]))) > suddenNs;
@@ -72,7 +72,7 @@ export class Clock {
 
     #at(i) { return (this.#next - this.#count + i + 2 * room) % room; }
 
-    // The line that is nearest to all pictures; a pace of one is the rule.
+    // Fits the line to all pictures by least squares; a pace within 1% of one counts as one.
     #learn() {
         const n = this.#count, origin = this.#at(n - 1), world0 = this.#worlds[origin], now0 = this.#nows[origin];
         let world = 0, now = 0, least = Infinity, most = -Infinity;
@@ -100,7 +100,7 @@ export class Clock {
         this.#changed = this.#lastNow;
     }
 
-    // How far the last n pictures lie from one another beside the line; or how coarse the clock is, which a second need not show.
+    // Spread of the last n pictures around the line, ns, or the resolution of the clock if that is larger.
     #spreadOf(n) {
         let least = Infinity, most = -Infinity, grain = Infinity, before = 0;
         for (let i = this.#count - n; i < this.#count; ++i) {
@@ -137,14 +137,14 @@ export class Clock {
             this.#learn();
             return;
         }
-        // From picture to picture as little as nobody feels.
+        // The line moves by less than one can feel from picture to picture.
         const by = Math.abs(error) > frameNs ? Math.max(-frameNs, Math.min(frameNs, 0.02 * error)) : 0;
         [this.#now, this.#world] = [this.#lineAt(world) + by, world];
         if (by !== 0) this.#rate += Math.max(-1e-4, Math.min(1e-4, 2e-4 * error / (16 * nsPerMs)));
         if (!this.#isFixed) this.#suit(now, late);
     }
 
-    // A latency for the game's pictures as they are now: larger when three of five were late, smaller when none wants it for a while, and ever less readily.
+    // Adapts the latency to the game's pictures: raises it when three of five were late, and lowers it after a while without late ones, each time later.
     #suit(now, late) {
         if (late >= 3) {
             if (this.latencyNs >= mostLatencyNs) return;

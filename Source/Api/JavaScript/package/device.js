@@ -28,7 +28,7 @@ export function expectOutputs(outputs, count, { destination: { maxChannelCount: 
 /** Takes the channels of a node to the device: each actuator to an output of its own where there are as many, else all to a stereo monitor. */
 export class Route {
     #context; #from; #nodes = []; #most = null; #pans; #outputs;
-    /** Whether each actuator has an output of its own, as it is connected now. */
+    /** True if each actuator has an output of its own in the present connection. */
     isDirect = false;
     constructor(context, from) {
         this.#context = context;
@@ -49,7 +49,7 @@ export class Route {
         pans.forEach((_, j) => (this.isDirect ? split.connect(this.#nodes[1], j, channels[(outputs?.[j] ?? j + 1) - 1]) : split.connect(this.#nodes[1 + j], j)));
         for (const node of this.#nodes.slice(1)) node.connect(destination);
     }
-    /** For a device that may have another number of outputs now. */
+    /** Adapts to a device whose number of outputs may have changed. */
     follow() { if (this.#context.destination.maxChannelCount !== this.#most) this.connect(this.#pans, this.#outputs); }
     disconnect() { for (const node of [this.#from, ...this.#nodes]) node.disconnect(); }
 }

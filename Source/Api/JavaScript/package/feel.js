@@ -11,7 +11,7 @@ import { attach as rapier2d } from './rapier2d.js';
 import { attach as rapier3d } from './rapier3d.js';
 import { attachVelocities } from './velocities.js';
 
-// How an engine is known, and what attaches to it; the rest of the options go to whom they are for.
+// How each engine is recognised, and what attaches to it. The other options go to the outputs.
 const kinds = [
     [engine => engine.world && engine.pairs && engine.timing, matter],
     [engine => engine.getBodyList && engine.on, planck],
@@ -29,11 +29,11 @@ const gestures = ['pointerdown', 'keydown', 'touchend'], early = { capture: true
 
 class Felt {
     #closed = false; #begin = () => this.#open();
-    /** What plays, from the first gesture on; null before, and where there is no audio. */
+    /** The output, from the first user gesture on; null before, and without audio. */
     output = null;
     /** The same hits for ears, if they were asked for and the device has outputs for them: left and right by their place. */
     sound = null;
-    /** Why there is none, if it failed. */
+    /** Error that kept the output from starting, if any. */
     error = null;
     constructor(physvib, haptics, { context, pads, ...options }) {
         Object.assign(this, { physvib, haptics, pads });
@@ -44,7 +44,7 @@ class Felt {
         else for (const name of gestures) globalThis.document?.addEventListener(name, this.#begin, early);
     }
     #options; #context; #isOwn = false;
-    // Browsers make no sound before a click or a key.
+    // Browsers play no audio before a click or a key.
     async #open() {
         for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, early);
         try {
@@ -70,7 +70,7 @@ class Felt {
         const layout = { extentWidth: fieldWidth, extentHeight: fieldHeight, places: [0, fieldWidth].map(x => ({ x, y: fieldHeight / 2 })) };
         return { outputs: outputs ?? [channels + 1, channels + 2], level, layout, law: 'energy', latency, worklet, fieldWidth, fieldHeight };
     }
-    /** As haptics.set; or the name of a material, of a source. */
+    /** As haptics.set; a string is the material of a source. */
     set(body, values = {}) { return this.haptics.set(body, typeof values === 'string' ? { isSource: true, material: values } : values); }
     update(seconds) { this.haptics.update(seconds); }
     explain() { return (this.error ? `${this.error.message} ` : this.output ? '' : 'Nothing plays before the first click or key. ') + this.haptics.explain(); }

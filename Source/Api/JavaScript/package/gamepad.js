@@ -9,10 +9,10 @@ const commandMs = 200; // one lasts as long, and is repeated before: motors stop
 const nsPerMs = 1e6;
 const seams = ['now', 'getGamepads', 'vibrate', 'setTimeout', 'clearTimeout', 'audioBuffer']; // of tests
 
-/** What a controller can do: its effects by name. */
+/** Names of the effects that a controller supports. */
 const effectsOf = ({ vibrationActuator: actuator }) => (actuator ? actuator.effects ?? (actuator.type ? [actuator.type] : ['dual-rumble']) : []);
 
-/** Browsers let a phone's motor be after the first touch only, and complain before. */
+/** Browsers permit a phone's motor only after the first touch, and warn before. */
 function phoneMotor(navigator) {
     return navigator?.vibrate && (ms => navigator.userActivation?.hasBeenActive !== false && navigator.vibrate(ms));
 }
@@ -40,7 +40,7 @@ class Pads {
         this.#clearTimer = system.clearTimeout ?? (timer => clearTimeout(timer));
     }
 
-    /** What `haptics` (of attach) feels from now on. What it returns ends that. */
+    /** Plays the events of `haptics` (of attach) from now on; returns a function that ends it. */
     follow(haptics) {
         const end = followed(haptics, new Clock(this.#latency), () => this.#now() * nsPerMs, events => this.strike(events, 0));
         this.#ends.add(end);
@@ -50,7 +50,7 @@ class Pads {
         };
     }
 
-    /** Events, `laterNs` after the times they have: as a rule, now. */
+    /** Queues events, `laterNs` after their own times. */
     strike(events, laterNs = this.#now() * nsPerMs) {
         const felt = events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) }));
         for (const event of felt) this.#motors.strike(event);
@@ -61,7 +61,7 @@ class Pads {
 
     get lost() { return this.#motors.lost; }
     setLevel(level) { this.#level = level; }
-    /** Everything stands still, now. */
+    /** Stops all motors at once. */
     stop() {
         this.#motors.stop(this.#now() * nsPerMs);
         this.#next = null;
@@ -77,7 +77,7 @@ class Pads {
         this.#motors.free();
     }
 
-    // A timer per command: at rest there is none.
+    // Each command has a timer; none runs while the motors are at rest.
     #wait() {
         this.#clearTimer(this.#timer);
         const dueNs = Math.min(this.#motors.dueNs, this.#waves.dueNs, this.#next?.dueNs ?? Infinity);

@@ -8,7 +8,7 @@ const vibrating = tables.flatMap(table => table.materials).filter(material => ma
 /** The names of the built-in materials that vibrate. */
 export const materials = vibrating.map(material => material.name);
 
-/** How a body vibrates that is of a built-in material: values of setBody. */
+/** Values of setBody for a built-in material. */
 export function material(name) {
     const found = vibrating.find(one => one.name === name);
     if (!found) throw new PhysVibError(-2, `material: expected one that vibrates (${materials.join(', ')}), found "${String(name)}"`);
@@ -16,7 +16,7 @@ export function material(name) {
         rolling: found.rolling ?? 0.2, isRidged: found.grain_pattern === 'regular' };
 }
 
-/** At time 0; the default vibration is that of physvib_event_of. */
+/** An event at time 0; the default vibration is that of physvib_event_of. */
 export function impactOf({ x = 0, y = 0, strength = 0.5, material: name } = {}) {
     if (!(strength >= 0 && strength <= 1)) throw new PhysVibError(-2, `strength: expected 0 to 1, found ${String(strength)}`);
     const { frequencyHz, decayPerSecond } = name === undefined ? { frequencyHz: 200, decayPerSecond: 30 } : material(name);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Lists the motions and contacts of a step as numbers, in order, for one call; Step.cpp reads them. Thousands per step are usual, so nothing is allocated.
+// Lists the motions and contacts of a step as numbers, in order, for one call; Step.cpp reads them. A step may have thousands, so nothing is allocated.
 export const leftOut = -2e300; // a default
 const mostOfEntry = 19;
 
-/** Of contactOf(): `point`. */
+/** Value of `point` in contactOf(): the points of a pair are told apart by place. */
 export const byPlace = -2;
 /** A contact, which World.touch describes, as numbers alone. Engines of JavaScript keep such members without allocating, as long as each is always a number. */
 export const contactOf = () => ({ x: leftOut, y: leftOut, z: leftOut, normalX: leftOut, normalY: leftOut, normalZ: leftOut, impulse: leftOut, approach: leftOut, restitution: leftOut, fraction: leftOut, gap: leftOut, gapFraction: leftOut, alongA: leftOut, alongB: leftOut, soft: leftOut, point: 0 });
@@ -18,7 +18,7 @@ export class Journal {
             this.#numbers = larger;
         }
     }
-    // The place of an entry of that kind; there is room for the largest.
+    // Starts an entry and returns the index of its first value; makes room for the largest entry.
     #begin(kind, id) {
         this.#makeRoom(mostOfEntry);
         const at = this.#count, numbers = this.#numbers;
@@ -43,7 +43,7 @@ export class Journal {
         numbers[at + 2] = spin;
         this.#count = at + 3;
     }
-    /** `c`: of contactOf(). */
+    /** Adds a contact; `c` is an object of contactOf(). */
     touch(a, b, c) {
         const at = this.#begin(2, a), numbers = this.#numbers;
         numbers[at] = b;
@@ -81,7 +81,7 @@ export class Journal {
     }
     movedInSpace(id, v, spin) { this.#count = this.#vector(this.#vector(this.#begin(4, id), v), spin); }
 
-    /** How much was written so far; copies of what was written from there on, and such a copy again. */
+    /** Number of values written so far; copy() returns those from `place` on, and again() writes such a copy. */
     get place() { return this.#count; }
     copy(place) { return this.#numbers.slice(place, this.#count); }
     again(copy) {
@@ -90,7 +90,7 @@ export class Journal {
         this.#count += copy.length;
     }
 
-    /** What was written since; empties it. */
+    /** Returns the numbers written since the last call, and empties the journal. */
     take() {
         const written = this.#numbers.subarray(0, this.#count);
         this.#count = 0;

@@ -20,7 +20,7 @@ export class Pad {
         this.#forget = registry(this, () => module.run('js_pad_free', at));
     }
 
-    /** An event at the time at which it is to be felt. */
+    /** Queues an event, whose time is that at which it is felt. */
     strike(event) { this.#module.withEvents([event], at => this.#module.check('js_pad_strike', this.#pad, at)); }
     /** When the next command is due, in ns of the events' time; Infinity: the motors are at rest. */
     get dueNs() { return this.#module.run('js_pad_due', this.#pad); }

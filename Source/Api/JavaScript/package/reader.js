@@ -25,7 +25,7 @@ export class SpaceHaptics extends Haptics {
         this.#spot.soft = this.engine.isSoft ? 1 : leftOut;
     }
 
-    /** Before a step of the engine, and behind it: for who lets another step it. */
+    /** To be called before and after a step of the engine, if another program steps it. */
     before(seconds) { this.guarded(() => this.#before(seconds)); }
     after(isDone = true) { this.finish(isDone ? () => this.#after() : undefined); }
     /** Who steps the engine is seen; `advance` does it, or engine.advance. */

@@ -5,7 +5,7 @@ const audible = 1e-5; // of full scale: -100 dB
 
 export class Receipts {
     #channels; #rate; #quantum = 128; #frames = new Float64Array(room).fill(-1); #levels; #strongest = 0;
-    /** When something left last, s; null: nothing has. */
+    /** End of the last audible block, s; null: there was none. */
     last = null;
     constructor(channels, rate) {
         this.#channels = channels;
@@ -13,7 +13,7 @@ export class Receipts {
         this.#levels = new Float32Array(2 * channels * room);
     }
 
-    /** What the meter of worklet.js tells: peak and mean square of each channel of consecutive blocks. */
+    /** Adds peak and mean square of each channel of consecutive blocks, from the meter of worklet.js. */
     add({ frame, quantum, levels }) {
         const each = 2 * this.#channels;
         this.#quantum = quantum;
@@ -26,14 +26,14 @@ export class Receipts {
             if (peak > audible) this.last = (from + quantum) / this.#rate;
         }
     }
-    /** What has gone nowhere since then: the device was lost. */
+    /** Marks the output since then as lost, with the device. */
     forget(seconds) {
         this.#frames.forEach((frame, slot) => { if (frame >= seconds * this.#rate) this.#frames[slot] = -1; });
         this.#strongest = 0;
         if (this.last > seconds) this.last = seconds || null;
     }
 
-    /** Of each channel, in the blocks that lie in or across these times. */
+    /** Measures each channel over the blocks that overlap this interval. */
     left(from, to) {
         const rate = this.#rate / this.#quantum, first = Math.floor(from * rate), end = Math.ceil(to * rate), each = 2 * this.#channels;
         const all = Array.from({ length: this.#channels }, () => ({ frames: 0, peak: 0, meanSquare: 0, running: false }));
@@ -49,7 +49,7 @@ export class Receipts {
         for (const one of all) Object.assign(one, { frames: blocks * this.#quantum, meanSquare: blocks > 0 ? one.meanSquare / blocks : 0, running: blocks > 0 && blocks === end - first });
         return all;
     }
-    /** The strongest sample since the last call; 0: nothing left. */
+    /** The largest sample since the last call; 0: nothing audible. */
     takeStrongest() {
         const strongest = this.#strongest > audible ? this.#strongest : 0;
         this.#strongest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderer: events in, samples out.
+// Renderer, which turns events into samples, one channel per actuator.
 import { impactOf } from './impact.js';
 import { channelsOf, withSettings } from './settings.js';
 

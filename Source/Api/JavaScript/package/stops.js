@@ -14,7 +14,7 @@ function keep(stop, x, y, z, vx, vy, vz) {
     stop.vy = vy;
     stop.vz = vz;
 }
-/** Before a step, with the velocity that gravity makes of it. */
+/** To be called before a step, with the velocity after gravity. */
 export function startOf(stop, x, y, z, vx, vy, vz, freeX, freeY, freeZ) {
     stop.isPut = !(stop.x === x && stop.y === y && stop.z === z);
     if (stop.isPut || !(stop.vx === vx && stop.vy === vy && stop.vz === vz)) stop.toX = stop.toY = stop.toZ = stop.turn = 0;

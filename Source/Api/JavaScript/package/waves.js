@@ -16,7 +16,7 @@ export class Waves {
         this.#makeBuffer = makeBuffer;
     }
 
-    /** Whether this controller gets samples, and so no commands for its motors. */
+    /** True if this controller gets samples instead of motor commands. */
     takes({ vibrationActuator: actuator }) { return typeof actuator?.playPCM === 'function' && typeof this.#physvib.render === 'function' && !this.#refused.has(actuator); }
 
     /** When the next buffer is due, in ns of the events' times. */
@@ -28,7 +28,7 @@ export class Waves {
         this.#isWaiting ||= events.length > 0;
     }
 
-    /** What waits, if it is time. */
+    /** Sends the waiting events to the controllers if the next buffer is due. */
     send(pads, nowNs, level) {
         if (nowNs < this.dueNs) return;
         this.#isWaiting = false;

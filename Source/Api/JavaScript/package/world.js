@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// World: contacts in, events out.
+// World, which turns reported motions and contacts into events.
 import { inWords, naming, notes } from './explanation.js';
 import { PhysVibError } from './module.js';
 import { Renderer } from './renderer.js';
@@ -80,7 +80,7 @@ export class World {
     push(a, b, contact = {}) { this.#tell('world_push', a, b, contact); }
     end(a, b) { this.#module.call('world_end', this.#name, a, b); }
 
-    /** What a Journal has of this step. What is refused of it is left out; the first: { body, line }, or null. */
+    /** Reports a Journal's entries of this step and skips invalid ones; returns the first of these, { body, line }, or null. */
     observe(numbers) {
         const { length } = numbers, module = this.#module;
         if (length > this.#journal.length) {

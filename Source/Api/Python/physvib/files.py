@@ -150,7 +150,7 @@ def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = 
     if not 0.0 <= seconds <= 1e6:
         raise PhysVibError("seconds: expected 0 to 10^6", -2)
     width, height = chosen.field_width_m or chosen.layout.extent_width_m, chosen.field_height_m or chosen.layout.extent_height_m
-    near = [np.abs(array[axis] - 0.5 * length) <= 0.55 * length for axis, length in (("x_m", width), ("y_m", height))]  # as outsideWarning of the library
+    near = [np.abs(array[axis] - 0.5 * length) <= 0.55 * length for axis, length in (("x_m", width), ("y_m", height))]  # as outsideFieldWarning of the library
     outside = len(array) - np.count_nonzero(near[0] & near[1])
     if outside:
         warnings.warn(f"{outside} of {len(array)} hits lie outside the field of {width:g} x {height:g} m (see field_m)", stacklevel=2)

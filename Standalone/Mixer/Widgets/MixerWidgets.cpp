@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws icons as paths, text on backgrounds, dividers, spectra and the names of tabs.
-#include "Mixer/Widgets/Parts.h"
+// Draws icons, texts, dividers and spectra, computes the levels of spectra, and arranges tabs.
+#include "Mixer/Widgets/MixerWidgets.h"
 #include "Core/Units.h"
 #include "Host/Views/WorldView.h"
 #include "Measure/Spectrum.h"
@@ -9,40 +9,40 @@
 namespace physvib {
 namespace {
 
-juce::Path outlineOf(Sign sign) {
+juce::Path outlineOf(Icon icon) {
     juce::Path p, line;
-    switch (sign) {
-    case Sign::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
-    case Sign::pause:
+    switch (icon) {
+    case Icon::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
+    case Icon::pause:
         p.addRectangle(-5.0f, -6.0f, 3.5f, 12.0f);
         p.addRectangle(1.5f, -6.0f, 3.5f, 12.0f);
         break;
-    case Sign::step:
+    case Icon::step:
         p.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
         p.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
         break;
-    case Sign::restart:
+    case Icon::restart:
         line.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
         juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
         p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
         break;
-    case Sign::save: // down into a tray
+    case Icon::save: // down into a tray
         p.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
         p.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
         p.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
         break;
-    case Sign::undo:
-    case Sign::redo:
+    case Icon::undo:
+    case Icon::redo:
         line.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
         juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
         p.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
-        if (sign == Sign::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
+        if (icon == Icon::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
         break;
-    case Sign::plus:
+    case Icon::plus:
         p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
         p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
         break;
-    case Sign::sweep: // a wave of rising frequency
+    case Icon::sweep: // a wave of rising frequency
         line.startNewSubPath(-9.0f, 0.0f);
         for (int k = 1; k <= 54; ++k) {
             const float t = static_cast<float>(k) / 54.0f;
@@ -55,9 +55,9 @@ juce::Path outlineOf(Sign sign) {
 }
 
 /// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
-const std::vector<double>& hann() {
+const std::vector<double>& hannWindow() {
     static const std::vector<double> weights = [] {
-        std::vector<double> w(SpectrumTrace::window);
+        std::vector<double> w(SpectrumTrace::windowSize);
         for (std::size_t i = 0; i < w.size(); ++i)
             w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
                                         static_cast<double>(w.size()));
@@ -66,39 +66,39 @@ const std::vector<double>& hann() {
     return weights;
 }
 
-constexpr int barRoom = 12;                 // of the scroll bar, and beside it
-constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
+constexpr int scrollBarWidth = 12;         // with the gap beside it
+constexpr int maxMargin = 60, maxCut = 14; // pixels that a name's width grows, or shrinks in a narrow panel
 
-int widthOf(const juce::String& name) {
-    return text::pixels(text::font(text::medium, juce::Font::bold), name) + 6;
+int nameWidthOf(const juce::String& name) {
+    return text::pixelWidth(text::font(text::medium, juce::Font::bold), name) + 6;
 }
 
 } // namespace
 
-SignButton::SignButton(Sign sign, const juce::String& name)
+IconButton::IconButton(Icon icon, const juce::String& name)
     : juce::Button{name}
-    , sign_{sign} {
-    setSign(sign, name);
+    , icon_{icon} {
+    setIcon(icon, name);
 }
 
-void SignButton::setSign(Sign sign, const juce::String& name) {
-    if (sign == sign_ && name == getTitle()) return;
-    sign_ = sign;
+void IconButton::setIcon(Icon icon, const juce::String& name) {
+    if (icon == icon_ && name == getTitle()) return;
+    icon_ = icon;
     describe(*this, name, name);
     repaint();
 }
 
-void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
+void IconButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
     const bool isQuiet = getProperties()[quietProperty];
     g.setColour(shade(*this, !isEnabled()       ? Shade::muted
                              : getToggleState() ? Shade::well
                              : isQuiet          ? Shade::accent
                                                 : Shade::text));
-    g.fillPath(outlineOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+    g.fillPath(outlineOf(icon_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
 }
 
-void TwoLines::set(const juce::String& first, const juce::String& second, Shade firstShade) {
+void TwoLineText::set(const juce::String& first, const juce::String& second, Shade firstShade) {
     if (first == first_ && second == second_ && firstShade == shade_) return;
     first_ = first;
     second_ = second;
@@ -107,7 +107,7 @@ void TwoLines::set(const juce::String& first, const juce::String& second, Shade 
     repaint();
 }
 
-void TwoLines::paint(juce::Graphics& g) {
+void TwoLineText::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     const auto font = text::font(text::small);
     const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
@@ -117,7 +117,8 @@ void TwoLines::paint(juce::Graphics& g) {
     };
     const bool isLow = 0.5f * static_cast<float>(getHeight()) < font.getHeight();
     line(first_,
-         isLow ? area.removeFromLeft(text::pixels(font, first_) + gap) : area.removeFromTop(getHeight() / 2),
+         isLow ? area.removeFromLeft(text::pixelWidth(font, first_) + gap)
+               : area.removeFromTop(getHeight() / 2),
          shade_);
     line(second_, area, Shade::muted);
 }
@@ -128,14 +129,14 @@ void drawPanel(juce::Graphics& g, const juce::Component& component) {
 
 void drawCard(juce::Graphics& g, const juce::Component& component) {
     const auto area = component.getLocalBounds().toFloat();
-    g.setColour(shade(component, Shade::panel)); // on which what is pressed stands out
+    g.setColour(shade(component, Shade::panel)); // pressed buttons stand out on it
     g.fillRoundedRectangle(area, 12.0f);
     g.setColour(shade(component, Shade::accent));
     g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);
 }
 
-std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name,
-                                              std::function<void()> onClick) {
+std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& words, const juce::String& name,
+                                                 std::function<void()> onClick) {
     auto button = std::make_unique<juce::TextButton>(words);
     describe(*button, name, name);
     button->onClick = std::move(onClick);
@@ -143,11 +144,11 @@ std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const j
     return button;
 }
 
-void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
+void onSliderChange(juce::Slider& slider, std::function<void(bool)> onChange) {
     const auto isFirst = std::make_shared<bool>(true);
     slider.onDragStart = [isFirst] { *isFirst = true; };
-    slider.onValueChange = [&slider, isFirst, use = std::move(use)] {
-        use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false));
+    slider.onValueChange = [&slider, isFirst, onChange = std::move(onChange)] {
+        onChange(slider.isMouseButtonDown() && !std::exchange(*isFirst, false));
     };
 }
 
@@ -156,7 +157,7 @@ void prepareControls(juce::Component& root) {
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
     if (auto* editor = dynamic_cast<juce::TextEditor*>(&root); editor != nullptr && !editor->isMultiLine())
         editor->setJustification(juce::Justification::centredLeft); // in the middle of its height
-    // also controls that are disabled now
+    // disabled controls are included
     const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
     const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() ||
                            dynamic_cast<juce::Button*>(&root) != nullptr;
@@ -167,7 +168,7 @@ void prepareControls(juce::Component& root) {
 
 Caption::Caption(const juce::String& words, Shade tone)
     : tone_{tone} {
-    setText(words, quietly);
+    setText(words, dontNotify);
     setFont(text::font(text::small));
     setBorderSize({0, 0, 0, 0});
 }
@@ -192,25 +193,26 @@ void AttachButton::mouseDrag(const juce::MouseEvent& e) {
     auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
     if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
     setState(buttonNormal);
-    container->startDragging(WorldView::newEnchanter, this);
+    container->startDragging(WorldView::newActuatorDrag, this);
 }
 
-Divider::Divider(const juce::String& title, bool isUpright)
-    : isUpright_{isUpright} {
+Divider::Divider(const juce::String& title, bool isVertical)
+    : isVertical_{isVertical} {
     describe(*this, title, title + ": drag it; double click: automatic");
     setWantsKeyboardFocus(true);
     setMouseClickGrabsKeyboardFocus(false); // the world keeps its keys
     setHasFocusOutline(true);
-    setMouseCursor(isUpright ? juce::MouseCursor::LeftRightResizeCursor
-                             : juce::MouseCursor::UpDownResizeCursor);
+    setMouseCursor(isVertical ? juce::MouseCursor::LeftRightResizeCursor
+                              : juce::MouseCursor::UpDownResizeCursor);
 }
 
 bool Divider::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    constexpr int step = 16;
-    const auto back = isUpright_ ? KeyPress::leftKey : KeyPress::upKey,
-               forth = isUpright_ ? KeyPress::rightKey : KeyPress::downKey;
-    if (key == back || key == forth) return onMove(key == forth ? step : -step), true;
+    constexpr int stepPixels = 16;
+    const auto decreaseKey = isVertical_ ? KeyPress::leftKey : KeyPress::upKey,
+               increaseKey = isVertical_ ? KeyPress::rightKey : KeyPress::downKey;
+    if (key == decreaseKey || key == increaseKey)
+        return onMove(key == increaseKey ? stepPixels : -stepPixels), true;
     if (key == KeyPress::backspaceKey) return onReset(), true;
     return false;
 }
@@ -218,38 +220,38 @@ bool Divider::keyPressed(const juce::KeyPress& key) {
 void Divider::paint(juce::Graphics& g) {
     g.setColour(shade(*this, isMouseOverOrDragging() ? Shade::accent : Shade::muted));
     constexpr float length = 36.0f, thickness = 3.0f;
-    const auto handle = getLocalBounds().toFloat().withSizeKeepingCentre(isUpright_ ? thickness : length,
-                                                                         isUpright_ ? length : thickness);
+    const auto handle = getLocalBounds().toFloat().withSizeKeepingCentre(isVertical_ ? thickness : length,
+                                                                         isVertical_ ? length : thickness);
     g.fillRoundedRectangle(handle, 1.5f);
 }
 
-// The divider moves with the mouse, so the distance is always counted from its present place.
+// The divider follows the mouse, so the distance is counted from its current place.
 void Divider::mouseDrag(const juce::MouseEvent& e) {
-    const auto from = e.position - e.mouseDownPosition;
-    onMove(juce::roundToInt(isUpright_ ? from.x : from.y));
+    const auto moved = e.position - e.mouseDownPosition;
+    onMove(juce::roundToInt(isVertical_ ? moved.x : moved.y));
 }
 
-double FrequencyAxis::shareOf(double hz) {
+double FrequencyAxis::shareFromHz(double hz) {
     return std::log(std::max(hz, 1e-3) / lowHz) / std::log(highHz / lowHz);
 }
 SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale) {
     SpectrumLevels levels;
-    const double half = 0.5 / (FrequencyAxis::points - 1),
-                 last = static_cast<double>(magnitudes.size()) - 1.0;
-    for (int k = 0; k < FrequencyAxis::points; ++k) {
-        const double share = static_cast<double>(k) / (FrequencyAxis::points - 1);
-        const double from = FrequencyAxis::hzAt(share - half) / binHz,
-                     to = std::min(last, FrequencyAxis::hzAt(share + half) / binHz);
-        const auto between = [&](double bin) { // at low frequencies the points are denser than the bins
+    const double halfStep = 0.5 / (FrequencyAxis::pointCount - 1),
+                 lastBin = static_cast<double>(magnitudes.size()) - 1.0;
+    for (int k = 0; k < FrequencyAxis::pointCount; ++k) {
+        const double share = static_cast<double>(k) / (FrequencyAxis::pointCount - 1);
+        const double fromBin = FrequencyAxis::hzFromShare(share - halfStep) / binHz,
+                     toBin = std::min(lastBin, FrequencyAxis::hzFromShare(share + halfStep) / binHz);
+        const auto magnitudeAt = [&](double bin) { // at low frequencies the points are denser than the bins
             const auto i = static_cast<std::size_t>(bin);
             return i + 1 < magnitudes.size()
                        ? std::lerp(magnitudes[i], magnitudes[i + 1], bin - static_cast<double>(i))
                        : 0.0;
         };
-        double highest = std::max(between(from), between(to));
-        for (auto i = static_cast<std::size_t>(std::ceil(from)); i <= static_cast<std::size_t>(to); ++i)
-            highest = std::max(highest, magnitudes[i]);
-        const double db = toDecibels(std::max(highest / fullScale, 1e-9));
+        double maxMagnitude = std::max(magnitudeAt(fromBin), magnitudeAt(toBin));
+        for (auto i = static_cast<std::size_t>(std::ceil(fromBin)); i <= static_cast<std::size_t>(toBin); ++i)
+            maxMagnitude = std::max(maxMagnitude, magnitudes[i]);
+        const double db = toDecibels(std::max(maxMagnitude / fullScale, 1e-9));
         nth(levels, k) = std::max(FrequencyAxis::floorDb, static_cast<float>(db));
     }
     return levels;
@@ -260,7 +262,7 @@ juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component&
     const auto foot = area.removeFromBottom(16);
     g.setFont(text::font(text::small));
     for (const int hz : {20, 50, 100, 200, 500, 1000}) {
-        const int x = area.getX() + juce::roundToInt(FrequencyAxis::shareOf(hz) * (area.getWidth() - 1));
+        const int x = area.getX() + juce::roundToInt(FrequencyAxis::shareFromHz(hz) * (area.getWidth() - 1));
         g.setColour(shade(component, Shade::line).withMultipliedAlpha(0.7f));
         g.drawVerticalLine(x, static_cast<float>(area.getY()), static_cast<float>(area.getBottom()));
         g.setColour(shade(component, Shade::muted));
@@ -277,7 +279,7 @@ juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component&
     return area;
 }
 
-void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::points> heights,
+void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::pointCount> heights,
                   juce::Rectangle<float> area, juce::Colour colour) {
     juce::Path curve, ground;
     ground.startNewSubPath(area.getBottomLeft());
@@ -296,23 +298,23 @@ void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::point
     g.strokePath(curve, juce::PathStrokeType{1.5f});
 }
 
-SpectrumLevels levelsOf(const SpectrumTrace& trace, int channel) {
-    auto x = trace.recent(channel);
-    if (x.empty()) {
+SpectrumLevels spectrumLevelsOf(const SpectrumTrace& trace, int channel) {
+    auto samples = trace.windowSamples(channel);
+    if (samples.empty()) {
         SpectrumLevels none;
         none.fill(FrequencyAxis::floorDb);
         return none;
     }
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= hann()[i];
-    const auto heights = magnitudes(x);
-    // half of the weights' sum
-    return spectrumLevels(heights, 0.5 * trace.rateHz() / static_cast<double>(heights.size() - 1),
-                          0.25 * SpectrumTrace::window);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] *= hannWindow()[i];
+    const auto spectrum = magnitudes(samples);
+    // a full-scale sine gives half of the weights' sum, which is half of the window's size
+    return spectrumLevels(spectrum, 0.5 * trace.rateHz() / static_cast<double>(spectrum.size() - 1),
+                          0.25 * SpectrumTrace::windowSize);
 }
 
-class TabPanel::Name final : public juce::Button {
+class TabPanel::TabButton final : public juce::Button {
 public:
-    explicit Name(const juce::String& name)
+    explicit TabButton(const juce::String& name)
         : juce::Button{name} {
         setTitle(name);
         setRadioGroupId(1); // choose() alone toggles it: JUCE would click the one before, and fold the panel
@@ -320,45 +322,45 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         const bool isChosen = isOpen && getToggleState();
         auto area = getLocalBounds();
-        if (isUpright) {
+        if (isVertical) {
             g.addTransform(juce::AffineTransform::rotation(juce::MathConstants<float>::halfPi)
                                .translated(static_cast<float>(getWidth()), 0.0f));
             area = {getHeight(), getWidth()};
         }
-        ink(g, *this, isChosen || isOver ? Shade::text : Shade::muted, text::medium,
-            isChosen ? juce::Font::bold : juce::Font::plain);
+        setInk(g, *this, isChosen || isOver ? Shade::text : Shade::muted, text::medium,
+               isChosen ? juce::Font::bold : juce::Font::plain);
         g.drawText(getName(), area.withTrimmedBottom(isOpen ? 4 : 0), juce::Justification::centred, false);
         g.setColour(isChosen && !hasKeyboardFocus(false) ? shade(*this, Shade::accent)
                                                          : juce::Colours::transparentBlack);
         g.fillRect(area.removeFromBottom(2));
     }
-    bool isOpen = true, isUpright = false;
+    bool isOpen = true, isVertical = false;
 };
 
 TabPanel::TabPanel(const juce::String& title) { setTitle(title); }
 TabPanel::~TabPanel() = default;
 
 void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
-    auto button = std::make_unique<Name>(name);
-    button->onClick = [this, name, at = pages_.size()] {
-        at == chosen_&& fold_ == Fold::none&& onOpen ? onOpen(false) : choose(name);
+    auto button = std::make_unique<TabButton>(name);
+    button->onClick = [this, name, index = pages_.size()] {
+        index == selectedPage_&& fold_ == Fold::none&& onOpen ? onOpen(false) : choose(name);
     };
     addAndMakeVisible(*button);
-    auto view = std::make_unique<juce::Viewport>();
-    view->setViewedComponent(tab.get(), false);
-    view->setScrollBarsShown(true, false);
-    tab->setVisible(false); // tabs tell by their visibility whether they are chosen
-    view->setScrollBarThickness(8);
-    addChildComponent(*view);
-    pages_.push_back({std::move(button), std::move(tab), std::move(view), 0});
+    auto viewport = std::make_unique<juce::Viewport>();
+    viewport->setViewedComponent(tab.get(), false);
+    viewport->setScrollBarsShown(true, false);
+    tab->setVisible(false); // tabs are visible only while they are selected
+    viewport->setScrollBarThickness(8);
+    addChildComponent(*viewport);
+    pages_.push_back({std::move(button), std::move(tab), std::move(viewport), 0});
     if (pages_.size() == 1) choose(name);
 }
 
 void TabPanel::choose(const juce::String& name) {
     for (std::size_t i = 0; i < pages_.size(); ++i) {
-        const bool isChosen = pages_[i].name->getName() == name;
-        if (isChosen) chosen_ = i;
-        pages_[i].name->setToggleState(isChosen, quietly);
+        const bool isChosen = pages_[i].button->getName() == name;
+        if (isChosen) selectedPage_ = i;
+        pages_[i].button->setToggleState(isChosen, dontNotify);
     }
     setFold(fold_);
     if (onOpen) onOpen(true);
@@ -367,27 +369,27 @@ void TabPanel::choose(const juce::String& name) {
 void TabPanel::setFold(Fold fold) {
     fold_ = fold;
     for (std::size_t i = 0; i < pages_.size(); ++i) {
-        const bool isShown = i == chosen_ && fold == Fold::none;
-        pages_[i].view->setVisible(isShown);
+        const bool isShown = i == selectedPage_ && fold == Fold::none;
+        pages_[i].viewport->setVisible(isShown);
         pages_[i].tab->setVisible(isShown);
-        pages_[i].name->isOpen = fold == Fold::none;
-        pages_[i].name->isUpright = fold == Fold::column;
-        pages_[i].name->repaint();
+        pages_[i].button->isOpen = fold == Fold::none;
+        pages_[i].button->isVertical = fold == Fold::column;
+        pages_[i].button->repaint();
     }
     resized();
 }
 
 juce::StringArray TabPanel::names() const {
     juce::StringArray all;
-    for (const auto& page : pages_) all.add(page.name->getName());
+    for (const auto& page : pages_) all.add(page.button->getName());
     return all;
 }
 
-void TabPanel::refresh(const MixerMoment& moment) {
-    if (chosen_ >= pages_.size() || fold_ != Fold::none) return;
-    const auto& page = pages_[chosen_];
-    page.tab->refresh(moment);
-    if (page.tab->minHeight(page.view->getWidth()) != page.least) resized(); // it says more, or less
+void TabPanel::refresh(const MixerSnapshot& snapshot) {
+    if (selectedPage_ >= pages_.size() || fold_ != Fold::none) return;
+    const auto& page = pages_[selectedPage_];
+    page.tab->refresh(snapshot);
+    if (page.tab->minHeight(page.viewport->getWidth()) != page.minHeight) resized(); // it says more, or less
 }
 
 void TabPanel::resized() {
@@ -396,23 +398,23 @@ void TabPanel::resized() {
     auto area = isColumn ? getLocalBounds().reduced(0, panelInset)
                          : getLocalBounds().reduced(panelInset, fold_ == Fold::row ? 0 : 8);
     auto names = isColumn ? area : area.removeFromTop(32);
-    int rest = isColumn ? names.getHeight() : names.getWidth();
-    for (auto& page : pages_) rest -= widthOf(page.name->getName());
-    rest = juce::jlimit(-maxCut, isColumn ? 24 : widestRest, rest / static_cast<int>(pages_.size()));
+    int remaining = isColumn ? names.getHeight() : names.getWidth();
+    for (auto& page : pages_) remaining -= nameWidthOf(page.button->getName());
+    remaining = juce::jlimit(-maxCut, isColumn ? 24 : maxMargin, remaining / static_cast<int>(pages_.size()));
     if (isColumn) {
         for (auto& page : pages_)
-            page.name->setBounds(names.removeFromTop(widthOf(page.name->getName()) + rest));
+            page.button->setBounds(names.removeFromTop(nameWidthOf(page.button->getName()) + remaining));
         return;
     }
     for (auto& page : pages_)
-        page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest)
-                                 .withTrimmedRight(std::max(0, rest / 3)));
+        page.button->setBounds(names.removeFromLeft(nameWidthOf(page.button->getName()) + remaining)
+                                   .withTrimmedRight(std::max(0, remaining / 3)));
     if (fold_ == Fold::row) return;
     area.removeFromTop(10);
     for (auto& page : pages_) {
-        page.view->setBounds(area);
-        page.least = page.tab->minHeight(area.getWidth());
-        const int room = page.least > area.getHeight() ? barRoom : 0;
+        page.viewport->setBounds(area);
+        page.minHeight = page.tab->minHeight(area.getWidth());
+        const int room = page.minHeight > area.getHeight() ? scrollBarWidth : 0;
         page.tab->setSize(area.getWidth() - room,
                           std::max(area.getHeight(), page.tab->minHeight(area.getWidth() - room)));
     }

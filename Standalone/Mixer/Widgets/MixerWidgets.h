@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Widgets that all panels of the mixer share: buttons, captions, dividers, the tilt knob, tabs, the axis of
-// spectra, and the total output.
+// Widgets that the panels of the mixer share: buttons, captions, dividers, the tilt knob, tabs, spectra with
+// their axis, and the strip of the total output.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Host/Views/StripParts.h"
@@ -9,25 +9,25 @@
 
 namespace physvib {
 
-constexpr auto quietly = juce::dontSendNotification; ///< for setters of controls: no callback is called
+constexpr auto dontNotify = juce::dontSendNotification; ///< for setters of controls: no callback is called
 
-enum class Sign { play, pause, step, restart, plus, sweep, save, undo, redo };
+enum class Icon { play, pause, step, restart, plus, sweep, save, undo, redo };
 
 /// Button with a drawn icon; `name` is for screen readers and the tooltip.
-class SignButton final : public juce::Button {
+class IconButton final : public juce::Button {
 public:
-    SignButton(Sign sign, const juce::String& name);
-    void setSign(Sign sign, const juce::String& name);
+    IconButton(Icon icon, const juce::String& name);
+    void setIcon(Icon icon, const juce::String& name);
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
 
 private:
-    Sign sign_;
+    Icon icon_;
 };
 
 /// A line of text with a less prominent one below, or beside it where it is low.
-class TwoLines final : public ReadOut, public juce::SettableTooltipClient {
+class TwoLineText final : public ReadOnlyText, public juce::SettableTooltipClient {
 public:
-    explicit TwoLines(const juce::String& title) { setTitle(title); }
+    explicit TwoLineText(const juce::String& title) { setTitle(title); }
     std::function<void()> onClick = [] {};
     void mouseUp(const juce::MouseEvent&) override { onClick(); }
     void set(const juce::String& first, const juce::String& second, Shade firstShade = Shade::text);
@@ -45,8 +45,8 @@ void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
 /// Sets colour and font of the text that is drawn next.
-inline void ink(juce::Graphics& g, const juce::Component& c, Shade which, float height,
-                int style = juce::Font::plain) {
+inline void setInk(juce::Graphics& g, const juce::Component& c, Shade which, float height,
+                   int style = juce::Font::plain) {
     g.setColour(shade(c, which));
     g.setFont(text::font(height, style));
 }
@@ -57,19 +57,19 @@ inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, 
 }
 
 /// Draws the background of a selected row.
-inline void drawChosenRow(juce::Graphics& g, const juce::Component& c, int width, int height,
-                          float alpha = 0.16f) {
+inline void drawSelectedRow(juce::Graphics& g, const juce::Component& c, int width, int height,
+                            float alpha = 0.16f) {
     g.setColour(shade(c, Shade::accent).withAlpha(alpha));
     g.fillRect(0, 0, width, height);
 }
 
 /// A button that looks like a text link.
-std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name,
-                                              std::function<void()> onClick = {});
+std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& label, const juce::String& name,
+                                                 std::function<void()> onClick = {});
 
-/// Calls `use` with every new value of the slider. `continuesEdit` is true for all but the first value of a
-/// drag.
-void onSlide(juce::Slider& slider, std::function<void(bool continuesEdit)> use);
+/// Calls `onChange` with every new value of the slider. `continuesEdit` is true for all but the first value
+/// of a drag.
+void onSliderChange(juce::Slider& slider, std::function<void(bool continuesEdit)> onChange);
 
 /// Makes every control under `root` reachable by keyboard, with a visible focus.
 void prepareControls(juce::Component& root);
@@ -77,17 +77,17 @@ void prepareControls(juce::Component& root);
 /// A small caption beside a control; its colour follows the theme.
 class Caption final : public juce::Label {
 public:
-    explicit Caption(const juce::String& words = {}, Shade tone = Shade::muted);
-    void setTone(Shade tone) { tone_ = tone, tint(); }
-    void lookAndFeelChanged() override { tint(); }
-    void parentHierarchyChanged() override { tint(); }
+    explicit Caption(const juce::String& text = {}, Shade tone = Shade::muted);
+    void setTone(Shade tone) { tone_ = tone, updateColour(); }
+    void lookAndFeelChanged() override { updateColour(); }
+    void parentHierarchyChanged() override { updateColour(); }
 
 private:
-    void tint() { setColour(textColourId, shade(*this, tone_)); }
+    void updateColour() { setColour(textColourId, shade(*this, tone_)); }
     Shade tone_;
 };
 
-/// Shows these as children; addHidden(): they are shown later.
+/// Adds visible children; addHidden() adds invisible ones.
 void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children);
 void addHidden(juce::Component& parent, std::initializer_list<juce::Component*> children);
 void setVisible(std::initializer_list<juce::Component*> components, bool areVisible);
@@ -99,13 +99,13 @@ void describe(Control& control, const juce::String& title, const juce::String& t
     control.setTooltip(tooltip);
 }
 
-/// Calls `act` with the component after the present event, unless it has gone: for what would delete the
-/// component whose event is still being handled.
-template <class T, class Act>
-void later(T& component, Act act) {
+/// Calls `callback` with the component after the current event, unless it was deleted: for actions that
+/// delete the component whose event is being handled.
+template <class T, class Callback>
+void callLater(T& component, Callback callback) {
     juce::MessageManager::callAsync(
-        [safe = juce::Component::SafePointer<T>{&component}, act = std::move(act)] {
-            if (safe != nullptr) act(*safe);
+        [safe = juce::Component::SafePointer<T>{&component}, callback = std::move(callback)] {
+            if (safe != nullptr) callback(*safe);
         });
 }
 
@@ -116,14 +116,13 @@ public:
     void mouseDrag(const juce::MouseEvent& e) override;
 };
 
-inline juce::String dots() { return juce::String::charToString(0x2026); } ///< ends dialogue labels
+inline juce::String ellipsis() { return juce::String::charToString(0x2026); } ///< ends dialogue labels
 
-/// Handle between two panels: drag it, or move it with the arrow keys; a double click makes it automatic.
-/// Message thread.
+/// Handle between two panels, moved by mouse or arrow keys; a double click resets it. Message thread.
 class Divider final : public juce::Component, public juce::SettableTooltipClient {
 public:
-    /// `isUpright`: it lies between left and right.
-    Divider(const juce::String& title, bool isUpright);
+    /// `isVertical`: it separates a left and a right panel.
+    Divider(const juce::String& title, bool isVertical);
 
     std::function<void(int pixels)> onMove; ///< to the right or down, since the last call
     std::function<void()> onReset;
@@ -136,7 +135,7 @@ public:
     void mouseDoubleClick(const juce::MouseEvent&) override { onReset(); }
 
 private:
-    const bool isUpright_;
+    const bool isVertical_;
 };
 
 /// Knob for the direction of gravity in degrees, clockwise on the screen; arrow keys in the world turn it,
@@ -152,7 +151,7 @@ public:
         setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
         setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
         setRange(-180.0, 180.0, 1.0);
-        setValue(0.0, quietly);
+        setValue(0.0, dontNotify);
         setDoubleClickReturnValue(true, 0.0);
     }
     /// Angle for a TiltAction.
@@ -182,47 +181,47 @@ public:
 /// The frequency axis of all spectra: the range of vibration perception, in octaves of equal width.
 struct FrequencyAxis {
     static constexpr double lowHz = 20.0, highHz = 1000.0;
-    static constexpr int points = 160;
+    static constexpr int pointCount = 160;
     static constexpr float floorDb = -80.0f; ///< lower levels are not drawn
 
     /// 0 to 1 from the left; outside that for frequencies out of range.
-    static double shareOf(double hz);
-    static double hzAt(double share) { return lowHz * std::pow(highHz / lowHz, share); }
-    static double hzOf(int point) { return hzAt(static_cast<double>(point) / (points - 1)); }
+    static double shareFromHz(double hz);
+    static double hzFromShare(double share) { return lowHz * std::pow(highHz / lowHz, share); }
+    static double hzAtPoint(int point) { return hzFromShare(static_cast<double>(point) / (pointCount - 1)); }
 };
 
 /// Level in dB for each point of the axis, at least the floor.
-using SpectrumLevels = std::array<float, FrequencyAxis::points>;
+using SpectrumLevels = std::array<float, FrequencyAxis::pointCount>;
 
 /// Converts magnitudes of bins with a spacing of `binHz`, the first at 0 Hz. Each point gets the highest bin
 /// of its range; `fullScale` is 0 dB.
 SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale);
 
-/// Spectrum of recent samples with a Hann window: a full-scale sine is 0 dB, within 0.3 dB.
-SpectrumLevels levelsOf(const SpectrumTrace& trace, int channel);
+/// Spectrum of the recent samples of a channel with a Hann window: a full-scale sine is 0 dB, within 0.3 dB.
+SpectrumLevels spectrumLevelsOf(const SpectrumTrace& trace, int channel);
 
 /// Draws lines and labels of the axis at the bottom of `area`, and returns the area left for curves.
 juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component,
                                        juce::Rectangle<int> area);
 
 /// Draws heights of 0 to 1 per point as a filled curve.
-void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::points> heights,
+void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::pointCount> heights,
                   juce::Rectangle<float> area, juce::Colour colour);
 
 /// A page of a panel with tabs. To add one, derive from it and name it in the table of Window/MixerView.cpp.
 class Tab : public juce::Component {
 public:
     virtual void mixChanged() {}                   ///< the mixer state changed
-    virtual void refresh(const MixerMoment&) {}    ///< while visible, at most about 30 times a second
-    virtual int minHeight(int) const { return 0; } ///< at a width; a panel that has less lets it scroll
+    virtual void refresh(const MixerSnapshot&) {}  ///< while visible, at most about 30 times a second
+    virtual int minHeight(int) const { return 0; } ///< pixels at a width; a lower panel scrolls
 };
 
-/// Panel with tabs: a row of names, and the page of the selected one. It folds to its names alone: a press on
-/// one opens its page, a press on that of the open page folds it.
+/// Panel with tabs: a row of names, and the page of the selected one. Folded, it shows only the names: a
+/// press on a name opens its page, a press on the name of the open page folds the panel.
 class TabPanel final : public juce::Component {
 public:
-    enum class Fold { none, column, row }; ///< of the names
-    static constexpr int folded = 30;      ///< pixels across the names
+    enum class Fold { none, column, row };  ///< how the names lie if it is folded
+    static constexpr int foldedPixels = 30; ///< pixels across the names
 
     /// `title` for screen readers.
     explicit TabPanel(const juce::String& title);
@@ -230,7 +229,7 @@ public:
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name); ///< also opens it
     void setFold(Fold fold);
-    std::function<void(bool isOpen)> onOpen; ///< a page is wanted, or none
+    std::function<void(bool isOpen)> onOpen; ///< the user opens a page, or folds the panel
     juce::StringArray names() const;
     /// The tab of that class; null: there is none.
     template <class T>
@@ -242,58 +241,58 @@ public:
     void mixChanged() {
         for (auto& page : pages_) page.tab->mixChanged();
     }
-    void refresh(const MixerMoment& moment);
+    void refresh(const MixerSnapshot& snapshot);
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
 
 private:
-    class Name;
+    class TabButton;
     struct Page {
-        std::unique_ptr<Name> name;
+        std::unique_ptr<TabButton> button;
         std::unique_ptr<Tab> tab;
-        std::unique_ptr<juce::Viewport> view; // of the tab
-        int least = 0;                        // its height when it was placed
+        std::unique_ptr<juce::Viewport> viewport; // of the tab
+        int minHeight = 0;                        // its height when it was placed
     };
     std::vector<Page> pages_;
-    std::size_t chosen_ = 0;
+    std::size_t selectedPage_ = 0;
     Fold fold_ = Fold::none;
 };
 
 /// Level in g of a strip's peak after the master level. Message thread.
-double gOf(const MixerModel& model, std::size_t strip, float peak);
-/// The same of a strip's ceiling: its highest possible level in g. Message thread.
-double maxG(const MixerModel& model, std::size_t strip);
+double stripLevelG(const MixerModel& model, std::size_t strip, float peak);
+/// The highest possible level of a strip in g, by its ceiling. Message thread.
+double stripCeilingG(const MixerModel& model, std::size_t strip);
 
 /// Strip of the total output: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
 public:
-    static constexpr int width = 90, flatWords = 112;
+    static constexpr int width = 90, flatTextWidth = 112;
     static constexpr int metersTop = 48; ///< y of the meters, of strips as well
 
-    /// `isFlat`: in one row without a meter, for where there are no strips.
+    /// `isFlat`: drawn in one row without a meter, for views without strips.
     explicit MasterStrip(MixerModel& model, bool isFlat = false);
     /// Warning that a flat strip shows in place of its ceiling; empty: none. Call it before mixChanged().
-    void setRemark(const juce::String& remark) { remark_ = remark; }
-    const juce::String& remark() const noexcept { return remark_; }
+    void setWarning(const juce::String& warning) { warning_ = warning; }
+    const juce::String& warning() const noexcept { return warning_; }
     void mixChanged();
-    void refresh(const MixerMoment& moment);
+    void refresh(const MixerSnapshot& snapshot);
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     void paintFlat(juce::Graphics& g) const;
-    juce::String limiterWords() const {
+    juce::String limiterLabel() const {
         return (limiter_.isGuard() ? "guard " : "limiter ") + limiter_.decibels();
     }
-    double mostG() const;
+    double highestCeilingG() const;
 
     MixerModel& model_;
     const bool isFlat_;
-    juce::String remark_;
+    juce::String warning_;
     PeakMeter meter_{"Master level"};
     LimiterBar limiter_;
     Fader fader_;
-    juce::Rectangle<int> limiterText_, ceilingName_, ceiling_;
+    juce::Rectangle<int> limiterArea_, ceilingNameArea_, ceilingArea_;
 };
 
 } // namespace physvib

@@ -7,46 +7,46 @@
 namespace physvib {
 namespace {
 
-constexpr const char* notASound = "expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file";
-constexpr const char* noSamples = "expected samples, found none";
+constexpr const char* notASoundError = "expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file";
+constexpr const char* noSamplesError = "expected samples, found none";
 
-class HeadReader {
+class HeaderReader {
 public:
-    HeadReader(std::FILE& file, std::int64_t bytes)
+    HeaderReader(std::FILE& file, std::int64_t bytes)
         : file_{file}
         , bytes_{bytes} {}
 
-    Result<SoundHead> read() {
+    Result<SoundHeader> read() {
         std::int64_t at = 0;
-        std::string tag = bytesAt(0, 10); // tags of MP3 stand before other kinds as well
-        for (int i = 0; i < mostParts && tag.size() == 10 && tag.starts_with("ID3"); ++i) {
+        std::string tag = readBytes(0, 10); // tags of MP3 stand before other kinds as well
+        for (int i = 0; i < maxHeaderParts && tag.size() == 10 && tag.starts_with("ID3"); ++i) {
             std::int64_t length = 0;
             for (const char c : tag.substr(6)) length = length << 7 | (c & 127);
-            tag = bytesAt(at += 10 + length, 10);
+            tag = readBytes(at += 10 + length, 10);
         }
-        const std::string head = bytesAt(at, 12), name = head.substr(0, 4), form = head.substr(name.size());
+        const std::string head = readBytes(at, 12), name = head.substr(0, 4), form = head.substr(name.size());
         head_.begin = at;
         head_.bytes = bytes_ - at;
-        std::string fault = notASound;
+        std::string error = notASoundError;
         if (name == "fLaC")
-            fault = readFlac(at + 4);
+            error = readFlac(at + 4);
         else if (name == "OggS")
-            fault = readPages(at);
+            error = readPages(at);
         else if (form.ends_with("WAVE") &&
                  (name == "RIFF" || name == "RIFX" || name == "RF64" || name == "BW64"))
-            fault = readChunks(at + 12, "data", name == "RIFX", name.ends_with("64"));
+            error = readChunks(at + 12, "data", name == "RIFX", name.ends_with("64"));
         else if (name == "FORM" && (form.ends_with("AIFF") || form.ends_with("AIFC")))
-            fault = readChunks(at + 12, "SSND", true, false);
-        if (!fault.empty()) return Failure{std::move(fault)};
+            error = readChunks(at + 12, "SSND", true, false);
+        if (!error.empty()) return Failure{std::move(error)};
         return std::move(head_);
     }
 
 private:
-    static constexpr int mostParts = 10'000; // of a head: sounds have ten, pictures some more
+    static constexpr int maxHeaderParts = 10'000; // limit for chunks of a header: sounds have ten
     static constexpr std::int64_t fourGigabytes = std::int64_t{1} << 32;
 
     /// Up to `count` bytes from `at`; fewer at the end.
-    std::string bytesAt(std::int64_t at, std::size_t count) {
+    std::string readBytes(std::int64_t at, std::size_t count) {
         std::string bytes(count, '\0');
         if (at < 0 || at >= bytes_ || std::fseek(&file_, static_cast<long>(at), SEEK_SET) != 0) count = 0;
         bytes.resize(std::fread(bytes.data(), 1, count, &file_));
@@ -65,40 +65,40 @@ private:
         std::int64_t end() const noexcept { return begin + bytes + (bytes & 1); }
     };
     Chunk chunkAt(std::int64_t at, bool isBig) {
-        const std::string head = bytesAt(at, 8);
+        const std::string head = readBytes(at, 8);
         if (head.size() < 8) return {};
         return {head.substr(0, 4), at + 8, number(std::string_view{head}.substr(4), isBig)};
     }
     /// True if chunks, of which none has samples, reach from `at` to the end, or to a few zeros or a tag of
     /// MP3 there. The last one may lack the byte that makes it even.
     bool areChunks(std::int64_t at, bool isBig) {
-        for (int i = 0; i < mostParts && at < bytes_; ++i) {
+        for (int i = 0; i < maxHeaderParts && at < bytes_; ++i) {
             const Chunk chunk = chunkAt(at, isBig);
             const bool isName = std::ranges::all_of(chunk.name, [](char c) { return c >= ' ' && c <= '~'; });
             if (chunk.name.empty() || !isName || chunk.end() > bytes_ + 1 || chunk.name == "data") break;
             at = chunk.end();
         }
         constexpr std::int64_t sector = 65536, tagBytes = 128;
-        const std::string rest = bytesAt(at, sector + 1);
-        return (rest.size() == tagBytes && rest.starts_with("TAG")) ||
-               (rest.size() <= sector && rest.find_first_not_of('\0') == std::string::npos);
+        const std::string remaining = readBytes(at, sector + 1);
+        return (remaining.size() == tagBytes && remaining.starts_with("TAG")) ||
+               (remaining.size() <= sector && remaining.find_first_not_of('\0') == std::string::npos);
     }
 
-    /// Sets the number of bytes of samples; the chunk's header says `told`. Empty, or the error.
-    std::string takeData(const Chunk& data, std::int64_t told, bool isBig, bool isLong) {
+    /// Sets the number of bytes of samples; the chunk's header says `declared`. Empty, or the error.
+    std::string readData(const Chunk& data, std::int64_t declared, bool isBig, bool is64Bit) {
         // Programs that do not know the length yet write 0, nearly 2 or 4 GiB, or the largest 64-bit number.
-        constexpr std::int64_t near = 1 << 16;
+        constexpr std::int64_t margin = 1 << 16;
         const std::int64_t present = bytes_ - data.begin;
         const bool isPlaceholder =
-            isLong ? told >> 56 != 0
-                   : std::abs(told - fourGigabytes / 2) <= near || told >= fourGigabytes - near;
-        if (told == 0 && areChunks(data.begin, isBig)) return noSamples;
+            is64Bit ? declared >> 56 != 0
+                    : std::abs(declared - fourGigabytes / 2) <= margin || declared >= fourGigabytes - margin;
+        if (declared == 0 && areChunks(data.begin, isBig)) return noSamplesError;
         const auto bytes = dataBytes_ =
-            told == 0 || (isPlaceholder && (told < 0 || told > present)) ? present : told;
+            declared == 0 || (isPlaceholder && (declared < 0 || declared > present)) ? present : declared;
         const std::string expected =
             "expected " + std::to_string(bytes) + " bytes of samples, as its header says, found ";
         if (bytes > present) return expected + std::to_string(present) + ": it ends early";
-        if (bytes >= fourGigabytes && !isLong) return "expected at most 4 GiB of samples, or RF64";
+        if (bytes >= fourGigabytes && !is64Bit) return "expected at most 4 GiB of samples, or RF64";
         const std::int64_t end = data.begin + bytes;
         return areChunks(end + (bytes & 1), isBig) || areChunks(end, isBig)
                    ? ""
@@ -106,25 +106,25 @@ private:
     }
 
     /// Reads the chunks before the samples. Empty, or the error.
-    std::string readChunks(std::int64_t at, const char* samples, bool isBig, bool isLong) {
+    std::string readChunks(std::int64_t at, const char* samples, bool isBig, bool is64Bit) {
         std::string format;
-        std::int64_t longBytes = 0;
+        std::int64_t bytes64 = 0;
         Chunk chunk = chunkAt(at, isBig);
-        for (int i = 0; i < mostParts && !chunk.name.empty() && chunk.name != samples; ++i) {
-            if (chunk.name == "ds64" && isLong) longBytes = number(bytesAt(chunk.begin + 8, 8));
-            const auto begins = std::min<std::int64_t>(chunk.bytes, 40); // of a format, all that we read
-            if (chunk.name == "fmt ") format = bytesAt(chunk.begin, static_cast<std::size_t>(begins));
+        for (int i = 0; i < maxHeaderParts && !chunk.name.empty() && chunk.name != samples; ++i) {
+            if (chunk.name == "ds64" && is64Bit) bytes64 = number(readBytes(chunk.begin + 8, 8));
+            const auto usedBytes = std::min<std::int64_t>(chunk.bytes, 40); // of a format, all that we read
+            if (chunk.name == "fmt ") format = readBytes(chunk.begin, static_cast<std::size_t>(usedBytes));
             chunk = chunkAt(chunk.end(), isBig);
         }
-        if (chunk.name != samples) return noSamples;
-        const bool isToldLong = isLong && (longBytes != 0 || chunk.bytes == fourGigabytes - 1);
-        if (auto fault = takeData(chunk, isToldLong ? longBytes : chunk.bytes, isBig, isLong); !fault.empty())
-            return fault;
-        return chunk.name == "data" ? takeFormat(format, isBig, chunk.begin) : std::string{};
+        if (chunk.name != samples) return noSamplesError;
+        const bool uses64Bits = is64Bit && (bytes64 != 0 || chunk.bytes == fourGigabytes - 1);
+        if (auto error = readData(chunk, uses64Bits ? bytes64 : chunk.bytes, isBig, is64Bit); !error.empty())
+            return error;
+        return chunk.name == "data" ? readFormat(format, isBig, chunk.begin) : std::string{};
     }
 
     /// Reads how each sample stands in its block. Empty, or the error.
-    std::string takeFormat(const std::string& format, bool isBig, std::int64_t begin) {
+    std::string readFormat(const std::string& format, bool isBig, std::int64_t begin) {
         constexpr std::int64_t pcm = 1, ieeeFloat = 3, aLaw = 6, muLaw = 7, extensible = 0xfffe;
         constexpr std::array types{SF_FORMAT_PCM_U8, SF_FORMAT_PCM_16, SF_FORMAT_PCM_24, SF_FORMAT_PCM_32};
         if (format.size() < 16) return "expected a format before the samples, of 16 bytes or more";
@@ -153,30 +153,30 @@ private:
         head_.shape = {field(4, 4), channels, dataBytes_ / frameBytes};
         head_.begin = begin;
         head_.bytes = head_.shape.frames * frameBytes;
-        head_.isSurveyed = tag == pcm && bits < 8 * room && width > 1;
+        head_.needsScan = tag == pcm && bits < 8 * room && width > 1;
         head_.bits = static_cast<int>(bits), head_.room = static_cast<int>(8 * room);
-        head_.isLowRather = room > width;
-        return head_.shape.frames > 0 ? "" : noSamples;
+        head_.isLowAligned = room > width;
+        return head_.shape.frames > 0 ? "" : noSamplesError;
     }
 
-    /// A description of our own, without the length, which is compared later; no other blocks.
+    /// Replaces the metadata by one description without a length, which is compared later.
     std::string readFlac(std::int64_t at) {
         std::string description;
         bool isLast = false;
         for (int i = 0; !isLast; ++i) {
-            const std::string block = bytesAt(at, 4);
-            if (block.size() < 4 || i == mostParts || (i == 0) != ((block[0] & 127) == 0))
-                return i == 0 || block.size() < 4 ? notASound : "expected one description of the stream";
-            if (i == 0) description = bytesAt(at + 4, 34);
+            const std::string block = readBytes(at, 4);
+            if (block.size() < 4 || i == maxHeaderParts || (i == 0) != ((block[0] & 127) == 0))
+                return i == 0 || block.size() < 4 ? notASoundError : "expected one description of the stream";
+            if (i == 0) description = readBytes(at + 4, 34);
             isLast = (block[0] & 128) != 0;
             at += 4 + number(std::string_view{block}.substr(1), true);
         }
-        const std::string frame = bytesAt(at, 4);
-        if (description.size() < 34 || frame.size() < 4) return noSamples;
-        const auto numbers = number(std::string_view{description}.substr(10, 8), true);
-        const auto bits = (numbers >> 36 & 31) + 1;
-        head_.shape = {numbers >> 44 & 0xfffff, (numbers >> 41 & 7) + 1, numbers & 0xf'ffff'ffff};
-        head_.isSurveyed = head_.shape.frames == 0;
+        const std::string frame = readBytes(at, 4);
+        if (description.size() < 34 || frame.size() < 4) return noSamplesError;
+        const auto packed = number(std::string_view{description}.substr(10, 8), true);
+        const auto bits = (packed >> 36 & 31) + 1;
+        head_.shape = {packed >> 44 & 0xfffff, (packed >> 41 & 7) + 1, packed & 0xf'ffff'ffff};
+        head_.needsScan = head_.shape.frames == 0;
         // libsndfile knows 8, 16 and 24 bits in the description, and all in the frames, which repeat them
         constexpr std::array bitsOfCode{0, 8, 12, 0, 16, 20, 24, 32};
         if (bitsOfCode[static_cast<std::size_t>(frame[3] >> 1 & 7)] != bits)
@@ -189,51 +189,51 @@ private:
         return {};
     }
 
-    /// One stream of whole pages, to its last one; a decoder would leave out damaged or missing ones.
+    /// Checks that all pages are whole and of one stream; a decoder would skip damaged ones.
     std::string readPages(std::int64_t at) {
-        constexpr int begins = 2, ends = 4;
+        constexpr int firstPage = 2, lastPage = 4;
         int streams = 0, flags = 0;
         std::int64_t next = 0;
         while (at < bytes_) {
-            const std::string head = bytesAt(at, 27 + 255);
+            const std::string head = readBytes(at, 27 + 255);
             if (head.size() < 27 || !head.starts_with("OggS")) break;
             const auto segments = static_cast<std::size_t>(static_cast<unsigned char>(head[26]));
             std::size_t length = 27 + segments;
             for (const char c : head.substr(27, segments)) length += static_cast<unsigned char>(c);
-            const std::string page = bytesAt(at, length);
+            const std::string page = readBytes(at, length);
             flags = head[5];
-            streams += (flags & begins) != 0;
+            streams += (flags & firstPage) != 0;
             if (streams > 1) return "expected one stream of sound, found several";
-            if (page.size() == length && (number(page.substr(18, 4)) != next++ || !isWholePage(page)))
+            if (page.size() == length && (number(page.substr(18, 4)) != next++ || !hasValidChecksum(page)))
                 return "expected whole pages, found damage at byte " + std::to_string(at);
             at += static_cast<std::int64_t>(length);
         }
         head_.bytes = at - head_.begin;
-        return at > bytes_ || (flags & ends) == 0 ? "expected the last page of its stream: it ends early"
-                                                  : "";
+        return at > bytes_ || (flags & lastPage) == 0 ? "expected the last page of its stream: it ends early"
+                                                      : "";
     }
 
     /// True if the page has the checksum that it says: CRC-32 with the polynomial 04c11db7.
-    static bool isWholePage(std::string page) {
-        const auto told = number(page.substr(22, 4));
+    static bool hasValidChecksum(std::string page) {
+        const auto declared = number(page.substr(22, 4));
         std::fill_n(page.begin() + 22, 4, '\0');
-        std::uint32_t sum = 0;
+        std::uint32_t crc = 0;
         for (const char c : page) {
-            sum ^= static_cast<std::uint32_t>(static_cast<unsigned char>(c)) << 24;
-            for (int bit = 0; bit < 8; ++bit) sum = sum << 1 ^ (sum >> 31) * 0x04c11db7u;
+            crc ^= static_cast<std::uint32_t>(static_cast<unsigned char>(c)) << 24;
+            for (int bit = 0; bit < 8; ++bit) crc = crc << 1 ^ (crc >> 31) * 0x04c11db7u;
         }
-        return sum == told;
+        return crc == declared;
     }
 
     std::FILE& file_;
     std::int64_t bytes_, dataBytes_ = 0;
-    SoundHead head_;
+    SoundHeader head_;
 };
 
 } // namespace
 
-Result<SoundHead> readSoundHead(std::FILE& file, std::int64_t bytes) {
-    return HeadReader{file, bytes}.read();
+Result<SoundHeader> readSoundHeader(std::FILE& file, std::int64_t bytes) {
+    return HeaderReader{file, bytes}.read();
 }
 
 } // namespace physvib

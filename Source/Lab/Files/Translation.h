@@ -11,16 +11,16 @@
 namespace physvib {
 
 /// Version of the format that can be read.
-constexpr int wordsFormatVersion = 1;
+constexpr int translationFormatVersion = 1;
 
-struct Words {
-    std::string name;      ///< "ko"; empty: English
-    std::string language;  ///< its name in that language
-    std::string inEnglish; ///< its name in English, for displays without its letters; may be empty
+struct Translation {
+    std::string name;        ///< "ko"; empty: English
+    std::string language;    ///< its name in that language
+    std::string englishName; ///< its name in English, for displays without its letters; may be empty
     std::map<std::string, std::string, std::less<>> texts; ///< by the English text
 
     /// The translation of a text; the text itself if there is none. Any thread.
-    const std::string& of(const std::string& english) const {
+    const std::string& translate(const std::string& english) const {
         const auto found = texts.find(english);
         return found == texts.end() ? english : found->second;
     }
@@ -28,12 +28,12 @@ struct Words {
 
 /// Parses `{"physvib_words": 1, "name": "ko", "language": "...", "texts": {"Begin": "..."}}`; otherwise one
 /// line on the first error. A {name} in an English text must be in its translation too. Any thread.
-Result<Words> readWords(std::string_view text, std::string_view name);
+Result<Translation> readTranslation(std::string_view text, std::string_view name);
 
 /// Built-in translations, without English. Created on first use; any thread.
-const std::vector<Words>& builtInWords();
+const std::vector<Translation>& builtInTranslations();
 
 /// A built-in translation by name ("en": English), else the one of a file. Message thread only.
-Result<Words> findWords(const std::string& nameOrPath);
+Result<Translation> findTranslation(const std::string& nameOrPath);
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bus to the converters, and the queue of frames before it, whose count of frames is the board's clock.
+// DacBus writes frames to the converters, and FrameQueue queues them. The count of played frames is the
+// board's clock.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Registers.h"
@@ -31,16 +32,16 @@ public:
     }
 
     /// Writes a frame in about 1 us. Timer interrupt only, except for silence().
-    static void put(const Frame& frame) noexcept {
-        put(frame[0], chip1, 0);
-        put(frame[1], chip1, latch);
-        put(frame[2], chip2, 0);
-        put(frame[3], chip2, latch);
+    static void writeFrame(const Frame& frame) noexcept {
+        writeCode(frame[0], chip1, 0);
+        writeCode(frame[1], chip1, latch);
+        writeCode(frame[2], chip2, 0);
+        writeCode(frame[3], chip2, latch);
         reg(gpio::c + gpio::bsrr) = chip1 | chip2;
     }
 
     /// May be called from anywhere, even a fault handler: needs no memory and no other interrupt.
-    static void silence() noexcept { put({midScale, midScale, midScale, midScale}); }
+    static void silence() noexcept { writeFrame({midScale, midScale, midScale, midScale}); }
 
 private:
     static constexpr std::uint32_t latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10, chip2 = 1u << 11;
@@ -51,10 +52,10 @@ private:
         for (int i = 0; i < 4; ++i) [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
     }
 
-    static void put(std::uint8_t code, std::uint32_t chip, std::uint32_t select) noexcept {
-        const std::uint32_t high = code | select | (chip1 ^ chip2 ^ chip);
-        const std::uint32_t all = 0xFFu | latch | chip1 | chip2;
-        reg(gpio::c + gpio::bsrr) = high | (all & ~high) << 16;
+    static void writeCode(std::uint8_t code, std::uint32_t chip, std::uint32_t select) noexcept {
+        const std::uint32_t highLines = code | select | (chip1 ^ chip2 ^ chip);
+        const std::uint32_t lines = 0xFFu | latch | chip1 | chip2;
+        reg(gpio::c + gpio::bsrr) = highLines | (lines & ~highLines) << 16;
         settle();
         reg(gpio::c + gpio::bsrr) = write << 16;
         settle();
@@ -63,17 +64,17 @@ private:
     }
 };
 
-/// The main loop adds blocks, the timer interrupt removes frames.
-class Outputs {
+/// Queue of frames: the main loop adds blocks, the timer interrupt writes frames to the converters.
+class FrameQueue {
 public:
-    static constexpr std::uint32_t aheadFrames = 16; // 2 ms: one block may take four times its duration
+    static constexpr std::uint32_t aheadFrames = 16; // 2 ms: rendering a block may take that long
 
     bool hasRoom() const noexcept { return rendered_ - played_ <= aheadFrames - BoardRenderer::blockFrames; }
 
     /// Requires hasRoom(). Main loop.
-    void put(const BoardRenderer::Codes& block) noexcept {
+    void add(const BoardRenderer::Codes& block) noexcept {
         for (const auto& frame : block) {
-            frames_[rendered_ % size] = frame;
+            frames_[rendered_ % capacityFrames] = frame;
             asm volatile("" ::: "memory"); // store the frame before its count
             rendered_ = rendered_ + 1;
         }
@@ -83,31 +84,31 @@ public:
     void fadeOut() noexcept {
         int shift = 1;
         for (std::uint32_t n = played_ + 1; static_cast<std::int32_t>(rendered_ - n) > 0; ++n, ++shift) {
-            DacBus::Frame frame = frames_[n % size];
+            DacBus::Frame frame = frames_[n % capacityFrames];
             for (auto& code : frame)
                 code = static_cast<std::uint8_t>(DacBus::midScale +
                                                  (code - DacBus::midScale) / (1 << std::min(shift, 8)));
-            frames_[n % size] = frame;
+            frames_[n % capacityFrames] = frame;
         }
     }
 
     /// Called by the timer interrupt.
     void playNext() noexcept {
         if (played_ != rendered_) {
-            DacBus::put(frames_[played_ % size]);
+            DacBus::writeFrame(frames_[played_ % capacityFrames]);
             played_ = played_ + 1;
         } else {
-            missed_ = missed_ + 1; // the converters hold the last frame, and the clock stops
+            missedFrames_ = missedFrames_ + 1; // the converters hold the last frame, and the clock stops
         }
     }
 
     std::uint32_t played() const noexcept { return played_; }
-    std::uint32_t missed() const noexcept { return missed_; }
+    std::uint32_t missedFrames() const noexcept { return missedFrames_; }
 
 private:
-    static constexpr std::uint32_t size = 32; // a power of two, because frame numbers wrap
-    alignas(4) std::array<DacBus::Frame, size> frames_{};
-    volatile std::uint32_t rendered_ = 0, played_ = 0, missed_ = 0;
+    static constexpr std::uint32_t capacityFrames = 32; // a power of two, because frame numbers wrap
+    alignas(4) std::array<DacBus::Frame, capacityFrames> frames_{};
+    volatile std::uint32_t rendered_ = 0, played_ = 0, missedFrames_ = 0;
 };
 
 } // namespace physvib::board

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exports played events as MIDI, an event list or a haptic file, by the ending of the file's name.
-#include "FeltExport.h"
+// Exports played events as MIDI, an event list or haptic files, by the ending of the file's name.
+#include "PlayedExport.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
 #include "Live/Recordings/HitExport.h"
@@ -15,8 +15,8 @@ namespace physvib {
 
 namespace {
 
-constexpr double shareOfSilence = 1e-3; // a note ends where its vibration has decayed by 60 dB
-constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI is a second: at most 15 bits
+constexpr double silenceRatio = 1e-3; // a note ends where its vibration has decayed by 60 dB
+constexpr int ticksPerSecond = 24000; // a quarter note of MIDI is a second: at most 15 bits
 
 struct WrittenNote {
     int number = 0, channel = 1;
@@ -24,32 +24,32 @@ struct WrittenNote {
     double amplitude = 0.0;
 };
 
-int numberOf(double frequencyHz) {
+int midiNoteOf(double frequencyHz) {
     return std::clamp(static_cast<int>(std::lround(69.0 + 12.0 * std::log2(frequencyHz / 440.0))), 0, 127);
 }
 
-std::int64_t endOf(const CollisionEvent& e) {
+std::int64_t endNsOf(const CollisionEvent& e) {
     if (e.durationNs > 0) return e.timeNs + e.durationNs;
-    return e.timeNs + std::llround(1e9 * -std::log(shareOfSilence) / e.decayPerSecond);
+    return e.timeNs + std::llround(1e9 * -std::log(silenceRatio) / e.decayPerSecond);
 }
 
-int channelOf(const FeltExport& felt, const CollisionEvent& e) {
+int midiChannelOf(const PlayedExport& source, const CollisionEvent& e) {
     PhantomPanner::Gains gains{};
-    felt.panner.gainsAt(e, gains);
+    source.panner.gainsAt(e, gains);
     const auto loudest =
-        std::max_element(gains.begin(), gains.begin() + felt.panner.channels()) - gains.begin();
+        std::max_element(gains.begin(), gains.begin() + source.panner.channels()) - gains.begin();
     return 1 + static_cast<int>(std::min<std::ptrdiff_t>(loudest, 15));
 }
 
-// A strike that begins where one of the same note ends goes on with it. One that begins while the same note
-// of its channel sounds ends that one, as MIDI counts no notes, and lasts as long as the longer.
-std::vector<WrittenNote> notesOf(const FeltExport& felt) {
+// Turns strikes into MIDI notes. A strike that begins where one of the same note ends prolongs it. One within
+// the same note of its channel ends that one, as MIDI cannot overlap them, and lasts until the later end.
+std::vector<WrittenNote> notesOf(const PlayedExport& source) {
     constexpr std::int64_t roundingNs = 2;
     std::vector<WrittenNote> notes;
     std::array<std::size_t, 128> last{};                   // by MIDI note: index in `notes` plus 1; 0: none
     std::array<std::array<std::size_t, 128>, 17> lastOf{}; // the same by channel
-    for (const CollisionEvent& e : felt.events) {
-        WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e),
+    for (const CollisionEvent& e : source.events) {
+        WrittenNote note{midiNoteOf(e.frequencyHz), midiChannelOf(source, e), e.timeNs, endNsOf(e),
                          std::abs(e.amplitude)};
         auto& place = last[static_cast<std::size_t>(note.number)];
         auto& same = lastOf[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.number)];
@@ -78,34 +78,34 @@ std::vector<WrittenNote> notesOf(const FeltExport& felt) {
 
 std::string nameOf(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
-Result<std::string> asClip(const FeltExport& felt, const std::string& path, ClipFormat format) {
-    const HitExport hits{"what was felt", nameOf(path), felt.events, felt.state.layout,
-                         felt.state.layout.name};
-    const auto gains = [&felt](const CollisionEvent& e, PhantomPanner::Gains& to) {
+Result<std::string> writeClipFiles(const PlayedExport& source, const std::string& path, ClipFormat format) {
+    const HitExport hits{"what was felt", nameOf(path), source.events, source.state.layout,
+                         source.state.layout.name};
+    const auto gains = [&source](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
-        felt.panner.gainsAt(e, to);
+        source.panner.gainsAt(e, to);
     };
-    const auto clip = clipOfHits(hits, {0.004, static_cast<std::size_t>(felt.panner.channels()), gains});
+    const auto clip = clipOfHits(hits, {0.004, static_cast<std::size_t>(source.panner.channels()), gains});
     if (!clip) return Failure{clip.error};
     return writeParts(partsOf(clip.value, path, format), format);
 }
 
 } // namespace
 
-void FeltEvents::add(std::uint64_t prepares, std::span<const TakeEvent> events) {
-    for (const auto& [run, played, place] : events) {
-        if (prepares == prepares_ && run < run_) continue; // late events of an earlier run
-        if (prepares != prepares_ || run > run_) events_.clear();
-        prepares_ = prepares;
+void PlayedEvents::add(std::uint64_t prepareCount, std::span<const RunEvent> events) {
+    for (const auto& [run, played, index] : events) {
+        if (prepareCount == prepareCount_ && run < run_) continue; // late events of an earlier run
+        if (prepareCount != prepareCount_ || run > run_) events_.clear();
+        prepareCount_ = prepareCount;
         run_ = run;
-        told_ = place + 1;
+        totalEvents_ = index + 1;
         events_.push_back(played.event);
     }
-    if (events_.size() > mostKept)
-        events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(mostKept));
+    if (events_.size() > maxEvents)
+        events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(maxEvents));
 }
 
-std::vector<CollisionEvent> FeltEvents::events(bool fromFirst) const {
+std::vector<CollisionEvent> PlayedEvents::events(bool fromFirst) const {
     std::vector<CollisionEvent> all;
     std::ranges::copy_if(events_, std::back_inserter(all),
                          [](const CollisionEvent& e) { return isPlayable(e) && e.course.travelNs == 0; });
@@ -115,18 +115,18 @@ std::vector<CollisionEvent> FeltEvents::events(bool fromFirst) const {
     return all;
 }
 
-std::string midiOf(const FeltExport& felt) {
-    const auto notes = notesOf(felt);
-    double most = 1e-9; // all may be silent
-    for (const auto& note : notes) most = std::max(most, note.amplitude);
+std::string midiFileBytes(const PlayedExport& source) {
+    const auto notes = notesOf(source);
+    double maxAmplitude = 1e-9; // above 0, if all are silent
+    for (const auto& note : notes) maxAmplitude = std::max(maxAmplitude, note.amplitude);
     juce::MidiMessageSequence track;
     track.addEvent(juce::MidiMessage::tempoMetaEvent(1'000'000));
     const auto ticks = [](std::int64_t ns) {
         return std::round(1e-9 * static_cast<double>(ns) * ticksPerSecond);
     };
     for (const auto& note : notes) {
-        const auto velocity =
-            static_cast<juce::uint8>(std::clamp(std::lround(127.0 * note.amplitude / most), 1l, 127l));
+        const auto velocity = static_cast<juce::uint8>(
+            std::clamp(std::lround(127.0 * note.amplitude / maxAmplitude), 1l, 127l));
         track.addEvent(juce::MidiMessage::noteOn(note.channel, note.number, velocity), ticks(note.onsetNs));
         track.addEvent(juce::MidiMessage::noteOff(note.channel, note.number), ticks(note.endNs));
     }
@@ -138,28 +138,28 @@ std::string midiOf(const FeltExport& felt) {
     return {static_cast<const char*>(bytes.getData()), bytes.getDataSize()};
 }
 
-std::vector<std::string_view> feltEndings() {
+std::vector<std::string_view> playedEndings() {
     std::vector<std::string_view> endings{".mid", ".csv"};
-    endings.insert(endings.end(), writtenEndings.begin(), writtenEndings.end());
+    endings.insert(endings.end(), writableEndings.begin(), writableEndings.end());
     return endings;
 }
 
-Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) {
-    if (felt.events.empty())
+Result<std::string> exportPlayed(const PlayedExport& source, const std::string& path) {
+    if (source.events.empty())
         return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats "
                        "and contacts"};
-    if (const auto format = clipFormatOf(path)) return asClip(felt, path, *format);
+    if (const auto format = clipFormatOf(path)) return writeClipFiles(source, path, *format);
     std::string ending = std::filesystem::path{path}.extension().string();
     std::ranges::transform(ending, ending.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (ending != ".mid" && ending != ".midi" && ending != ".csv")
-        return Failure{path + ": expected a name that ends in " + listed(feltEndings(), " or ")};
+        return Failure{path + ": expected a name that ends in " + listed(playedEndings(), " or ")};
     const std::string bytes = ending == ".csv"
-                                  ? eventsCsv(felt.events, fieldOf(felt.panner),
-                                              {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}})
-                                  : midiOf(felt);
+                                  ? eventsCsv(source.events, fieldOf(source.panner),
+                                              {PHYSVIB_VERSION, {{"scene", source.state.scene.name}}})
+                                  : midiFileBytes(source);
     if (const std::string error = writeFile(path, bytes); !error.empty()) return Failure{error};
-    return path + ": " + std::to_string(felt.events.size()) + " events\n";
+    return path + ": " + std::to_string(source.events.size()) + " events\n";
 }
 
 } // namespace physvib

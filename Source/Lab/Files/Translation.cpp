@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads translations, and checks that each has the same placeholders as its English text.
-#include "Lab/Files/Words.h"
+#include "Lab/Files/Translation.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonText.h"
@@ -23,14 +23,14 @@ std::set<std::string> namesIn(const std::string& text) {
     return names;
 }
 
-Words readWordsRoot(Json& json) {
+Translation readTranslationRoot(Json& json) {
     const JsonField root{json, {}};
-    checkVersion(root, "physvib_words", wordsFormatVersion);
+    checkVersion(root, "physvib_words", translationFormatVersion);
     root.expectObject({"physvib_words", "name", "language", "in_english", "texts"});
-    Words words{root["name"].text(),
-                root["language"].text(),
-                root.has("in_english") ? root["in_english"].text() : root["name"].text(),
-                {}};
+    Translation words{root["name"].text(),
+                      root["language"].text(),
+                      root.has("in_english") ? root["in_english"].text() : root["name"].text(),
+                      {}};
     root["texts"].expectObject();
     for (const auto& [english, text] : json["texts"].items()) {
         const JsonField field = root["texts"][english.c_str()];
@@ -43,23 +43,23 @@ Words readWordsRoot(Json& json) {
 
 } // namespace
 
-Result<Words> readWords(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxProtocolFileBytes, readWordsRoot);
+Result<Translation> readTranslation(std::string_view text, std::string_view name) {
+    return readJson(text, name, limits::maxProtocolFileBytes, readTranslationRoot);
 }
 
-const std::vector<Words>& builtInWords() {
-    static const std::vector<Words> all = readEmbedded(embeddedWords(), readWords);
+const std::vector<Translation>& builtInTranslations() {
+    static const std::vector<Translation> all = readEmbedded(embeddedWords(), readTranslation);
     return all;
 }
 
-Result<Words> findWords(const std::string& nameOrPath) {
-    if (isJsonPath(nameOrPath)) return loadText(nameOrPath, limits::maxProtocolFileBytes, readWords);
-    if (nameOrPath.empty() || nameOrPath == "en") return Words{};
-    const auto& all = builtInWords();
-    const auto found = std::ranges::find(all, nameOrPath, &Words::name);
+Result<Translation> findTranslation(const std::string& nameOrPath) {
+    if (isJsonPath(nameOrPath)) return loadText(nameOrPath, limits::maxProtocolFileBytes, readTranslation);
+    if (nameOrPath.empty() || nameOrPath == "en") return Translation{};
+    const auto& all = builtInTranslations();
+    const auto found = std::ranges::find(all, nameOrPath, &Translation::name);
     if (found != all.end()) return *found;
     std::string names = "en";
-    for (const Words& words : all) names += ", " + words.name;
+    for (const Translation& words : all) names += ", " + words.name;
     return Failure{"no words " + inQuotes(nameOrPath) + "; expected " + names + " or a file"};
 }
 

@@ -21,15 +21,15 @@
 
 namespace physvib {
 /// Valid ranges of a job's numbers, inclusive. Protocols and options share them.
-struct StimulusRange {
-    double least, most;
-    constexpr bool holds(double number) const noexcept { return number >= least && number <= most; }
+struct ParameterRange {
+    double min, max;
+    constexpr bool contains(double number) const noexcept { return number >= min && number <= max; }
 };
-namespace stimulusRanges {
-inline constexpr StimulusRange share{0.0, 1.0}, frequencyHz{limits::slowestToneHz, limits::maxFrequencyHz},
+namespace parameterRanges {
+inline constexpr ParameterRange share{0.0, 1.0}, frequencyHz{limits::slowestToneHz, limits::maxFrequencyHz},
     levelG{1e-6, 1000.0}, gapSeconds{0.0, 10.0}, exponent{0.01, 100.0}, seconds{0.001, 600.0},
     decayPerSecond{0.0, 10000.0};
-} // namespace stimulusRanges
+} // namespace parameterRanges
 
 /// Consecutive pulses on single actuators.
 struct PatternJob {
@@ -48,29 +48,29 @@ struct GridPlace {
 /// The quantity that levelG specifies: the peak; the peak of an undamped tone with the same root mean square
 /// over the length; that of an undamped tone of one second with the same energy; or that of an undamped tone
 /// whose root mean square is the stimulus' over the length behind the weighting W_h (see Exposure.h).
-enum class LevelOf { peak, rms, energy, weighted };
-inline constexpr std::array<std::string_view, 4> levelOfNames{"peak", "rms", "energy", "weighted"};
+enum class LevelMeasure { peak, rms, energy, weighted };
+inline constexpr std::array<std::string_view, 4> levelMeasureNames{"peak", "rms", "energy", "weighted"};
 
 /// A phantom sensation between the actuators.
 struct PhantomJob {
-    std::variant<FieldPlace, GridPlace> at;
+    std::variant<FieldPlace, GridPlace> target;
     PanningLaw law = PanningLaw::linear;
     double exponent = 1.0, seconds = 1.0;
     double decayPerSecond = 0.0; ///< of the amplitude, exp(-decay t); 0: a rectangular burst
-    LevelOf levelOf = LevelOf::peak;
+    LevelMeasure levelMeasure = LevelMeasure::peak;
     std::string recording{}; ///< a mono file instead of the tone, of its own rate and length
     bool operator==(const PhantomJob&) const = default;
 
     FieldPlace place() const noexcept {
-        if (const auto* const point = std::get_if<GridPlace>(&at)) return point->grid.place(point->cell);
-        return *std::get_if<FieldPlace>(&at);
+        if (const auto* const point = std::get_if<GridPlace>(&target)) return point->grid.place(point->cell);
+        return *std::get_if<FieldPlace>(&target);
     }
-    /// Peak over levelG that levelOf asks for of a tone of that frequency.
+    /// Peak, relative to levelG, at which a tone of that frequency has the level by levelMeasure.
     double peakFactor(double frequencyHz) const noexcept;
 };
 
 struct StimulusJob {
-    std::variant<PatternJob, PhantomJob> what;
+    std::variant<PatternJob, PhantomJob> stimulus;
     std::string layout = "phone4";             ///< a preset's name, or a layout file
     std::optional<double> frequencyHz = 205.0; ///< none: use the resonance of the layout's actuators
     double levelG = 1.0;                       ///< peak acceleration at gain 1
@@ -78,13 +78,13 @@ struct StimulusJob {
 };
 
 /// Option names in the text of a job, each before its value, for its writers and readers.
-namespace stimulusWords {
+namespace stimulusOptions {
 inline constexpr char at[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
                       layout[] = "--layout", frequency[] = "--frequency", levelG[] = "--level-g",
                       gap[] = "--gap", law[] = "--law", exponent[] = "--exponent", seconds[] = "--seconds",
-                      decay[] = "--decay", levelOf[] = "--level-of";
+                      decay[] = "--decay", levelMeasure[] = "--level-of";
 inline constexpr char resonance[] = "resonance"; ///< in place of a frequency
-} // namespace stimulusWords
+} // namespace stimulusOptions
 
 /// The `physvib` arguments that recreate the job, "stimulus phantom --at 0.5,0.5 ...". Any thread
 /// (allocates).
@@ -95,22 +95,22 @@ std::optional<PhantomGrid> gridOf(std::string_view call) noexcept;
 
 /// The invalid option of a job's text (empty for a pattern label) and the expected value. An empty
 /// expectation means no error.
-struct JobFault {
-    std::string_view word{};
+struct JobError {
+    std::string_view option{};
     std::string expected{};
     explicit operator bool() const noexcept { return !expected.empty(); }
-    std::string words() const {
-        return (word.empty() ? "" : std::string{word} + ": ") + "expected " + expected;
+    std::string text() const {
+        return (option.empty() ? "" : std::string{option} + ": ") + "expected " + expected;
     }
 };
 
 /// The first error of the job that does not depend on a layout. Any thread (allocates).
-JobFault faultOf(const StimulusJob& job);
+JobError jobError(const StimulusJob& job);
 
 // Creates a stimulus (events) from a StimulusJob and an actuator layout.
 
 /// Empty, or one line naming the actuator of the job that the layout lacks. Any thread (allocates).
-std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout);
+std::string layoutError(const StimulusJob& job, const LayoutDescription& layout);
 
 /// Events of a valid job without a recording, on its layout; or an error in one line. Message thread only.
 Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& layout);
@@ -135,18 +135,18 @@ inline std::vector<StimulusLevel> averageLevels(const std::vector<LevelTrial>& t
             settings[{trial.condition, trial.stimulus}][trial.participant].push_back(trial.value);
     std::vector<StimulusLevel> levels;
     for (const auto& [place, participants] : settings) {
-        std::vector<double> own;
-        for (const auto& [participant, values] : participants) own.push_back(Moments{values}.mean);
-        const Moments moments{own};
+        std::vector<double> means;
+        for (const auto& [participant, values] : participants) means.push_back(Moments{values}.mean);
+        const Moments moments{means};
         levels.push_back(
-            {place.first, place.second, alternative, moments.mean, own.size(), moments.deviation});
+            {place.first, place.second, alternative, moments.mean, means.size(), moments.deviation});
     }
     return levels;
 }
 
 /// The level of a stimulus; null if it has none. Any thread.
-inline const StimulusLevel* levelOf(const std::vector<StimulusLevel>& levels, const std::string& condition,
-                                    const std::string& stimulus) {
+inline const StimulusLevel* findLevel(const std::vector<StimulusLevel>& levels, const std::string& condition,
+                                      const std::string& stimulus) {
     const auto found = std::ranges::find_if(levels, [&](const StimulusLevel& level) {
         return level.condition == condition && level.stimulus == stimulus;
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What was felt as files, the window's keyboard, presets as files, and a controller that is learned.
-#include "FeltExport.h"
+#include "PlayedExport.h"
 #include "EditorPanels.h"
 #include "Formats/ClipFile.h"
 #include "PluginEditor.h"
@@ -14,7 +14,7 @@ using namespace test;
 
 /// Notes on and off of a MIDI file, times in seconds; only what it says itself.
 std::vector<juce::MidiMessage> notesOf(const std::vector<CollisionEvent>& events, const PluginState& state) {
-    const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
+    const std::string bytes = midiFileBytes({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
     juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
     juce::MidiFile file;
     EXPECT_TRUE(file.readFrom(stream, false)); // else it adds what is missing
@@ -42,11 +42,11 @@ public:
     }
     std::vector<juce::MidiMessage> exported() {
         plugin->drainEvents();
-        return notesOf(plugin->felt().events(true), plugin->state());
+        return notesOf(plugin->playedEvents().events(true), plugin->state());
     }
 };
 
-TEST(FeltExport, NotesComeBackAsTheNotesThatWerePlayed) {
+TEST(PlayedExport, NotesComeBackAsTheNotesThatWerePlayed) {
     PlayedInstrument host{"Bass"};
     host.send(juce::MidiMessage::noteOn(1, 36, juce::uint8{127}), 50);
     host.send(juce::MidiMessage::noteOn(1, 43, juce::uint8{64}), 50);
@@ -61,7 +61,7 @@ TEST(FeltExport, NotesComeBackAsTheNotesThatWerePlayed) {
     EXPECT_NEAR(notes[1].getTimeStamp(), 0.5, 1e-4);
 }
 
-TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
+TEST(PlayedExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
     PlayedInstrument host{"Strings"};
     host.send(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 80);
     host.send(juce::MidiMessage::noteOff(1, 60), 100);
@@ -71,7 +71,7 @@ TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
     EXPECT_NEAR(notes[1].getTimeStamp(), 0.8 + 0.4, 0.01) << "with its release";
 }
 
-TEST(FeltExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
+TEST(PlayedExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
     PlayedInstrument host{"Bass"};
     using Velocities = std::vector<std::pair<double, int>>; // by time; 0: off
     const auto velocitiesOf = [&](const std::vector<CollisionEvent>& events) {
@@ -93,62 +93,62 @@ TEST(FeltExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
     EXPECT_EQ(velocitiesOf({first}), (Velocities{{0.0, 1}, {1.0, 0}}));
 }
 
-TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
+TEST(PlayedExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     PlayedInstrument host{"Four corners"};
     for (int note = 60; note < 68; ++note)
         host.send(juce::MidiMessage::noteOn(1, note, juce::uint8{100}), 10);
     host.rest(50);
     host.plugin->drainEvents();
     const auto state = host.plugin->state();
-    const auto events = host.plugin->felt().events(true);
+    const auto events = host.plugin->playedEvents().events(true);
     ASSERT_EQ(events.size(), 8u);
-    const FeltExport felt{events, state, pannerOf(state, PanningLaw::linear, 1.0)};
+    const PlayedExport felt{events, state, pannerOf(state, PanningLaw::linear, 1.0)};
     const auto folder = juce::File::createTempFile("felt");
     ASSERT_TRUE(folder.createDirectory().wasOk());
     const auto at = [&folder](const char* name) {
         return folder.getChildFile(name).getFullPathName().toStdString();
     };
-    ASSERT_TRUE(exportFelt(felt, at("felt.csv")));
+    ASSERT_TRUE(exportPlayed(felt, at("felt.csv")));
     EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.events, events);
     EXPECT_EQ(loadEventsCsv(at("felt.csv")).value.field, fieldOf(felt.panner));
-    ASSERT_TRUE(exportFelt(felt, at("felt.HJIF")));
+    ASSERT_TRUE(exportPlayed(felt, at("felt.HJIF")));
     EXPECT_EQ(loadClip(at("felt.HJIF"), ClipFormat::hjif).value.channels.size(), 4u);
-    EXPECT_TRUE(exportFelt(felt, at("felt.mid")));
-    EXPECT_TRUE(exportFelt(felt, at("felt.ahap")));
+    EXPECT_TRUE(exportPlayed(felt, at("felt.mid")));
+    EXPECT_TRUE(exportPlayed(felt, at("felt.ahap")));
     EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "felt-*.ahap"), 4)
         << "one for each actuator";
-    EXPECT_FALSE(exportFelt(felt, at("felt.xyz")));
-    EXPECT_FALSE(exportFelt({{}, state, felt.panner}, at("nothing.mid")));
+    EXPECT_FALSE(exportPlayed(felt, at("felt.xyz")));
+    EXPECT_FALSE(exportPlayed({{}, state, felt.panner}, at("nothing.mid")));
     EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "*"), 3 + 4);
     folder.deleteRecursively();
 }
 
-std::vector<TakeEvent> row(TakeEvent event, std::size_t count) {
+std::vector<RunEvent> row(RunEvent event, std::size_t count) {
     std::vector all(count, event);
-    for (std::size_t k = 0; k < count; ++k) all[k].place = event.place + k;
+    for (std::size_t k = 0; k < count; ++k) all[k].indexInRun = event.indexInRun + k;
     return all;
 }
 
-TEST(FeltExport, OnlyTheNewestRunIsKeptAndNotWithoutEnd) {
-    FeltEvents felt;
-    TakeEvent event;
+TEST(PlayedExport, OnlyTheNewestRunIsKeptAndNotWithoutEnd) {
+    PlayedEvents felt;
+    RunEvent event;
     event.played.event = {1'000'000, 100.0, 10.0, 0.5, 0.0, 0.0, 0, {}};
-    event.take = 1;
+    event.runNumber = 1;
     felt.add(1, row(event, 3));
-    event.take = 2;
+    event.runNumber = 2;
     felt.add(1, row(event, 2));
-    event.take = 1; // the end of the one before
+    event.runNumber = 1; // the end of the one before
     felt.add(1, row(event, 5));
     EXPECT_EQ(felt.events(false).size(), 2u);
     EXPECT_EQ(felt.events(false)[0].timeNs, 1'000'000);
     EXPECT_EQ(felt.events(true)[0].timeNs, 0);
-    EXPECT_EQ(felt.leftOut(), 0u);
-    felt.add(2, row(event, FeltEvents::mostKept + 7)); // prepared anew
-    EXPECT_EQ(felt.events(false).size(), FeltEvents::mostKept);
-    EXPECT_EQ(felt.leftOut(), 7u);
-    event.place = FeltEvents::mostKept + 10; // three that the log had no room for
+    EXPECT_EQ(felt.droppedCount(), 0u);
+    felt.add(2, row(event, PlayedEvents::maxEvents + 7)); // prepared anew
+    EXPECT_EQ(felt.events(false).size(), PlayedEvents::maxEvents);
+    EXPECT_EQ(felt.droppedCount(), 7u);
+    event.indexInRun = PlayedEvents::maxEvents + 10; // three that the log had no room for
     felt.add(2, row(event, 1));
-    EXPECT_EQ(felt.leftOut(), 7u + 3u + 1u);
+    EXPECT_EQ(felt.droppedCount(), 7u + 3u + 1u);
 }
 
 TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
@@ -156,32 +156,32 @@ TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
     std::vector<std::pair<int, int>> played;
     KeyboardPanel keys{[&played](int note, int velocity) { played.emplace_back(note, velocity); }};
     keys.setBounds(0, 0, 940, KeyboardPanel::height);
-    keys.take(host.plugin->state(), {});
+    keys.showState(host.plugin->state(), {});
     std::vector<int> found;
     for (int x = 0; x < 940; ++x)
         for (const int y : {40, 70})
             if (const int note = keys.noteAt({x, y});
                 note >= 0 && std::ranges::find(found, note) == found.end())
                 found.push_back(note);
-    EXPECT_EQ(std::ssize(found), KeyboardPanel::highest - KeyboardPanel::lowest + 1);
+    EXPECT_EQ(std::ssize(found), KeyboardPanel::highestNote - KeyboardPanel::lowestNote + 1);
     EXPECT_LT(keys.velocityAt({470, 30}), keys.velocityAt({470, 68}));
     const auto state = host.plugin->state();
     const MidiTable table{state};
-    EXPECT_EQ(wordsOfKey(36, table, state), "C2: kick, 48 Hz, 50 % from the left, 0 % from below");
-    EXPECT_EQ(wordsOfKey(60, table, state), "C4: 262 Hz, 0 % from the left, 50 % from below");
-    EXPECT_EQ(wordsOfKey(60, MidiTable{shakenBox()}, shakenBox()).substring(0, 4), "C4: ");
+    EXPECT_EQ(describeKey(36, table, state), "C2: kick, 48 Hz, 50 % from the left, 0 % from below");
+    EXPECT_EQ(describeKey(60, table, state), "C4: 262 Hz, 0 % from the left, 50 % from below");
+    EXPECT_EQ(describeKey(60, MidiTable{shakenBox()}, shakenBox()).substring(0, 4), "C4: ");
 }
 
 TEST(Keyboard, AKeyOfTheWindowIsANote) {
     PlayedInstrument host{"Strings"};
-    host.plugin->play(60, 100);
+    host.plugin->playKey(60, 100);
     host.rest(40);
-    EXPECT_GT(host.plugin->takes().status().session.render.played, 10u) << "held";
-    host.plugin->play(60, 0);
+    EXPECT_GT(host.plugin->runs().status().session.render.played, 10u) << "held";
+    host.plugin->playKey(60, 0);
     host.rest(20);
-    const auto played = host.plugin->takes().status().session.render.played;
+    const auto played = host.plugin->runs().status().session.render.played;
     host.rest(20);
-    EXPECT_EQ(host.plugin->takes().status().session.render.played, played) << "let go";
+    EXPECT_EQ(host.plugin->runs().status().session.render.played, played) << "let go";
 }
 
 TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {

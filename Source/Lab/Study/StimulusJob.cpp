@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks stimulus jobs against their valid ranges, converts them to calls, and creates their events.
-#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StimulusJob.h"
 #include "Core/Actuators/Exposure.h"
 #include "Core/PortableMath.h"
 #include "Io/Text/NumberText.h"
@@ -14,41 +14,41 @@
 namespace physvib {
 namespace {
 
-namespace words = stimulusWords;
-namespace ranges = stimulusRanges;
+namespace options = stimulusOptions;
+namespace ranges = parameterRanges;
 
-JobFault rangeFault(std::string_view word, double number, const StimulusRange& range) {
-    if (range.holds(number)) return {};
-    return {word, numberText(range.least) + " to " + numberText(range.most)};
+JobError rangeError(std::string_view option, double number, const ParameterRange& range) {
+    if (range.contains(number)) return {};
+    return {option, numberText(range.min) + " to " + numberText(range.max)};
 }
 
-JobFault placeFault(const FieldPlace& place) {
-    if (ranges::share.holds(place.x) && ranges::share.holds(place.y)) return {};
-    return {words::at, "X,Y from 0 to 1"};
+JobError placeError(const FieldPlace& place) {
+    if (ranges::share.contains(place.x) && ranges::share.contains(place.y)) return {};
+    return {options::at, "X,Y from 0 to 1"};
 }
 
-JobFault placeFault(const GridPlace& place) {
+JobError placeError(const GridPlace& place) {
     const auto isLine = [](int line, int lines) { return line >= 1 && line <= lines; };
-    constexpr int most = static_cast<int>(mostGridLines);
-    if (!isLine(place.grid.columns, most) || !isLine(place.grid.rows, most))
-        return {words::grid, "COLUMNSxROWS like 7x5"};
+    constexpr int maxLines = static_cast<int>(maxGridLines);
+    if (!isLine(place.grid.columns, maxLines) || !isLine(place.grid.rows, maxLines))
+        return {options::grid, "COLUMNSxROWS like 7x5"};
     if (!isLine(place.cell.column, place.grid.columns) || !isLine(place.cell.row, place.grid.rows))
-        return {words::cell, "r,c of the grid (row 1 is the upper one)"};
+        return {options::cell, "r,c of the grid (row 1 is the upper one)"};
     return {};
 }
 
-JobFault faultOfKind(const PatternJob& pattern) {
+JobError kindError(const PatternJob& pattern) {
     if (!parsePatternLabel(pattern.label))
         return {{}, "a pattern like ABA-250 (one to three enchanters, then milliseconds)"};
-    return rangeFault(words::gap, pattern.gapSeconds, ranges::gapSeconds);
+    return rangeError(options::gap, pattern.gapSeconds, ranges::gapSeconds);
 }
 
-JobFault faultOfKind(const PhantomJob& phantom) {
-    if (auto fault = std::visit([](const auto& place) { return placeFault(place); }, phantom.at))
-        return fault;
-    if (auto fault = rangeFault(words::exponent, phantom.exponent, ranges::exponent)) return fault;
-    if (auto fault = rangeFault(words::decay, phantom.decayPerSecond, ranges::decayPerSecond)) return fault;
-    return rangeFault(words::seconds, phantom.seconds, ranges::seconds);
+JobError kindError(const PhantomJob& phantom) {
+    if (auto error = std::visit([](const auto& place) { return placeError(place); }, phantom.target))
+        return error;
+    if (auto error = rangeError(options::exponent, phantom.exponent, ranges::exponent)) return error;
+    if (auto error = rangeError(options::decay, phantom.decayPerSecond, ranges::decayPerSecond)) return error;
+    return rangeError(options::seconds, phantom.seconds, ranges::seconds);
 }
 
 /// Integral over the length of the squared weighted samples of a tone that begins at peak 1. Without a
@@ -58,11 +58,11 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
     using namespace handWeighting;
     const auto radians = [](double hz) { return 2.0 * std::numbers::pi * hz; };
     std::array<Complex, 8> poles{Complex{-decayPerSecond, radians(frequencyHz)}};
-    std::size_t at = 1;
+    std::size_t pole = 1;
     for (const auto& [hz, q] :
          {std::pair{lowHz, bandQ}, std::pair{highHz, bandQ}, std::pair{transitionHz, transitionQ}}) {
-        poles[at] = radians(hz) * Complex{-0.5 / q, std::sqrt(1.0 - 0.25 / (q * q))};
-        ++at;
+        poles[pole] = radians(hz) * Complex{-0.5 / q, std::sqrt(1.0 - 0.25 / (q * q))};
+        ++pole;
     }
     for (std::size_t k = 0; k < 4; ++k) poles[4 + k] = std::conj(poles[k]);
     const double high = radians(highHz), transition = radians(transitionHz),
@@ -76,9 +76,9 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
     Complex squares;
     for (std::size_t k = 0; k < 8; ++k)
         for (std::size_t j = 0; j < 8; ++j) {
-            const Complex both = poles[k] + poles[j]; // 0 of a tone that does not decay
+            const Complex sum = poles[k] + poles[j]; // 0 of a tone that does not decay
             squares += residues[k] * residues[j] *
-                       (both == 0.0 ? seconds : (portable::exp(both * seconds) - 1.0) / both);
+                       (sum == 0.0 ? seconds : (portable::exp(sum * seconds) - 1.0) / sum);
         }
     return squares.real();
 }
@@ -86,20 +86,22 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
 } // namespace
 
 double PhantomJob::peakFactor(double frequencyHz) const noexcept {
-    if (levelOf == LevelOf::weighted)
+    if (levelMeasure == LevelMeasure::weighted)
         return std::sqrt(0.5 * seconds / weightedSquares(frequencyHz, decayPerSecond, seconds));
-    const double twice = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
-        envelopeSeconds = twice > 0.0 ? -portable::expm1(-twice * seconds) / twice : seconds;
-    return levelOf == LevelOf::peak ? 1.0
-                                    : std::sqrt((levelOf == LevelOf::rms ? seconds : 1.0) / envelopeSeconds);
+    const double energyDecay = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
+        envelopeSeconds =
+            energyDecay > 0.0 ? -portable::expm1(-energyDecay * seconds) / energyDecay : seconds;
+    return levelMeasure == LevelMeasure::peak
+               ? 1.0
+               : std::sqrt((levelMeasure == LevelMeasure::rms ? seconds : 1.0) / envelopeSeconds);
 }
 
-JobFault faultOf(const StimulusJob& job) {
-    if (auto fault = std::visit([](const auto& kind) { return faultOfKind(kind); }, job.what)) return fault;
+JobError jobError(const StimulusJob& job) {
+    if (auto error = std::visit([](const auto& kind) { return kindError(kind); }, job.stimulus)) return error;
     if (job.frequencyHz)
-        if (auto fault = rangeFault(words::frequency, *job.frequencyHz, ranges::frequencyHz))
-            return {fault.word, fault.expected + " Hz, or " + words::resonance};
-    return rangeFault(words::levelG, job.levelG, ranges::levelG);
+        if (auto error = rangeError(options::frequency, *job.frequencyHz, ranges::frequencyHz))
+            return {error.option, error.expected + " Hz, or " + options::resonance};
+    return rangeError(options::levelG, job.levelG, ranges::levelG);
 }
 
 // Converts stimulus jobs to the calls that are stored in the rows of trial files.
@@ -118,21 +120,21 @@ public:
     }
     CallWriter& add(std::string_view word, double value) { return add(word, numberText(value)); }
     CallWriter& addCarrier(const StimulusJob& job) {
-        return add(words::layout, job.layout)
-            .add(words::frequency, job.frequencyHz ? numberText(*job.frequencyHz) : words::resonance)
-            .add(words::levelG, job.levelG);
+        return add(options::layout, job.layout)
+            .add(options::frequency, job.frequencyHz ? numberText(*job.frequencyHz) : options::resonance)
+            .add(options::levelG, job.levelG);
     }
     std::string text;
 };
 
 void addPlace(CallWriter& call, const FieldPlace& place) {
-    call.add(words::at, numberText(place.x) + "," + numberText(place.y));
+    call.add(options::at, numberText(place.x) + "," + numberText(place.y));
 }
 
 void addPlace(CallWriter& call, const GridPlace& place) {
-    call.add(words::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows))
-        .add(words::cell, gridLabel(place.cell));
-    if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, middles);
+    call.add(options::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows))
+        .add(options::cell, gridLabel(place.cell));
+    if (place.grid.points == PhantomGrid::Points::middles) call.add(options::points, middles);
 }
 
 /// The value of an option in a call; empty if the call does not have it.
@@ -149,41 +151,41 @@ std::string_view valueOf(std::string_view call, std::string_view word) noexcept 
 std::string textOf(const PatternJob& pattern, const StimulusJob& job) {
     return CallWriter{"stimulus pattern " + pattern.label}
         .addCarrier(job)
-        .add(words::gap, pattern.gapSeconds)
+        .add(options::gap, pattern.gapSeconds)
         .text;
 }
 
 std::string textOf(const PhantomJob& phantom, const StimulusJob& job) {
     CallWriter call{"stimulus phantom"};
-    std::visit([&](const auto& place) { addPlace(call, place); }, phantom.at);
-    call.addCarrier(job).add(words::law, nameOf(phantom.law)).add(words::exponent, phantom.exponent);
-    if (phantom.decayPerSecond != 0.0) call.add(words::decay, phantom.decayPerSecond);
-    if (phantom.levelOf != LevelOf::peak)
-        call.add(words::levelOf, levelOfNames[static_cast<std::size_t>(phantom.levelOf)]);
-    return call.add(words::seconds, phantom.seconds).text;
+    std::visit([&](const auto& place) { addPlace(call, place); }, phantom.target);
+    call.addCarrier(job).add(options::law, nameOf(phantom.law)).add(options::exponent, phantom.exponent);
+    if (phantom.decayPerSecond != 0.0) call.add(options::decay, phantom.decayPerSecond);
+    if (phantom.levelMeasure != LevelMeasure::peak)
+        call.add(options::levelMeasure, levelMeasureNames[static_cast<std::size_t>(phantom.levelMeasure)]);
+    return call.add(options::seconds, phantom.seconds).text;
 }
 
 } // namespace
 
 std::string textOf(const StimulusJob& job) {
-    return std::visit([&](const auto& kind) { return textOf(kind, job); }, job.what);
+    return std::visit([&](const auto& kind) { return textOf(kind, job); }, job.stimulus);
 }
 
 std::optional<PhantomGrid> gridOf(std::string_view call) noexcept {
-    const std::string_view lines = valueOf(call, words::grid);
-    const std::size_t by = std::min(lines.find('x'), lines.size());
-    const auto columns = parseNumber<int>(lines.substr(0, by)),
-               rows = parseNumber<int>(lines.substr(std::min(by + 1, lines.size())));
+    const std::string_view lines = valueOf(call, options::grid);
+    const std::size_t separator = std::min(lines.find('x'), lines.size());
+    const auto columns = parseNumber<int>(lines.substr(0, separator)),
+               rows = parseNumber<int>(lines.substr(std::min(separator + 1, lines.size())));
     const auto isCount = [](std::optional<int> n) {
-        return n && *n >= 1 && *n <= static_cast<int>(mostGridLines);
+        return n && *n >= 1 && *n <= static_cast<int>(maxGridLines);
     };
     if (!isCount(columns) || !isCount(rows)) return std::nullopt;
     using Points = PhantomGrid::Points;
     return PhantomGrid{*columns, *rows,
-                       valueOf(call, words::points) == middles ? Points::middles : Points::corners};
+                       valueOf(call, options::points) == middles ? Points::middles : Points::corners};
 }
 
-std::string withSounds(const Protocol& protocol, std::string call) {
+std::string withSoundOptions(const Protocol& protocol, std::string call) {
     if (call.find("--method SV") == std::string::npos) return call;
     for (const StudySoundFile& sound : protocol.sounds) {
         const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
@@ -192,12 +194,12 @@ std::string withSounds(const Protocol& protocol, std::string call) {
     return call;
 }
 
-std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
+std::string resolvedCalls(const Protocol& protocol, const TrialRecord& record) {
     std::string text;
     const auto add = [&](const std::string& call) { text.append(text.empty() ? "" : " ; ").append(call); };
-    for (const std::string& session : record.answer.sessions) add("render " + session);
+    for (const std::string& session : record.answer.worldSessions) add("render " + session);
     if (!text.empty()) return text;
-    for (const TrialJob& job : jobsOf(protocol, record))
+    for (const TrialJob& job : trialJobs(protocol, record))
         add(std::visit([](const auto& one) { return textOf(one); }, job));
     return text;
 }
@@ -209,9 +211,9 @@ namespace {
 /// Resonance frequency of all actuators. They must agree, because a phantom has one frequency.
 Result<double> resonanceOf(const LayoutDescription& layout) {
     std::optional<double> found;
-    for (const auto& enchanter : layout.enchanters) {
+    for (const auto& enchanter : layout.actuators) {
         const auto fail = [&](const std::string& why) {
-            return Failure{std::string{stimulusWords::frequency} + " " + stimulusWords::resonance +
+            return Failure{std::string{stimulusOptions::frequency} + " " + stimulusOptions::resonance +
                            ": actuator " + enchanter.label + ": " + why};
         };
         if (enchanter.actuator == "none") return fail("expected an actuator, found none");
@@ -234,11 +236,11 @@ Result<double> resonanceOf(const LayoutDescription& layout) {
 
 } // namespace
 
-std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout) {
-    const auto* const named = std::get_if<PatternJob>(&job.what);
+std::string layoutError(const StimulusJob& job, const LayoutDescription& layout) {
+    const auto* const named = std::get_if<PatternJob>(&job.stimulus);
     const auto pattern = named != nullptr ? parsePatternLabel(named->label) : std::nullopt;
     for (int k = 0; pattern && k < pattern->count; ++k)
-        if (pattern->enchanters[static_cast<std::size_t>(k)] >= layout.geometry.count)
+        if (pattern->actuators[static_cast<std::size_t>(k)] >= layout.geometry.count)
             return "expected actuators among the " + std::to_string(layout.geometry.count) +
                    " of the layout, found " + inQuotes(named->label);
     return {};
@@ -248,15 +250,15 @@ Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& l
     const auto frequencyHz = job.frequencyHz ? Result<double>{*job.frequencyHz} : resonanceOf(layout);
     if (!frequencyHz) return Failure{frequencyHz.error};
     const Carrier carrier{frequencyHz.value, job.levelG};
-    if (const auto* const pattern = std::get_if<PatternJob>(&job.what))
+    if (const auto* const pattern = std::get_if<PatternJob>(&job.stimulus))
         return patternStimulus(*parsePatternLabel(pattern->label), layout.geometry.count, carrier,
                                pattern->gapSeconds);
-    const auto& phantom = *std::get_if<PhantomJob>(&job.what);
-    Stimulus made = phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent, carrier,
-                                    phantom.seconds);
-    made.events.front().decayPerSecond = phantom.decayPerSecond;
-    made.events.front().amplitude *= phantom.peakFactor(frequencyHz.value);
-    return made;
+    const auto& phantom = *std::get_if<PhantomJob>(&job.stimulus);
+    Stimulus stimulus = phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent,
+                                        carrier, phantom.seconds);
+    stimulus.events.front().decayPerSecond = phantom.decayPerSecond;
+    stimulus.events.front().amplitude *= phantom.peakFactor(frequencyHz.value);
+    return stimulus;
 }
 
 } // namespace physvib
