@@ -44,7 +44,7 @@ for script, rows in told.items():
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Lab/Files/ProtocolFile.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
-deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*Thesis\w+::\w+)*\}", source)
+deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*\w+::\w+)*\}", source)
 lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):
