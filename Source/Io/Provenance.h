@@ -22,7 +22,7 @@ inline std::string provenanceLine(const Provenance& provenance) {
     return line;
 }
 
-/// The same as the first line of a CSV file. Any thread.
+/// The provenance as the first line of a CSV file, a comment. Any thread.
 inline std::string provenanceComment(const Provenance& provenance) {
     return "# " + provenanceLine(provenance) + "\n";
 }

@@ -100,7 +100,7 @@ struct Candidate {
     }
 };
 
-/// The delay at which the phases agree best with guess(hz): coarse steps, then a golden-section search.
+/// The delay at which the phases agree best with model(hz): coarse steps, then a golden-section search.
 template <class Model>
 double bestDelaySeconds(const std::vector<ResponsePoint>& points, Model model) {
     const auto agreement = [&](double seconds) {

@@ -25,7 +25,8 @@ struct MeasuredActuator {
     Resonator resonator;
     double gain = 0.0;          ///< recorded over played at the resonance; negative: inverted polarity
     double delaySeconds = 0.0;  ///< 0 to SweepSettings::tailSeconds
-    double residualShare = 0.0; ///< of the response's energy over the band, not explained by the model
+    double residualShare = 0.0; ///< share of the response's energy in the band that the model does not
+                                ///< explain
     double rateHz = 0.0;
 
     /// The band in which the response is within `decibels` of its peak, clipped to `swept`.
@@ -37,16 +38,16 @@ struct MeasuredActuator {
 struct MeasuredLoopback {
     double gain = 0.0;          ///< recorded over played; negative: inverted polarity
     double delaySeconds = 0.0;  ///< 0 to SweepSettings::tailSeconds
-    double residualShare = 0.0; ///< as MeasuredActuator's
+    double residualShare = 0.0; ///< share of the response's energy that the model does not explain
 };
 
 /// Fits the model to the transfer function between two recordings that begin together, over `band` and again
 /// around the resonance. Returns a one-line error without a file's name if a recording is unsuitable, or if
-/// the model explains less than half. M only.
+/// the model explains less than half. Message thread only.
 Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band = SweepSettings{}.band);
 
-/// The same with a cable as the model; an error if it explains less than nine tenths. M only.
+/// Fits a cable as the model; an error if it explains less than nine tenths. Message thread only.
 Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded,
                                      double rateHz, const FrequencyBand& band = SweepSettings{}.band);
 

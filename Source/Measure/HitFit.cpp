@@ -72,7 +72,7 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
 }
 
 constexpr double roundingShare = 1e-11;     // of the energy: a smaller residual is rounding
-constexpr double shortHitRatio = 8.0;       // omega / tau
+constexpr double shortHitRatio = 8.0;       // omega / tau up to which other starts are tried
 constexpr double penaltyPerParameter = 1.5; // per parameter, in units of ln N: for it and its search (Schwarz
                                             // 1978)
 

@@ -14,7 +14,7 @@ Complex<double> spectrumValue(std::span<const double> samples, double rateHz, do
 /// a power of two); bin k is at k rateHz / n. Message thread (M) only (allocates).
 std::vector<double> magnitudes(std::span<const double> samples);
 
-/// sum x[i] x[i + lag], for lags of 0 to size - 1. M only (allocates).
+/// sum x[i] x[i + lag], for lags of 0 to size - 1. Message thread only (allocates).
 std::vector<double> autocorrelation(std::span<const double> samples);
 
 /// A local maximum of a sequence, interpolated between samples.

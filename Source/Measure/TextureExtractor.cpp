@@ -135,7 +135,7 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
     return pulses;
 }
 
-/// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits. M only.
+/// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits.
 std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
     const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
     return convolved(samples, Smoothing{std::max(reach, minReachSamples), rateHz}.slope, 1);

@@ -49,7 +49,7 @@ std::string equaliserError(const ActuatorProfile& profile);
 /// Every field is required, null if not known; unknown and repeated fields are errors. Any thread.
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name);
 
-/// The same for a file. Message thread only.
+/// Reads a file, with the checks and errors of readActuator(). Message thread only.
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path);
 
 /// `profile` as JSON; readActuator restores it bit for bit. Any thread.

@@ -201,7 +201,7 @@ private:
     TextLines lines_;
     std::string_view name_;
     std::size_t maxRows_;
-    std::size_t lineNumber_ = 0; // of the last line read, from 1
+    std::size_t lineNumber_ = 0; // number of the last line read, from 1
     std::size_t count_ = 0;
     std::int64_t lastNs_ = 0; // time of the last event
     bool storesEvents_ = true, hasMaterials_ = false;

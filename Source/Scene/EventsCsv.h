@@ -32,7 +32,7 @@ struct EventList {
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
                                 std::size_t maxRows = limits::maxEventRows);
 
-/// The same for a file, of at most limits::maxEventsFileBytes with lines of at most 1 MB. Message thread.
+/// Reads a file of at most limits::maxEventsFileBytes, with lines of at most 1 MB. Message thread only.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
 /// Which optional columns a list has (see EventColumns.h).

@@ -68,7 +68,7 @@ inline std::string silenceReason(std::span<const CollisionEvent> events, const P
                                  bool isGuessed, std::int64_t endNs, double minLevel = 0.0) {
     PhantomPanner::Gains gains{};
     bool hasEvent = false;
-    double maxAmplitude = 0.0, maxLevel = 0.0; // of events; at the actuators
+    double maxAmplitude = 0.0, maxLevel = 0.0; // highest amplitude of events, highest level at an actuator
     for (const CollisionEvent& e : events) {
         if (e.timeNs >= endNs) continue;
         hasEvent = true;

@@ -45,7 +45,7 @@ Result<LayoutDescription> findLayout(const std::string& nameOrPath);
 /// Unknown and repeated fields are errors. Any thread.
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name);
 
-/// The same for a file. Message thread only.
+/// Reads a file, with the checks and errors of readLayout(). Message thread only.
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path);
 
 /// `layout` as JSON, one actuator per line; readLayout restores it bit for bit. Any thread.

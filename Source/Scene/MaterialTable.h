@@ -28,7 +28,7 @@ struct MaterialTable {
 /// 0 to 100, found -1`. Any thread.
 Result<MaterialTable> readMaterials(std::string_view text, std::string_view name);
 
-/// The same for a file. Message thread only.
+/// Reads a file, with the checks and errors of readMaterials(). Message thread only.
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
 
 /// `table` as JSON, a material per line; readMaterials restores it bit for bit. Any thread.

@@ -28,7 +28,7 @@ struct Material {
     double restitution = 0.0;
     double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no haptic source needs it)
     double decayPerSecond = 0.0;
-    double grainMetres = 0.0; ///< this and the next three: surface texture, see Texture
+    double grainMetres = 0.0; ///< surface texture, as are all members up to `rolling`
     double roughness = 1.0;
     GrainPattern grainPattern = GrainPattern::random;
     double rolling = 0.2;

@@ -91,7 +91,7 @@ Json::json_pointer checkedPointer(const Json& root, const std::string& text, con
     try {
         const Json::json_pointer pointer(text);
         if (!pointer.empty() && root.contains(pointer)) return pointer;
-    } catch (const Json::exception&) { // not a pointer at all
+    } catch (const Json::exception&) { // the text is not a JSON pointer
     }
     throw JsonError(path, "expected a pointer to a value of the scene, found " + inQuotes(text));
 }
@@ -113,7 +113,7 @@ std::vector<SceneVariable> applyVariables(Json& root, const SceneSettings& setti
     applySettings(variables, settings);
     std::vector<SceneVariable> description;
     for (const Variable& variable : variables) {
-        for (const Choice& choice : variable.choices) // also checks choices that were not made
+        for (const Choice& choice : variable.choices) // choices that are not set are checked, too
             for (const auto& item : choice.replacements->items())
                 checkedPointer(root, item.key(), choice.path);
         applyChoice(root, selectedChoice(variable));

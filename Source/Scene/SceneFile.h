@@ -23,7 +23,7 @@ using SceneSettings = std::vector<std::pair<std::string, std::string>>;
 /// repeated fields are errors, as are settings that the scene does not have. Any thread.
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings = {});
 
-/// The same for a file. Message thread only.
+/// Reads a file, with the checks and errors of readScene(). Message thread only.
 Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings = {});
 
 /// A valid scene as JSON with its present settings; readScene restores everything except the variables, bit

@@ -53,7 +53,7 @@ constexpr double minSoundDecayPerSecond = 0.01;
 
 namespace physvib::limits {
 constexpr std::size_t maxEventRows = 10'000'000;          // 100 s at 10^5 events per second; 1 GB of events
-constexpr std::size_t maxEventsFileBytes = 2'000'000'000; // that many rows, usually of 160 bytes
+constexpr std::size_t maxEventsFileBytes = 2'000'000'000; // for maxEventRows rows of usually 160 bytes
 constexpr std::size_t maxLayoutFileBytes = 1'000'000;     // 64 actuators need about 10 kB
 constexpr std::size_t maxSceneFileBytes = 4'000'000;      // 4096 bodies of two fixtures fill about half of it
 constexpr std::size_t maxSessionFileBytes = 64'000'000;   // 100,000 inputs of a hundred bytes, and scenes

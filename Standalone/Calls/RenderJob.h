@@ -108,14 +108,14 @@ inline constexpr std::string_view recordingsHaveNoFrequency =
     "--remap: recordings have no frequency to be moved";
 inline constexpr std::string_view recordingsHaveNoWeight =
     "--perceived-level: recordings have no one frequency to be weighted by";
-/// Checks options on how a scene is rendered for conflicts: empty, or a usage error in one line. Any thread
-/// (allocates), as the next two.
+/// Checks for conflicts the options on how a scene is rendered.
+/// Empty, or a usage error in one line. Any thread (allocates).
 std::string sceneOptionsError(const RenderJob& job);
 
-/// Also checks the options on what is rendered.
+/// The same check that also covers the options on what is rendered. Any thread (allocates).
 std::string inputOptionsError(const RenderJob& job);
 
-/// Also checks the output options.
+/// The full check, of scene, input and output options. Any thread (allocates).
 std::string renderOptionsError(const RenderJob& job);
 
 /// "12 pulses", or "12 pulses for 14 onsets: 2 came within 0.5 ms of another".

@@ -50,7 +50,7 @@ struct ChartAxis {
         }
         return axis;
     }
-    /// The same for logarithmic axes, with ticks at 1, 2 and 5 and a margin of 15 % at both ends.
+    /// A logarithmic axis, with ticks at 1, 2 and 5 and a margin of 15 % at both ends.
     static ChartAxis logarithmic(double min, double max) {
         ChartAxis axis{min / 1.15, max * 1.15, true, {}};
         const bool isWide = axis.max / axis.min > 300.0; // ticks at powers of ten only

@@ -52,7 +52,7 @@ struct BarChart {
 struct LinePoint {
     double x = 0.0;
     ChartValue y{};
-    double size = 1.0; ///< of the marker
+    double size = 1.0; ///< factor on the marker's size
 };
 
 struct LineSeries {

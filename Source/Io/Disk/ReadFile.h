@@ -95,14 +95,14 @@ inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::s
 namespace physvib::limits {
 constexpr std::size_t maxTableRows = 1'000'000;   // an analysis needs three columns
 constexpr std::size_t maxTableCells = 3'000'000;  // 150,000 trials of twenty columns: a thousand participants
-constexpr std::size_t maxTableBytes = 64'000'000; // those cells, usually 200 bytes a trial
+constexpr std::size_t maxTableBytes = 64'000'000; // for tables of usually 200 bytes per trial
 constexpr std::size_t maxTableColumns = 256;      // a trial has twenty; an exported matrix one per response
 constexpr std::size_t maxCellBytes = 200'000; // the longest cell has the presentations of a trial: 64 parts
                                               // of 2000 bytes (Protocol.h), and their levels
 constexpr std::int64_t maxRecordingSeconds = 600;        // a longer contact or stimulus is a mistake
 constexpr std::int64_t maxRecordingSamples = 32'000'000; // of all channels: one channel of that length at 48
                                                          // kHz, 128 MB
-constexpr std::size_t maxRecordingFileBytes = 256'000'000; // as many samples of 64 bits
+constexpr std::size_t maxRecordingFileBytes = 256'000'000; // maxRecordingSamples of 64 bits
 constexpr std::int64_t maxMusicSeconds = 86'400;           // read block by block: a day
 constexpr std::size_t maxMusicFileBytes = 64'000'000'000;  // a day of two channels of 32 bits at 92 kHz
 constexpr int maxRecordingChannels = 64;                   // the maximum number of outputs

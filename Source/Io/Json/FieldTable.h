@@ -32,7 +32,7 @@ struct Need {
     static const Need filled;   ///< always written, but may be missing in files that are read
     static const Need optional; ///< may be missing; not written if it equals its default
 
-    /// The same for a field that files of versions before `version` do not have.
+    /// The need of a field that files of versions before `version` do not have.
     constexpr Need from(int version) const { return {true, isAlwaysWritten, version}; }
     bool operator==(const Need&) const = default;
 };

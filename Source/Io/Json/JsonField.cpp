@@ -136,7 +136,7 @@ bool JsonField::isString(std::string_view word) const {
 }
 } // namespace physvib
 
-template class nlohmann::basic_json<>;
+template class nlohmann::basic_json<>; // compiled here only, because it takes long
 
 namespace physvib {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <iterator>
 
-template class nlohmann::basic_json<nlohmann::ordered_map>;
+template class nlohmann::basic_json<nlohmann::ordered_map>; // compiled here only, because it takes long
 
 namespace physvib {
 

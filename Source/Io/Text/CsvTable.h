@@ -13,12 +13,12 @@
 namespace physvib {
 
 struct CsvRow {
-    std::size_t line = 0; ///< of the file, from 1
+    std::size_t line = 0; ///< line number in the file, from 1
     std::vector<std::string> cells;
 };
 
 struct CsvTable {
-    std::string name;                  ///< of the file, for messages
+    std::string name;                  ///< name of the file, for messages
     std::vector<std::string> comments; ///< lines before the header, without their #
     std::vector<std::string> columns;
     std::vector<CsvRow> rows; ///< each with as many cells as there are columns
@@ -45,7 +45,7 @@ enum class CsvHeader { named, loose };
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name,
                               CsvHeader header = CsvHeader::named);
 
-/// The same for a file. Message thread only.
+/// Reads a file, with the checks and errors of readCsvTable(). Message thread only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
 
 /// Appends `text` as a cell, quoted if necessary, with an apostrophe if a spreadsheet would evaluate it as a

@@ -58,8 +58,7 @@ std::string listed(const Names& names, std::string_view lastSeparator = ", ") {
     return all;
 }
 
-/// The same list with names that differ by the next last digit as ranges: "phone1..phone4, ring1". Any
-/// thread.
+/// A list in which names with consecutive last digits are ranges: "phone1..phone4, ring1". Any thread.
 inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view rangeMark = "..",
                                   std::string_view lastSeparator = ", ") {
     const auto isConsecutive = [&](std::size_t i) {

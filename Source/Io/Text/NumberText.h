@@ -22,7 +22,7 @@ void appendNumber(std::string& out, Number number) {
     out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-/// The same as a string. Any thread.
+/// The shortest text that reads back as the same bits. Any thread.
 inline std::string numberText(double number) {
     std::string text;
     appendNumber(text, number);
@@ -63,9 +63,8 @@ struct ByNumbers {
     }
 
 private:
-    /// Length of the number at the start of `text`; 0: none. `previous` is the character before it: only
-    /// after
-    /// '=' or a space is a hyphen a minus sign.
+    /// Length of the number at the start of `text`; 0: none. `previous` is the character before it:
+    /// a hyphen is a minus sign only after '=' or a space.
     static std::size_t numberAt(char previous, std::string_view text, double& number) noexcept {
         const bool isSigned = text.starts_with('-') && (previous == ' ' || previous == '=');
         const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
@@ -116,7 +115,7 @@ inline std::string printable(std::string_view text) {
     return text.size() > maxLength ? out + "..." : out;
 }
 
-/// The same in quotes. Any thread.
+/// printable(text) in double quotes. Any thread.
 inline std::string inQuotes(std::string_view text) {
     std::string out = "\"";
     return out.append(printable(text)).append("\"");

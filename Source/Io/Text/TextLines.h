@@ -49,7 +49,7 @@ private:
     }
 
     std::string_view unread_;
-    std::string block_; // of a file; unread_ is its end
+    std::string block_; // last block of a file; unread_ views its end
     std::FILE* file_ = nullptr;
     bool isTooLong_ = false;
 };

@@ -23,7 +23,7 @@ struct SoundFormat {
 /// Empty, or why such a sound is refused; checked before memory is allocated. Any thread.
 std::string soundError(const SoundFormat& format);
 
-/// The same for a sound that is read block by block and not stored. Any thread.
+/// Empty, or why a sound is refused that is read block by block and not stored. Any thread.
 std::string streamError(const SoundFormat& format);
 
 /// Receives a sound from a reader, block by block. One thread at a time.

@@ -122,7 +122,7 @@ struct AnalysisJob : StudySources {
     // Fits to each participant's trials:
     std::string level, measure; ///< columns of levels and of answers; empty: those of our own files
     PsychometricModel model{};
-    std::optional<Protocol> protocol{}; ///< of the trials; none: a built-in one is looked up
+    std::optional<Protocol> protocol{}; ///< protocol of the trials; none: a built-in one is looked up
 
     bool operator==(const AnalysisJob&) const = default;
 };

@@ -144,8 +144,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
         return c.material + (c.softener.empty() ? "" : ", " + c.softener + " %") +
                (c.thickness.empty() ? "" : ", " + c.thickness + " mm");
     };
-    const bool hasOneLayer = std::ranges::all_of(results, [&](const IsolationResult& r) { // as thesis
-                                                                                          // Fig. 3.5
+    const bool hasOneLayer = std::ranges::all_of(results, [&](const IsolationResult& r) { // thesis Fig. 3.5
         return layerName(r.condition) == layerName(results.front().condition);
     });
     for (const IsolationResult& r : results) {
@@ -206,7 +205,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
                               const PsychometricModel& model, const FitLabels& labels,
                               const LevelSummary* methodThreshold) {
     const auto fits = psychometricByParticipant(methodThreshold ? std::vector<LevelAnswer>{} : trials, model);
-    std::vector<LevelAnswer> plotted = trials; // of those who have a function, if somebody has
+    std::vector<LevelAnswer> plotted = trials; // people with a function, or all if nobody has one
     const auto hasNoFit = [](const auto& fitted) { return !fitted.fit.error.empty(); };
     if (!std::ranges::all_of(fits, hasNoFit))
         for (const auto& fitted : fits)

@@ -34,7 +34,7 @@ enum class HitProperty { none, amplitude, duration, frequency, decay, gains, lim
 /// One deviation of one protocol.
 struct ThesisDeviation {
     std::string_view protocol;   ///< its name
-    std::string_view section;    ///< of the thesis
+    std::string_view section;    ///< section of the thesis
     std::string_view inThesis;   ///< procedure in the thesis
     std::string_view inProtocol; ///< procedure in the protocol
     std::string_view change;     ///< change that makes it run as published; empty: not possible

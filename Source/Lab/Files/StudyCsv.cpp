@@ -187,7 +187,7 @@ std::size_t addRatings(const StudyRows& rows, RatingData& ratings) {
         if (hasGroups)
             trial.condition.append(trial.condition.ends_with(kindSeparator) ? "group=" : " group=")
                 .append(groupOf(row).empty() ? "not known" : groupOf(row));
-        for (const auto c : scales) // of this session; others lack answers
+        for (const auto c : scales) // scales of other sessions have no answers here
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         trialsOfGroup(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
     });
@@ -219,7 +219,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     trial.levelDb = rows.number(row, "level_db", -1000.0, 1000.0);
     trial.session = rows.cellOrEmpty(row, "session");
     if (const auto mixed = rows.cellOrEmpty(row, trialColumns::staircase); !mixed.empty())
-        trial.session += "/" + mixed; // a run of its own
+        trial.session += "/" + mixed; // each mixed staircase is a run of its own
     trial.value = rows.cell(row, "correct") == "1" ? 1.0 : 0.0;
     trial.quest = rows.cellOrEmpty(row, trialColumns::quest);
     if (trial.quest.empty()) return trial;
@@ -316,7 +316,8 @@ std::size_t addLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
     const auto measure = rows.requireColumn(columns.measure.substr(0, equalsAt));
     const auto level = LevelSource::findIn(rows.table(), columns.level);
     if (!level) rows.requireColumn(columns.level);
-    const bool isFactor = columns.level == "level_db" && !rows.findColumn(trialColumns::task); // of others
+    const bool isFactor = columns.level == "level_db" && !rows.findColumn(trialColumns::task); // not in our
+                                                                                               // files
     // In our own files adaptive levels follow the answers, so they determine no function.
     const auto levelColumn = rows.findColumn("level_db");
     const bool isAdaptive =

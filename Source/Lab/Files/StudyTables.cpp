@@ -69,7 +69,7 @@ bool isUtf8(std::string_view text) noexcept {
     return true;
 }
 
-constexpr std::string_view trueWords[] = {"true", "TRUE", "True", "1", "1.0"}; // of other programs
+constexpr std::string_view trueWords[] = {"true", "TRUE", "True", "1", "1.0"}; // in tables of other programs
 
 void normaliseForeignCells(CsvTable& table, const ExcludedRows& excluded) {
     if (!parseTrialHead(table.comments).empty()) return;
@@ -156,7 +156,7 @@ std::string selectColumns(CsvTable& table, std::span<const ColumnName> names, Ex
             if (ours == trialColumns::timedOut)
                 hasTime = !contains(trueWords, row.cells[sources[c]]);
             else if (!trialColumns::has(ours))
-                isRated |= hasValue; // of scales one is enough
+                isRated |= hasValue; // a value on one scale is enough
             else if (contains(answerColumns, ours))
                 isAnswered &= hasValue;
             else if (ours != trialColumns::group) // rows without a group are kept

@@ -41,7 +41,7 @@ std::string unitError(std::span<const ColumnName> names);
 /// Columns of answers, beside those of scales.
 inline constexpr std::string_view answerColumns[] = {"response", "choice", "correct", "value", "x", "y"};
 
-/// What is left out of other programs' tables.
+/// Rows, columns and answers of other programs' tables that are not used.
 struct ExcludedRows {
     std::size_t rowCount = 0; ///< instructions, fixations, trials without an answer
     /// Trials without an answer by participant: main trials, and trainings.

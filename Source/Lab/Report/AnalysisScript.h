@@ -46,8 +46,8 @@ std::string scriptOverwriteError(const std::filesystem::path& path);
 
 /// Description of a dataset.
 struct BidsDescription {
-    std::string name, task;                      ///< of the study; the task has the protocol's name
-    std::string version;                         ///< of the program
+    std::string name, task;                      ///< name of the study, and of its task: the protocol's name
+    std::string version;                         ///< version of this program
     std::map<std::string, std::string> source{}; ///< further facts, as keys and values
     bool isSimulated = false;
     std::map<std::string, std::string> columns{}; ///< what the scales of the protocol mean

@@ -27,7 +27,7 @@ public:
     void addHeading(std::string_view words) { addElement("h2", words); }
     void addSubheading(std::string_view words) { addElement("h3", words); }
     void addParagraph(std::string_view words) { addElement("p", words); }
-    void addNotes(const std::vector<std::string>& lines); ///< in one box
+    void addNotes(const std::vector<std::string>& lines); ///< shows all lines in one box
     /// A warning, or why something is missing.
     void addNote(std::string_view words) { addNotes({std::string(words)}); }
     void addPreformatted(std::string_view words); ///< preformatted text, as `analyse` prints it
@@ -179,7 +179,7 @@ bool addDescriptionsSection(ReportBuilder& report);
 // A protocol's fields and their values, for the section on methods, and for plans. Any thread (allocates).
 
 // "layout phone1; stimuli grid; columns 3": each field with information, by its name in files.
-std::string protocolText(const Protocol& protocol); ///< without conditions and sessions
+std::string protocolText(const Protocol& protocol); ///< text on all but conditions and sessions
 std::string conditionText(const ConditionPlan& condition);
 std::string sessionText(const SessionPlan& session);
 

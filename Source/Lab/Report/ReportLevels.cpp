@@ -195,7 +195,7 @@ void addLevelsSection(ReportBuilder& report) {
     if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1) {
         const auto reference = comparedLevel(report.trials);
         std::vector<std::size_t> people;
-        bool hasIntervals = false; // none for one participant
+        bool hasIntervals = false; // one participant has no intervals
         for (const LevelSummary& summary : summaries)
             if (summary.kind == Kind::adjustment)
                 people.push_back(summary.participants), hasIntervals |= summary.halfInterval > 0.0;
@@ -264,7 +264,7 @@ void addConstantStimuli(ReportBuilder& report) {
     const auto data =
         report.read(readLevelAnswers,
                     LevelAnswerColumns{"stimulus", fit.measure.empty() ? "correct" : fit.measure, false});
-    const auto hasLevels = [](const auto& one) { // with two it is a factor
+    const auto hasLevels = [](const auto& one) { // a column with two levels is a factor
         return countByLevel(one.trials, [](const LevelAnswer& trial) { return trial.levelAndHit(); }).size() >
                2;
     };

@@ -115,7 +115,7 @@ void addCalls(ReportBuilder& report) {
 void addFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attendance>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<double> ages;
-    std::map<std::string, std::map<std::string, std::size_t>> counts; // of sex, handedness and group
+    std::map<std::string, std::map<std::string, std::size_t>> counts; // people by sex, handedness and group
     std::size_t analysed = 0;
     for (const auto& [code, record] : attended) {
         if (facts.isExcluded(code)) continue;
@@ -171,7 +171,7 @@ void addParticipantsSection(ReportBuilder& report) {
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
-    std::vector<std::size_t> counts; // of trials
+    std::vector<std::size_t> counts; // numbers of trials
     for (const auto& [code, record] : people) {
         table.cells(code, record.number, record.observer, record.main, record.training,
                     record.unanswered + record.timedOut,

@@ -301,7 +301,7 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
     }
     std::map<RunKey, std::size_t> undelivered; // answered, but not delivered as planned
     for (const CsvRow& row : trials.undelivered) ++undelivered[keyOf(row)], addNumber(row);
-    const auto missingTrials = [&](const RunKey& run, int count) { // of planned trials; 0: not known
+    const auto missingTrials = [&](const RunKey& run, int count) { // `count`: planned trials, 0 if not known
         std::string words;
         int next = 1;
         std::set<int>& present = numbers[run];

@@ -65,7 +65,7 @@ struct ReportTrials {
     std::vector<CsvRow> undelivered; ///< rows of trials that did not leave as planned, with the columns of
                                      ///< `all`
     bool isSimulated = false;
-    ExcludedRows excluded;                    ///< of other programs' tables
+    ExcludedRows excluded;                    ///< what is not used of other programs' tables
     std::vector<std::string> notes{};         ///< participants in several files, columns not used
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
     double guess = PsychometricModel{}.guess; ///< guess rate of functions, if no protocol gives it
@@ -75,7 +75,7 @@ struct ReportTrials {
 
     /// True if rows have a task, as in our own files; tables of other programs have less information.
     bool hasTasks() const { return all.column(trialColumns::task).has_value(); }
-    /// Those of the protocol; none if it is not known.
+    /// Sessions of the protocol; empty if it is not known.
     const std::vector<SessionPlan>& sessions() const {
         static const std::vector<SessionPlan> none;
         return protocol ? protocol->sessions : none;
@@ -108,7 +108,7 @@ bool hasAdaptiveRows(const ReportTrials& trials);
 struct UnfinishedRun {
     std::string participant, condition, session;
     std::size_t trials = 0;  ///< number of its rows
-    std::size_t planned = 0; ///< by the protocol; the maximum of an adaptive run
+    std::size_t planned = 0; ///< number of rows by the protocol; the maximum of an adaptive run
     bool isAdaptive = false; ///< levels follow the answers: its threshold lacks trials
     std::string missing{};   ///< "trials 3, 8 to 9": not in the file, though later ones are
     bool isComplete = false; ///< it reached its end, though rows are missing

@@ -34,7 +34,7 @@ struct ReportJob {
     double guess = PsychometricModel{}.guess; ///< guess rate of functions, if no protocol gives it
     std::string folder;                       ///< output folder
     bool exportsBids = false;                 ///< also export the trials as a BIDS dataset
-    bool exportsNotebook = false;             ///< also a notebook of the script's steps
+    bool exportsNotebook = false;             ///< also export a notebook of the script's steps
     std::string peoplePath{}; ///< table of facts on the participants (ReportTrials.h); empty: unknown
     std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
 

@@ -159,7 +159,7 @@ std::size_t sizeOf(const JsonField& rows, std::size_t min, std::size_t max) {
     return size;
 }
 
-/// Calls `take(i, j, number)` for each entry of a square matrix of `size`.
+/// Calls `setEntry(i, j, number)` for each entry of a square matrix of `size`.
 template <class SetEntry>
 void readSquare(const JsonField& rows, std::size_t size, double min, double max, SetEntry setEntry) {
     sizeOf(rows, size, size);

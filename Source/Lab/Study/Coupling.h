@@ -112,15 +112,15 @@ std::string couplingJson(const MeasuredCoupling& coupling, const std::string& na
 
 /// A layer and its drive signal. All but the frequency are labels that are compared, not computed with.
 struct IsolationCondition {
-    std::string material, softener, thickness; ///< of the layer; a reference has none
-    std::string voltage, axis;                 ///< of the drive
+    std::string material, softener, thickness; ///< layer on the actuators; empty for a reference
+    std::string voltage, axis;                 ///< voltage and axis of the drive
     double frequencyHz = 0.0;
 };
 
 /// One recording: a level per axis of the accelerometer.
 struct IsolationMeasurement {
     IsolationCondition condition;
-    bool isReference = false; ///< without a layer
+    bool isReference = false; ///< true: measured without a layer
     std::vector<double> levels;
     std::string source; ///< the file, for messages
 };

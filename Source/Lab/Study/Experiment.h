@@ -183,7 +183,7 @@ struct Trial {
     std::vector<std::string> parts;   ///< played separately: alternatives as their buttons, or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
     double roveDb = 0.0;              ///< offset of the roving variable; 0 if there is none
-    double levelDb = 0.0;             ///< of the alternative that is adapted, adjusted or matched; else 0
+    double levelDb = 0.0;             ///< level of the adapted, adjusted or matched alternative; else 0
     std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
     double breakSeconds = 0.0;        ///< break before it
 };
@@ -199,7 +199,7 @@ struct Apparatus {
 };
 
 constexpr double minEstimate = 1e-12, maxEstimate = 1e12; // range of magnitude estimates
-constexpr std::size_t maxAnswerBytes = 4000;              // of an answer in words
+constexpr std::size_t maxAnswerBytes = 4000;              // maximum length of an answer in words
 
 /// A participant's answer. Each task uses some of the fields.
 struct Answer {

@@ -136,8 +136,8 @@ struct StaircasePlan {
     double minStepDb = 0.5, minDb = 0.0, maxDb = 40.0;
     double upRatio = 1.0; ///< upward step / downward step; 3, `down` 1: converges to 75 % (Kaernbach 1991)
     int down = 2;         ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
-    int reversals = 8;    ///< number of reversals at which it ends
-    int maxTrials = 200;  ///< of each staircase
+    int reversals = 8;    ///< number of reversals at which a staircase ends
+    int maxTrials = 200;  ///< maximum for each staircase
     bool operator==(const StaircasePlan&) const = default;
     std::vector<double> starts() const { return startsDb.empty() ? std::vector{startDb} : startsDb; }
 };
@@ -189,11 +189,11 @@ struct SessionPlan {
     double modulusNumber = 10.0; ///< number assigned to the modulus
     bool mayBeEmpty = false;     ///< describe: an empty answer is accepted
     std::string levelsFrom;      ///< an earlier session whose adjusted levels apply here
-    std::string levelsFile; ///< or a file with the levels of other participants (Lab/Files/ProtocolFile.h)
+    std::string levelsFile;      ///< path of a file with levels of other participants, instead of levelsFrom
     bool operator==(const SessionPlan&) const = default;
 
     AnswerKind answerKind() const noexcept { return taskDescription(task).answer; }
-    /// Names of the scores of `rate`; of other tasks, which may have objects, none.
+    /// Names of the scores of the task `rate`; empty for other tasks, even with objects.
     const std::vector<std::string>& scores() const noexcept {
         static const std::vector<std::string> none;
         return answerKind() != AnswerKind::scores ? none : scales.empty() ? objects : scales;

@@ -29,7 +29,7 @@ public:
 
     double level() const noexcept { return plan_.levels[next_]; } ///< level of the next trial
     void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< answer to a trial at `level()`
-    void answerAt(double level, bool isCorrect); ///< at any level; counts for the nearest of the plan
+    void answerAt(double level, bool isCorrect); ///< `level` is rounded to the nearest of the plan
     PsychometricFunction estimate() const;       ///< posterior mean
     double thresholdDeviation() const;           ///< posterior standard deviation of the threshold
     int trials() const noexcept { return trials_; }
@@ -66,7 +66,7 @@ PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::ve
 struct QuestMethod {
     std::string alternative;
     PsychometricShape shape = PsychometricShape::weibull;
-    double minDb = 0.0, maxDb = 20.0, stepDb = 0.5; ///< that can be presented; also the prior's thresholds
+    double minDb = 0.0, maxDb = 20.0, stepDb = 0.5; ///< levels to present, also the prior's thresholds
     double minWidthDb = 2.0, maxWidthDb = 20.0;     ///< widths of the psychometric function in the prior
     double lapse = 0.02;
     int trials = 40;

@@ -16,9 +16,9 @@ struct ObserverSettings {
     double offsetX = 0.0, offsetY = 0.0; ///< constant localisation error, as shares of the field
     double pulsePlaceConfusion = 0.01;   ///< probability that a pulse is felt at another actuator
     double durationConfusion = 0.03;     ///< probability that a pattern's duration is confused with another
-    double numerosityConfusion = 0.02;   ///< that one pulse too few is counted
+    double numerosityConfusion = 0.02;   ///< probability that one pulse too few is counted
     double firstAlternativePreference = 0.59;   ///< probability, for alternatives at equal levels
-    double levelNoiseDb = 2.0;                  ///< of comparisons and adjustments
+    double levelNoiseDb = 2.0;                  ///< standard deviation of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings
     /// added for AV, FV, DRV (thesis 5.3.2)
     double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0;

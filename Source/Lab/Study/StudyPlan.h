@@ -15,7 +15,7 @@ struct PlannedStimulus {
     std::string label, part;                ///< part is empty if trials have none
     double levelDb = 0.0;
     bool isHighest = true;       ///< false: a lower level of the same samples
-    bool isEvenlySpaced = false; ///< one of levels that are spread evenly, as sessions can reach more
+    bool isEvenlySpaced = false; ///< one of evenly spread levels that stand for all others
 
     /// The job that creates the stimulus. Any thread (allocates).
     TrialJob job(const Protocol& protocol) const;

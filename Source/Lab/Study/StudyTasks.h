@@ -26,7 +26,7 @@ enum class AnswerKind {
     scores,  ///< one score per scale of the session
     level,   ///< level in dB of the alternative that is adjusted
     number,  ///< greater than 0
-    words    ///< of the participant, on one line; listed, not analysed
+    words    ///< one line in the participant's own words; listed, not analysed
 };
 
 /// English text, translated line by line. Where a variant is empty, `standard` applies.
@@ -41,7 +41,7 @@ struct StudyTaskDescription {
     AnswerKind answer;
     std::string_view analysis; ///< name for `physvib analyse` and the report; empty: none
     TaskText question;
-    TaskText instruction; ///< course of a session, after the line on how often a stimulus may be played
+    TaskText instruction; ///< how a session proceeds; follows a line on how often stimuli may be played
 };
 
 inline constexpr std::array studyTasks{

@@ -126,10 +126,10 @@ std::vector<Alternatives> offeredAlternatives(const std::vector<ChoiceTrial>& tr
     all.insert(chosen.begin(), chosen.end());
     const std::size_t size = answers.empty() ? 0 : answers.begin()->second.size();
     const bool arePairs =
-        !hasParts && size > 1 && size < all.size() && // as AB, BC, AC
+        !hasParts && size > 1 && size < all.size() && // pairs such as AB, BC, AC
         std::ranges::all_of(answers, [&](const auto& entry) { return entry.second.size() == size; });
     isKnown =
-        hasParts || arePairs || all.size() < 3 || // as analysis.R has it
+        hasParts || arePairs || all.size() < 3 || // the rule of analysis.R
         std::ranges::any_of(answers, [&](const auto& entry) { return entry.second.size() == all.size(); });
     for (std::size_t i = 0; i < trials.size(); ++i)
         if (!areChoicesOffered || offers[i].empty()) offers[i] = arePairs ? answers[trials[i].stimulus] : all;
@@ -317,8 +317,8 @@ std::map<SessionKey, Run> runsOf(const Run& trials) {
     return runs;
 }
 
-/// Thresholds of several people's runs, in the order of participants and runsOf(). Returns the error that all
-/// share, as a standard deviation.
+/// Thresholds of several people's runs, in the order of participants and their runs. Returns the error that
+/// all share, as a standard deviation.
 double poolThresholds(const std::map<std::string, Run>& participants,
                       std::vector<std::vector<double>>& runThresholds) {
     struct Place {

@@ -41,10 +41,10 @@ struct Moments {
         : n{values.size()} {
         for (const double v : values) mean += v / static_cast<double>(n);
         for (const double v : values) deviation += (v - mean) * (v - mean);
-        const bool isRounding = deviation <= 1e-24 * static_cast<double>(n) * mean * mean; // means of thirds
+        const bool isRounding = deviation <= 1e-24 * static_cast<double>(n) * mean * mean; // of equal values
         deviation = n > 1 && !isRounding ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
     }
-    /// Of the mean; 0 for fewer than two values.
+    /// Standard error of the mean; 0 for fewer than two values.
     double standardError() const noexcept {
         return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0;
     }
@@ -103,7 +103,7 @@ struct ChoiceTrial {
 struct ChoiceShare {
     std::string alternative;
     std::uint64_t hits = 0, trials = 0;     ///< times chosen; trials that offered it
-    std::size_t participants = 0;           ///< to whom it was offered
+    std::size_t participants = 0;           ///< number of people to whom it was offered
     double share = 0.0, median = 0.0;       ///< over the participants' shares; NaN: the offer is unknown
     std::optional<RankInterval> interval{}; ///< 95 %: of the median by ranks for six or more participants;
                                             ///< for one, Wilson's over trials
@@ -113,7 +113,7 @@ struct ChoiceSummary {
     std::string condition; ///< "all": all conditions of a session together
     std::size_t participants = 0;
     std::uint64_t trials = 0;
-    std::vector<ChoiceShare> shares; ///< by name of the alternative; of those that were offered
+    std::vector<ChoiceShare> shares; ///< shares of the offered alternatives, sorted by name
 
     const ChoiceShare* shareOf(std::string_view alternative) const noexcept {
         const auto found = std::ranges::find(shares, alternative, &ChoiceShare::alternative);

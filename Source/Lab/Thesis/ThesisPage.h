@@ -51,7 +51,7 @@ namespace physvib::thesis {
 
 /// A condition of absolute identification: 3.2.2, 4.1.2.
 struct Identification {
-    std::string_view study, condition; ///< as in our protocols
+    std::string_view study, condition; ///< names in the built-in protocols
     std::size_t stimuli = 0;
     double bits = 0.0, percentCorrect = 0.0;            ///< exact; percent 0: not printed by condition
     double bitsTolerance = 0.0, percentTolerance = 0.0; ///< one step of tolerance; 0: none
@@ -77,7 +77,7 @@ inline constexpr std::array identifications{
 /// captions are not in that order.
 struct Counts {
     std::string_view condition;
-    double deviation = 0.0;            ///< as the text has it
+    double deviation = 0.0;            ///< standard deviation in the thesis
     std::size_t columns = 0, rows = 0; ///< of the merged grid
     std::array<double, 35> percent{};
 };

@@ -14,7 +14,7 @@
 namespace physvib {
 namespace {
 
-constexpr int stepsPerSecond = 100; // as the mixer plays
+constexpr int stepsPerSecond = 100; // the step rate of the mixer
 constexpr double trialSeconds = 0.5, standardGravity = 9.81;
 // sound of a material that is in no table: dull and short, so that every actuator plays it
 constexpr double defaultHz = 165.0, defaultDecayPerSecond = 22.0;

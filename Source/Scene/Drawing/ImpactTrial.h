@@ -13,7 +13,7 @@ namespace physvib {
 /// and nothing else moves. A moving body that is alone hits a floor of its own material. Any thread.
 std::string silentBodyReason(const Scene& scene, const BodyDescription& body);
 
-/// The same for a new ball of this material (an index), which is a source as startsAsSource() says.
+/// Why a new ball of this material (an index) causes none; startsAsSource() tells if it is a source.
 std::string silentBodyReason(const Scene& scene, int material);
 
 /// Actions after which the body causes vibrations: the first material that vibrates replaces those that do

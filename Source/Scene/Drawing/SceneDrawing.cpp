@@ -94,7 +94,7 @@ std::vector<Action> SceneDrawing::undoActions(const Action& action, const Curren
         const Scene here = sceneNow(drawn_, now);
         const auto* joint = findNamed(here.joints, unjoin->joint);
         if (joint == nullptr) return {};
-        std::vector<Action> undo; // its bodies may have moved: they restart where they are now
+        std::vector<Action> undo; // bodies that have moved restart where they are now
         for (const BodyDescription& body : here.bodies)
             if ((body.name == joint->bodyA || body.name == joint->bodyB) && body != *find(body.name))
                 undo.push_back(ChangeAction{body, false});

@@ -34,7 +34,7 @@ bool affectsLaterInputs(const std::vector<LiveInput>& earlier, const Action& act
         if (input->action == action) return false;
         if (bodyAddedBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
     }
-    return isSwitch; // of the scene's own bodies, which are never removed permanently
+    return isSwitch; // the scene's own bodies are never removed permanently
 }
 
 } // namespace

@@ -33,7 +33,7 @@ private:
     bool mergeInput(const Action& action);
     void dropOldestRemovals();
 
-    Scene scene_; // with those inputs that later ones are checked against
+    Scene scene_; // includes the inputs that later ones are checked against
     std::size_t accepted_, maxInputs_;
 };
 

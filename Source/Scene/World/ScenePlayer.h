@@ -12,7 +12,7 @@ namespace physvib {
 /// One thread at a time.
 class ScenePlayer {
 public:
-    static constexpr double maxMetresPerSecond = 4.0;   ///< of the moved body
+    static constexpr double maxMetresPerSecond = 4.0;   ///< top speed of the moved body
     static constexpr double stepRadiansPerSecond = 6.0; ///< of driven wheels; each key press is a step
     static constexpr int maxSteps = 3;
 

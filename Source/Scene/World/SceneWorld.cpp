@@ -26,7 +26,7 @@ Vector rotated(const Vector& v, double angleRadians) {
 void reservePools(b2World& world, const Scene& scene) {
     auto& manager = const_cast<b2ContactManager&>(world.GetContactManager());
     const std::size_t contacts = std::min<std::size_t>(24 + scene.bodies.size(), 512);
-    constexpr int pairs = 256; // that may come near each other in one step
+    constexpr int pairs = 256; // maximum of pairs that come near each other in one step
     const auto makeBlocks = [&manager](std::size_t count, int bytes) {
         std::vector<void*> blocks(count);
         for (void*& block : blocks) block = manager.m_allocator->Allocate(bytes);

@@ -201,7 +201,7 @@ private:
 
     b2World& world_;
     const StepClock& clock_;
-    std::vector<Grip> grips_;  // in the order in which they began
+    std::vector<Grip> grips_;  // sorted by their beginning
     b2Body* ground_ = nullptr; // the other body of all mouse joints
 };
 
@@ -216,7 +216,7 @@ struct BodyPose {
 /// A joint between two present bodies, and its two points in the world: the ends of a rod, rope or spring,
 /// the ends of a slider's travel, or twice the axle of others.
 struct JointPose {
-    Joint joint; ///< as described
+    Joint joint; ///< as the scene describes it
     Vector aMetres, bMetres;
 };
 
@@ -258,7 +258,7 @@ public:
     /// Number of pairs that passed through each other because of the limit of contacts.
     std::uint64_t refusedContacts() const noexcept { return contactLimit_.refused(); }
 
-    const Scene& scene() const noexcept { return scene_; } ///< with its live inputs, but those dropped
+    const Scene& scene() const noexcept { return scene_; } ///< includes the live inputs that were not dropped
 
     /// Number of bodies so far, removed ones included; numbered as in allBodies().
     std::size_t bodyCount() const noexcept { return nextBody_; }
@@ -289,7 +289,7 @@ public:
 private:
     struct Body {
         b2Body* body;
-        std::size_t firstFixture; // its number
+        std::size_t firstFixture; // number of its first fixture
         std::vector<b2Fixture*> fixtures;
         BodyDescription described;
         BodyDescription current; // with the present materials and source flags

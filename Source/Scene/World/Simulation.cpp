@@ -84,7 +84,7 @@ void Simulation::step(std::vector<CollisionEvent>& finished) {
 
 SceneEvents simulateScene(const Scene& scene, const RunSettings& settings, std::int64_t endNs,
                           const StepWatch& keepGoing) {
-    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
+    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // not owned: `scene` outlives it
     const SceneRun sceneRun{0, 0, settings.seed, shared, {}, {}};
     return simulateRuns({&sceneRun, 1}, settings, endNs, keepGoing);
 }
@@ -95,11 +95,12 @@ SceneEvents simulateRuns(std::span<const SceneRun> runs, const RunSettings& sett
     for (const SceneRun& sceneRun : runs) {
         const auto owned = std::make_unique<Simulation>(
             sceneRun.fullScene(), sceneRun.seed, settings.stepsPerSecond, settings.timing, settings.location);
-        Simulation& world = *owned; // Box2D's has 100 kB, and the stack may be small
+        Simulation& world = *owned; // on the heap: 100 kB are too much for a small stack
         const bool isLast = &sceneRun == &runs.back();
         std::int64_t originNs = sceneRun.startNs;
         StallReader stalls{sceneRun.stalls};
-        if (keepGoing && !keepGoing(originNs)) return result; // building a world takes time, too
+        if (keepGoing && !keepGoing(originNs))
+            return result; // asked before the first step, as building takes time
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < sceneRun.worldEndNs) {
             originNs += stalls.delayNsBefore(world.timeNs());
             const std::size_t before = result.events.size();
@@ -178,7 +179,7 @@ void followRuns(std::span<const SceneRun> runs, const RunSettings& settings, std
 
 void followPoses(const Scene& scene, const RunSettings& settings, std::int64_t everyNs, std::int64_t endNs,
                  const PoseWatch& watch) {
-    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
+    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // not owned: `scene` outlives it
     const SceneRun sceneRun{0, 0, settings.seed, shared, {}, {}};
     followRuns(
         {&sceneRun, 1}, settings, 0, everyNs, endNs,

@@ -61,9 +61,8 @@ public:
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::vector<JointPose> jointPoses() const { return world_.jointPoses(); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
+    /// Calls `use` with number and pose of every body in Box2D's world, in the order of their numbers.
     template <class Use>
-    /// See SceneWorld.
-    /// See SceneWorld.
     void forEachBody(Use use) const {
         world_.forEachBody(use);
     }
@@ -100,7 +99,7 @@ struct RunSettings {
 struct SceneEvents {
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;
-    ContactCounts counts{}; ///< of all scene runs
+    ContactCounts counts{}; ///< sums over all scene runs
 };
 
 /// Called with the session time before the first step of a scene run and after each step; false stops.
