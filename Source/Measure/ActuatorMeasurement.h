@@ -25,8 +25,7 @@ struct MeasuredActuator {
     Resonator resonator;
     double gain = 0.0;          ///< recorded over played at the resonance; negative: inverted polarity
     double delaySeconds = 0.0;  ///< 0 to SweepSettings::tailSeconds
-    double residualShare = 0.0; ///< share of the response's energy in the band that the model does not
-                                ///< explain
+    double residualShare = 0.0; ///< share of the response's energy that the model does not explain
     double rateHz = 0.0;
 
     /// The band in which the response is within `decibels` of its peak, clipped to `swept`.

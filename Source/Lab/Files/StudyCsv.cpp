@@ -316,8 +316,7 @@ std::size_t addLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
     const auto measure = rows.requireColumn(columns.measure.substr(0, equalsAt));
     const auto level = LevelSource::findIn(rows.table(), columns.level);
     if (!level) rows.requireColumn(columns.level);
-    const bool isFactor = columns.level == "level_db" && !rows.findColumn(trialColumns::task); // not in our
-                                                                                               // files
+    const bool isFactor = columns.level == "level_db" && !rows.findColumn(trialColumns::task); // not ours
     // In our own files adaptive levels follow the answers, so they determine no function.
     const auto levelColumn = rows.findColumn("level_db");
     const bool isAdaptive =

@@ -99,8 +99,7 @@ SceneEvents simulateRuns(std::span<const SceneRun> runs, const RunSettings& sett
         const bool isLast = &sceneRun == &runs.back();
         std::int64_t originNs = sceneRun.startNs;
         StallReader stalls{sceneRun.stalls};
-        if (keepGoing && !keepGoing(originNs))
-            return result; // asked before the first step, as building takes time
+        if (keepGoing && !keepGoing(originNs)) return result; // building a world takes long
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < sceneRun.worldEndNs) {
             originNs += stalls.delayNsBefore(world.timeNs());
             const std::size_t before = result.events.size();
