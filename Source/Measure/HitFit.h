@@ -71,7 +71,7 @@ public:
     double onsetSeconds() const noexcept {
         return commonOnset_ ? commonOnset_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
     }
-    /// Length after the onset.
+    /// Length of the samples after the onset.
     double seconds() const noexcept {
         return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds();
     }

@@ -29,7 +29,7 @@ inline Peak peakAt(std::span<const double> x, std::size_t i) {
     return {static_cast<double>(i) + offset, x[i] - 0.25 * (x[i - 1] - x[i + 1]) * offset};
 }
 
-/// Any thread.
+/// True if x[i] is a local maximum. Any thread.
 inline bool isPeak(std::span<const double> x, std::size_t i) { return x[i] > x[i - 1] && x[i] >= x[i + 1]; }
 
 /// All peaks above 0. Any thread (allocates).

@@ -118,7 +118,7 @@ class SoundNames {
 public:
     SoundNames() = default;
 
-    /// Has the names of a scene's materials.
+    /// Begins with the names of a scene's materials.
     template <class Materials>
     explicit SoundNames(const Materials& materials) {
         addAll(materials);

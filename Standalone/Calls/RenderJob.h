@@ -78,7 +78,7 @@ struct RenderJob {
     int contactSoundChannels = 1; ///< of `render`; 2: left and right, by the impact's place in the field
     std::string marker; ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
     MarkedOnsets markedOnsets = MarkedOnsets::all;
-    std::string actuator = "none";               ///< or "layout", a profile's name, a profile's path
+    std::string actuator = "none";               ///< "none", "layout", a profile's name or its path
     bool isEqualised = true, isRemapped = false; ///< effective with an actuator
     bool explains = false; ///< print which contacts of the scene became events, and why others did not
     std::string coupling;  ///< path of a measured coupling to compensate; empty: none
@@ -95,7 +95,7 @@ struct RenderJob {
     std::vector<std::string> writtenPaths() const {
         return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker};
     }
-    /// nullopt: no markers.
+    /// The onsets to be marked; nullopt: no markers.
     std::optional<MarkedOnsets> marks() const {
         return marker.empty() ? std::nullopt : std::optional{markedOnsets};
     }

@@ -41,7 +41,7 @@ struct Option {
     std::vector<std::string> choices;                 ///< all valid values, or some built-in ones
     std::vector<std::pair<std::string, int>> numbers; ///< words and numbers of a function target
     std::string replacement; ///< for a deprecated option, printed once on stderr; empty: not deprecated
-    double minValue = 0.0, maxValue = 0.0; ///< of a range, inclusive
+    double minValue = 0.0, maxValue = 0.0; ///< limits of a range, inclusive
     enum class Check { none, range, positive, choice, number, folder, ending } check = Check::none;
     bool isPositional = false, isRequired = false, isOutputFile = false, isSingle = false;
     int maxValues = 0; ///< maximum number of comma-separated values in one argument; 0: not separated
@@ -61,7 +61,7 @@ struct Option {
     Option& single() { return isSingle = true, *this; }      ///< may be repeated, with one value each time
     Option& separated(int max) { return maxValues = max, *this; }
     Option& existingFolder() { return range = "DIR", check = Check::folder, *this; }
-    /// Its value must be finite and above 0.
+    /// Restricts the value to finite numbers above 0.
     Option& positive() { return range = "POSITIVE", check = Check::positive, hideDefault(); }
     Option& oneOf(std::vector<std::string> words);
     Option& numbered(std::vector<std::pair<std::string, int>> words); ///< for a function target

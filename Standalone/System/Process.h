@@ -97,8 +97,8 @@ void endNonBlockingOutput();
 class OutputWriter {
 public:
     static constexpr std::size_t maxQueuedBytes = 1 << 18;         ///< maximum of queued bytes per stream
-    static constexpr std::chrono::milliseconds finishTimeout{250}; ///< per stream, at the end
-    /// Same interface as writeSome().
+    static constexpr std::chrono::milliseconds finishTimeout{250}; ///< longest wait of finish() per stream
+    /// A function that writes text, with the contract of writeSome().
     using Sink = std::function<std::optional<std::size_t>(Standard, std::string_view)>;
 
     explicit OutputWriter(Sink sink = writeSome);

@@ -103,7 +103,7 @@ double textWidth(std::string_view text, double size) noexcept;
 /// time.
 class Svg {
 public:
-    /// Begins with the frame's title at the top.
+    /// Begins a drawing with the frame's title at its top.
     Svg(ChartFrame frame, double width, double height);
 
     void line(ChartPoint from, ChartPoint to, Stroke stroke = {});
@@ -114,7 +114,7 @@ public:
     void ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
                  Stroke stroke = {});
     void text(ChartPoint point, std::string_view label, TextStyle style = {});
-    /// Filled in the series' colour and hatch.
+    /// Draws a bar with the series' colour and hatch.
     void bar(ChartPoint corner, double width, double height, std::size_t series);
     /// Draws the series' symbol: circle, square, triangle...
     void marker(ChartPoint point, std::size_t series, double radius = 4.0);

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// Common to every chart.
+/// Name and title, which every chart has.
 struct ChartFrame {
     std::string name;  ///< letters, digits, -; unique on the page
     std::string title; ///< describes the chart

@@ -78,14 +78,14 @@ struct OneBased {
     int write(int value) const { return value + 1; }
 };
 
-/// An enumeration, by the names of its values.
+/// Kind of an enumeration, which files name by `names`.
 struct OneOf {
     std::span<const std::string_view> names;
     std::size_t operator()(const auto& json) const { return json.oneOf(names); }
     auto write(auto value) const { return names[static_cast<std::size_t>(value)]; }
 };
 
-/// A struct by its own table.
+/// Kind of a struct that has a table of its own.
 template <class T>
 struct Object {
     T operator()(const auto& json) const {
@@ -96,7 +96,7 @@ struct Object {
     auto write(const T& object) const { return writeTable(object); }
 };
 
-/// A list of structs by their table.
+/// Kind of a list of structs that have a table.
 template <class T>
 struct Objects {
     std::size_t max = std::numeric_limits<std::size_t>::max();

@@ -38,7 +38,7 @@ protected:
     ~SoundReceiver() = default;
 };
 
-/// Stores the whole sound.
+/// A receiver that stores the whole sound.
 class SoundBuffer final : public SoundReceiver {
 public:
     std::string begin(const SoundFormat& format) override;

@@ -84,7 +84,7 @@ public:
         appendNumber(text_, number);
         return *this;
     }
-    /// An empty cell for nullopt.
+    /// Appends a number, or an empty cell for nullopt.
     ExportTable& cell(const std::optional<double>& number) {
         return number ? cell(*number) : cell(std::string_view{});
     }

@@ -31,9 +31,9 @@ enum class ThesisEdit {
 /// Property of a hit, pulse or phantom that a deviation changes; Tests/Thesis checks that no other changes.
 enum class HitProperty { none, amplitude, duration, frequency, decay, gains, limiter, guard };
 
-/// One deviation of one protocol.
+/// A deviation of a built-in protocol from the thesis.
 struct ThesisDeviation {
-    std::string_view protocol;   ///< its name
+    std::string_view protocol;   ///< name of the protocol
     std::string_view section;    ///< section of the thesis
     std::string_view inThesis;   ///< procedure in the thesis
     std::string_view inProtocol; ///< procedure in the protocol

@@ -18,7 +18,7 @@ inline constexpr const char* testsTable = "tests.csv";
 /// Tables of paired stimuli: mean scores as a matrix, and their map by multidimensional scaling.
 inline constexpr const char *pairsTable = "similarity.csv", *mapTable = "mds.csv";
 
-/// Files by name.
+/// Contents of files by their names.
 using StudyFiles = std::map<std::string, std::string>;
 
 /// Runs the script among the files of a report, and returns the files it wrote, or an error line.

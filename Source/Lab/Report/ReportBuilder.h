@@ -28,7 +28,7 @@ public:
     void addSubheading(std::string_view words) { addElement("h3", words); }
     void addParagraph(std::string_view words) { addElement("p", words); }
     void addNotes(const std::vector<std::string>& lines); ///< shows all lines in one box
-    /// A warning, or why something is missing.
+    /// Adds a warning, or a note on why something is missing.
     void addNote(std::string_view words) { addNotes({std::string(words)}); }
     void addPreformatted(std::string_view words); ///< preformatted text, as `analyse` prints it
     void addList(const std::vector<std::string>& items) {
@@ -40,7 +40,7 @@ public:
     /// folded table opens on a click and is not printed.
     void addTable(std::string_view csv, std::string_view file, std::size_t maxRows = 60,
                   bool isFolded = false);
-    /// Charts side by side with one caption.
+    /// Adds charts side by side with one caption.
     void addFigure(const std::vector<std::string>& svgs, std::string_view caption);
 
     std::string html() const;

@@ -136,7 +136,7 @@ struct IsolationStudy {
     std::vector<IsolationResult> results; ///< sorted: material, softener, thickness, axis, voltage, frequency
 };
 
-/// Any thread (allocates).
+/// Attenuations (Eq. 3.2) of all layers by drive. Any thread (allocates).
 IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measurements);
 
 } // namespace physvib

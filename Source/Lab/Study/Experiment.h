@@ -171,21 +171,21 @@ private:
 /// A participant, without personal data: a code, and a number that selects the row of the Latin squares.
 struct Participant {
     std::string code = "P01";
-    int number = 1;                  ///< from 1; selects orders
-    std::string observer = "person"; ///< "simulated-..." for a simulated one
+    int number = 1;                  ///< number from 1, which selects orders
+    std::string observer = "person"; ///< "simulated-..." for a simulated observer
 };
 
 struct Trial {
     std::size_t condition = 0, session = 0; ///< indices into the protocol
-    int number = 0;                         ///< within its session, from 1
+    int number = 0;                         ///< number within its session, from 1
     StudyTask task = StudyTask::identify;
     std::string stimulus;             ///< label; empty while exploring
     std::vector<std::string> parts;   ///< played separately: alternatives as their buttons, or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
     double roveDb = 0.0;              ///< offset of the roving variable; 0 if there is none
     double levelDb = 0.0;             ///< level of the adapted, adjusted or matched alternative; else 0
-    std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
-    double breakSeconds = 0.0;        ///< break before it
+    std::size_t staircase = 0;        ///< its number from 1, where several are mixed; else 0
+    double breakSeconds = 0.0;        ///< break before this trial
 };
 
 /// Settings of the apparatus in a trial. They must be the same in all trials of a participant.
@@ -209,7 +209,7 @@ struct Answer {
     double value = 0.0;                      ///< adjust: dB; estimate: minEstimate to maxEstimate
     bool timedOut = false;                   ///< the time for an answer was over; there is no answer
     int plays = 1;                           ///< number of plays
-    double seconds = 0.0;                    ///< from the first play to the answer
+    double seconds = 0.0;                    ///< time from the first play to the answer
     std::vector<PlayedLevel> playedLevels{}; ///< output level of each part in its last play; empty if no
                                              ///< device was used
     std::optional<Apparatus> apparatus{};    ///< none if no device was used
@@ -289,7 +289,7 @@ public:
     int plays() const noexcept;
     int revokedPlays() const noexcept { return revokedPlays_; } ///< plays that were lost
     int plays(std::size_t part) const noexcept { return parts_[part].plays; }
-    double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< time with it
+    double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< time with `part`
 
 private:
     struct Part {

@@ -30,10 +30,10 @@ struct GridCell {
 /// Parses "2,5" as row 2, column 5; nullopt for any other text. Any thread.
 std::optional<GridCell> parseGridCell(std::string_view label) noexcept;
 
-/// "row,column". Any thread.
+/// The label "row,column", which parseGridCell() reads. Any thread.
 std::string gridLabel(const GridCell& cell);
 
-/// |rows apart| + |columns apart|. Any thread.
+/// Sum of the distances in rows and in columns. Any thread.
 int manhattanDistance(const GridCell& a, const GridCell& b) noexcept;
 
 /// Counts of trials. Rows are the presented stimuli. Columns are the same labels in the same order, then the

@@ -60,7 +60,7 @@ struct ConditionResolution {
     PerceptualResolution resolution;
 };
 
-/// Any thread (allocates).
+/// Computes all results of a condition from its trials. Any thread (allocates).
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);
 

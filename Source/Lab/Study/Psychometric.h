@@ -28,7 +28,7 @@ struct PsychometricFunction {
     double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0
     double guess = 0.0, lapse = 0.0;     ///< guess: 1 / alternatives of a forced choice, else the lapse rate
 
-    /// Any thread.
+    /// Probability of the answer at that level. Any thread.
     double probability(double level) const noexcept;
     double levelAt(double probability) const; ///< inverse, for one between guess and 1 - lapse
     /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
@@ -97,7 +97,7 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
 struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
-    /// For countByLevel().
+    /// Level and answer, as countByLevel() needs them.
     std::pair<double, bool> levelAndHit() const noexcept { return {level, answer > 0.5}; }
 };
 

@@ -12,7 +12,7 @@ namespace physvib {
 struct ObserverSettings {
     std::string name = "simulated";
     double placeBlur = 0.15;             ///< standard deviation, share of the field's width and height
-    double centralTendency = 0.0;        ///< of places, as a share of their distance from the centre
+    double centralTendency = 0.0;        ///< shift of places to the centre, as a share of their distance
     double offsetX = 0.0, offsetY = 0.0; ///< constant localisation error, as shares of the field
     double pulsePlaceConfusion = 0.01;   ///< probability that a pulse is felt at another actuator
     double durationConfusion = 0.03;     ///< probability that a pattern's duration is confused with another
@@ -20,13 +20,13 @@ struct ObserverSettings {
     double firstAlternativePreference = 0.59;   ///< probability, for alternatives at equal levels
     double levelNoiseDb = 2.0;                  ///< standard deviation of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings
-    /// added for AV, FV, DRV (thesis 5.3.2)
+    /// Scores added for the methods AV, FV and DRV (thesis 5.3.2).
     double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0;
     double ringBlur = 0.0; ///< placeBlur for layouts whose name begins with ring; 0: use placeBlur
     // Standard deviations between participants; 0: no differences.
-    double blurSpread = 0.0; ///< of the natural logarithm of each blur, independently
+    double blurSpread = 0.0; ///< spread of the natural logarithm of each blur, independently
     double preferenceSpread = 0.0;
-    double amplitudeSpread = 0.0, frequencySpread = 0.0, decaySpread = 0.0; ///< of the scores
+    double amplitudeSpread = 0.0, frequencySpread = 0.0, decaySpread = 0.0; ///< spreads of the scores
 };
 
 /// Names that observerNamed() accepts.
@@ -40,7 +40,7 @@ std::optional<ObserverSettings> observerNamed(std::string_view name);
 /// Answers depend only on seed, participant and trial: also when a study resumes. Message thread only.
 class SimulatedObserver {
 public:
-    /// `protocol` outlives the observer.
+    /// `protocol` must outlive the observer.
     SimulatedObserver(ObserverSettings settings, const Protocol& protocol, const Participant& participant);
 
     /// The answer to the experiment's current trial. Precondition: the experiment is not done.

@@ -69,7 +69,7 @@ struct OrderBalance {
     }
 };
 
-/// Any thread (allocates).
+/// Counts positions and successions of conditions. Any thread (allocates).
 OrderBalance orderBalance(const Protocol& protocol, int participants);
 
 } // namespace physvib

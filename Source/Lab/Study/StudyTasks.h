@@ -34,7 +34,7 @@ struct TaskText {
     std::string_view standard, forGrid{}, forPatterns{};
 };
 
-/// An entry of the table.
+/// An entry of the table of tasks.
 struct StudyTaskDescription {
     StudyTask task;        ///< its number is its index in the table
     std::string_view name; ///< in protocols and trial files; never changes

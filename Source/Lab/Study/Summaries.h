@@ -36,7 +36,7 @@ struct Moments {
     std::size_t n = 0;
     double mean = 0.0;
     double deviation = 0.0; ///< sample standard deviation; 0 for fewer than two values
-    /// Any thread.
+    /// Moments of these values. Any thread.
     explicit Moments(std::span<const double> values) noexcept
         : n{values.size()} {
         for (const double v : values) mean += v / static_cast<double>(n);
@@ -67,14 +67,14 @@ std::vector<std::pair<std::string, std::vector<Trial>>> groupByParticipant(const
     return groups;
 }
 
-/// Share of trials.
+/// Share of trials, with its confidence interval.
 struct Proportion {
     std::uint64_t hits = 0, trials = 0;
     double share = 0.0;              ///< hits / trials; 0 without a trial
     double lower = 0.0, upper = 1.0; ///< 95 % confidence interval (Wilson 1927), assuming independent trials
 };
 
-/// `hits` <= `trials`. Any thread.
+/// The share of `hits` (<= `trials`) in `trials`. Any thread.
 inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept {
     Proportion result{hits, trials};
     if (trials == 0) return result;

@@ -44,7 +44,7 @@ public:
     const BodyDescription* find(std::string_view body) const noexcept; ///< in drawn(); nullptr: none
     /// "ball 1", "ball 2"...: the first name that was never used.
     std::string unusedName(const std::string& stem) const { return unusedNames(stem, 1).front(); }
-    /// The first `count` such names.
+    /// The first `count` names with this stem that were never used.
     std::vector<std::string> unusedNames(const std::string& stem, std::size_t count) const;
 
 private:

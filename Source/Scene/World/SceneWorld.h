@@ -79,8 +79,8 @@ private:
         std::int64_t step;
         DueAction due;
     };
-    std::int64_t periodSteps_;   // 0: does not repeat
-    std::vector<Entry> entries_; // by step
+    std::int64_t periodSteps_;   // 0: the script does not repeat
+    std::vector<Entry> entries_; // sorted by step
     std::int64_t periodStart_ = 0;
     std::size_t next_ = 0;
 };
@@ -135,7 +135,7 @@ public:
         , clock_(clock) {
         grips_.reserve(reservedGrips);
     }
-    static constexpr std::size_t reservedGrips = 8; ///< number without allocation
+    static constexpr std::size_t reservedGrips = 8; ///< number of grips for which memory is reserved
 
     /// Begins, changes or ends the grip on the body; the hand moves from `step` on.
     void apply(b2Body& body, const GripAction& action, std::int64_t step) {
@@ -224,7 +224,7 @@ struct JointPose {
 JointPose jointPose(const JointDescription& joint);
 
 struct WorldPoses {
-    std::vector<BodyPose> bodies; ///< of allBodies()
+    std::vector<BodyPose> bodies; ///< in the order of allBodies()
     std::vector<JointPose> joints;
 };
 
