@@ -82,7 +82,7 @@ std::string checkTotals(const Scene& scene) {
         if (body == nullptr) continue;
         totals.add(*body);
         const auto [present, isNew] = spawned.emplace(body->name, body);
-        if (!isNew) totals.remove(*std::exchange(present->second, body)); // replaced
+        if (!isNew) totals.remove(*std::exchange(present->second, body)); // a later body replaces it
         error = totals.error();
     }
     return error;

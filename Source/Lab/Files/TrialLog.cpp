@@ -312,7 +312,7 @@ void StudyBreakState::apply(const StudyEvent& entry) noexcept {
     namespace events = studyEvents;
     if (entry.event == events::breakStart) isOnBreak = true;
     if (entry.event == events::end || (entry.event == events::goOn && !isPaused)) isOnBreak = false;
-    isPaused = entry.event == events::pause; // which go-on and resume end
+    isPaused = entry.event == events::pause; // a pause ends by go-on or resume
 }
 
 std::filesystem::path timesPathOf(const std::filesystem::path& trialFile) {

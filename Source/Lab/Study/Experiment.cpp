@@ -321,7 +321,7 @@ std::vector<TrialJob> trialJobs(const Protocol& protocol, const TrialRecord& rec
             condition.stimuli));
     };
     const bool hasModulus = !session.modulus.empty() && record.trial.parts.size() == 2;
-    if (hasModulus || (session.comparesPairs && !record.trial.parts.empty())) { // parts are stimuli
+    if (hasModulus || (session.comparesPairs && !record.trial.parts.empty())) { // the parts are stimuli
         TrialRecord partRecord = record;
         for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
             partRecord.trial.stimulus = !hasModulus ? record.trial.parts[i]

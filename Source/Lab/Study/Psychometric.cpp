@@ -137,7 +137,7 @@ std::string countsError(std::span<const LevelCount> counts) {
     return {};
 }
 
-constexpr double likelihoodTolerance = 0.01; // of the log-likelihood
+constexpr double likelihoodTolerance = 0.01; // tolerance of the log-likelihood
 
 /// Maximum-likelihood lapse rate of a step at `level`, from the answers on both sides.
 double stepLapseRate(std::span<const LevelCount> counts, const PsychometricModel& model, double level,
@@ -174,7 +174,7 @@ std::optional<std::pair<double, double>> stepThresholdRange(std::span<const Leve
                     if (logLikelihood(counts, step) > maxLog - likelihoodTolerance)
                         thresholds.push_back(step.threshold);
                 }
-        if (thresholds.empty()) return {}; // no step
+        if (thresholds.empty()) return {}; // no step fits
     }
     const auto [low, high] = std::ranges::minmax(thresholds);
     const double middle = std::midpoint(low, high);
@@ -240,7 +240,7 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     std::vector<Point> maxima;
     for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
         maxima.push_back(nelderMead(likelihood, bestOfGrid(likelihood, width)));
-    const Point best = nelderMead(likelihood, std::ranges::min(maxima, {}, likelihood)); // step 3
+    const Point best = nelderMead(likelihood, std::ranges::min(maxima, {}, likelihood)); // step 3, see above
     PsychometricFunction found = likelihood.function(best);
     const double maxLog = -likelihood(best);
     const auto steps = stepThresholdRange(counts, model, found, maxLog);

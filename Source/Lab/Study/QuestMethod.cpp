@@ -170,7 +170,7 @@ namespace {
 
 constexpr int pooledWidths = 25; // in equal ratios: finer than the prior of a run, since all
                                  // runs together tell it well
-constexpr std::array<double, 2> widthSpreads{0.15, 0.3}; // of ln(width) over people
+constexpr std::array<double, 2> widthSpreads{0.15, 0.3}; // standard deviations of ln(width) over people
 
 using ByWidth = std::array<double, pooledWidths>;
 
@@ -234,7 +234,7 @@ PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::ve
     for (const auto& run : runs) runsByWidth.push_back(byWidth(plan, widthGrid, run));
     const std::vector<ByWidth> populations = widthPopulations(widthGrid);
     std::vector<double> populationWeights;
-    std::vector<std::vector<double>> thresholds; // by population and run
+    std::vector<std::vector<double>> thresholds; // [population][run]
     for (const ByWidth& shares : populations) {
         double logs = 0.0;
         auto& runThresholds = thresholds.emplace_back();

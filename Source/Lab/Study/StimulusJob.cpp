@@ -76,7 +76,7 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
     Complex squares;
     for (std::size_t k = 0; k < 8; ++k)
         for (std::size_t j = 0; j < 8; ++j) {
-            const Complex sum = poles[k] + poles[j]; // 0 of a tone that does not decay
+            const Complex sum = poles[k] + poles[j]; // 0 if the tone does not decay
             squares += residues[k] * residues[j] *
                        (sum == 0.0 ? seconds : (portable::exp(sum * seconds) - 1.0) / sum);
         }

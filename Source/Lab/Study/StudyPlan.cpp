@@ -11,7 +11,7 @@
 namespace physvib {
 namespace {
 
-using Levels = std::set<double>; // in dB
+using Levels = std::set<double>; // levels in dB
 
 /// maxPlannedLevels + 1 levels from `minDb` to `maxDb`, evenly spread.
 Levels spread(double minDb, double maxDb) {

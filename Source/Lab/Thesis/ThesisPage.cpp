@@ -13,11 +13,11 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedThesis(); // Source/Lab/Thesis
+const std::vector<EmbeddedFile>& embeddedThesis(); // files of Source/Lab/Thesis
 
 namespace {
 
-const EmbeddedFile& thesisFile(std::string_view name) { // precondition: it is there
+const EmbeddedFile& thesisFile(std::string_view name) { // precondition: the file exists
     return *std::ranges::find(embeddedThesis(), name, &EmbeddedFile::name);
 }
 

@@ -262,7 +262,7 @@ b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
     case e_wheelJoint: return recreateJoint<b2WheelJoint, b2WheelJointDef>(world, joint, from, to);
     case e_distanceJoint: return recreateJoint<b2DistanceJoint, b2DistanceJointDef>(world, joint, from, to);
     case e_weldJoint: return recreateJoint<b2WeldJoint, b2WeldJointDef>(world, joint, from, to);
-    default: // there are no others in a scene
+    default: // the only other type of joint in a scene
         return recreateJoint<b2PrismaticJoint, b2PrismaticJointDef>(world, joint, from, to);
     }
 }

@@ -157,7 +157,7 @@ void SceneWorld::addInput(std::int64_t step, Action action) {
 
 void SceneWorld::dropExecutedInputs() {
     if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0)
-        return; // so that each is moved once on average
+        return; // so that each input is moved once on average
     scene_.inputs.erase(scene_.inputs.begin(),
                         scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
     nextInput_ = 0;
@@ -234,7 +234,7 @@ void SceneWorld::restart(const SpawnAction& action, int repetition) {
         setMaterial(body, i, body.described.fixtures[i].material);
         body.current.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
     }
-    grips_.release(*body.body); // because it restarts
+    grips_.release(*body.body); // because the body restarts
     restartBody(*body.body, body.described, startOf(body.described));
     delayHalfAStep(*body.body);
 }
