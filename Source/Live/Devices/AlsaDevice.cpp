@@ -291,8 +291,6 @@ void AlsaDevice::run() noexcept {
     }
 }
 
-// Reads ALSA's list of devices.
-
 std::string AlsaDriver::hintValue(const void* hint, const char* kind) const {
     char* const text = alsa_.device_name_get_hint(hint, kind);
     std::string found = text != nullptr ? text : "";
