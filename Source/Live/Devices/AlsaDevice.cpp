@@ -178,8 +178,6 @@ AlsaPcm::Transfer AlsaPcm::transfer(float* samples, int frames, int& done) noexc
     return Transfer::none;
 }
 
-// Loads all of ALSA's functions, or none.
-
 const AlsaLibrary* alsaLibrary() {
     static const std::optional<AlsaLibrary> loaded = loadAlsa();
     return loaded ? &*loaded : nullptr;

@@ -129,8 +129,6 @@ int JackDevice::deviceLatencyFrames() {
     return static_cast<int>(maxFrames);
 }
 
-// Loads all of JACK's functions, or none.
-
 namespace {
 
 std::optional<JackLibrary> loadJack() {

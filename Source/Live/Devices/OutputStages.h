@@ -105,7 +105,7 @@ private:
 
 class OnOffMotors {
 public:
-    /// `enchanters` from 0. M, while R does not run.
+    /// Sets which `enchanters` (from 0) are such motors. M, while R does not run.
     void prepare(const std::vector<int>& enchanters, int sampleRateHz, double threshold) {
         motors_.clear();
         for (const int j : enchanters)

@@ -167,6 +167,7 @@ struct OutputMoment {
     int sampleRateHz = 0;   ///< of the block
 };
 
+/// Time, master level and silence of an output device, for the sinks that follow it.
 class OutputClock {
 public:
     /// While `isEnded` (may be null; outlives this object) is true, the output is silent. Message thread (M).

@@ -40,6 +40,7 @@ struct SinkState {
     bool playsClips = true; ///< plays clips and recordings
 };
 
+/// An output beside the device. By default its methods do nothing.
 class Sink {
 public:
     virtual ~Sink() = default;

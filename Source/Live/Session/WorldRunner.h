@@ -119,7 +119,7 @@ public:
     std::size_t size() const noexcept { return waiting_.size(); }
 
 private:
-    std::deque<CollisionEvent> waiting_; // in time order; most come at the end, all go at the front
+    std::deque<CollisionEvent> waiting_; // in time order; most are added at the end, all leave at the front
 };
 
 /// The part of a session that steps the world and queues its events. Its mutex is the world mutex.
