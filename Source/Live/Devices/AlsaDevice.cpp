@@ -178,8 +178,6 @@ AlsaPcm::Transfer AlsaPcm::transfer(float* samples, int frames, int& done) noexc
     return Transfer::none;
 }
 
-// Loads all of ALSA's functions, or none.
-
 const AlsaLibrary* alsaLibrary() {
     static const std::optional<AlsaLibrary> loaded = loadAlsa();
     return loaded ? &*loaded : nullptr;
@@ -290,8 +288,6 @@ void AlsaDevice::run() noexcept {
         if (!transferAll(out_)) return;
     }
 }
-
-// Reads ALSA's list of devices.
 
 std::string AlsaDriver::hintValue(const void* hint, const char* kind) const {
     char* const text = alsa_.device_name_get_hint(hint, kind);

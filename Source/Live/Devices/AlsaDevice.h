@@ -110,8 +110,8 @@ public:
     int outputs() override { return outputRange_.maxChannels; }
     int inputs() override { return inputRange_.maxChannels; }
     int defaultBlockFrames() override { return 512; }
-    /// Channels below the highest wanted one are opened, because ALSA opens only so many from the first on;
-    /// those that are not wanted are silent.
+    /// ALSA opens the first n channels of a device, so all up to the highest requested one are opened; those
+    /// that were not requested are silent.
     std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
                      int blockFrames) override;
     void close() override;

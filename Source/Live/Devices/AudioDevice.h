@@ -53,7 +53,7 @@ public:
     /// When it returns, no block is being rendered and none will be.
     virtual void stop() = 0;
 
-    /// The next five describe the device while it is open.
+    /// The methods up to xruns() describe the device while it is open.
     virtual int sampleRateHz() = 0;
     virtual int blockFrames() = 0;                ///< nominal length of a block
     virtual ChannelSet activeOutputs() const = 0; ///< those of processBlock(); empty: none is connected
@@ -77,7 +77,7 @@ public:
 /// Creates the drivers to search; they have not been scanned yet.
 using AudioDrivers = std::function<std::vector<std::unique_ptr<AudioDriver>>()>;
 
-// Forwards the blocks of a device to its user, and can be detached without a lock in the render thread.
+// Forwards the blocks of a device to a callback, which can be detached without a lock in the render thread.
 
 class CallbackSlot {
 public:
@@ -91,7 +91,7 @@ public:
         callback_ = &callback;
     }
 
-    /// Returns the user, if any, when the render thread has left its last block. M.
+    /// Detaches the callback and returns it, if any, when the render thread has left its last block. M.
     AudioDeviceCallback* end() noexcept {
         AudioDeviceCallback* const callback = callback_.exchange(nullptr);
         awaitBlock();
@@ -103,7 +103,7 @@ public:
         while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
     }
 
-    /// Calls `function` with the user, or null if the device is not started; end() waits for this call.
+    /// Calls `function` with the callback, or null if the device is not started; end() waits for this call.
     /// R, wait-free if `function` is.
     template <class Function>
     void call(const Function& function) {
@@ -181,7 +181,7 @@ public:
     void begin(std::function<void()> call);
 
     using Clock = std::chrono::steady_clock;
-    /// Whether the call has finished; waits until `end`, or until `cancel` (may be null) is true.
+    /// Waits for the call until `end`, or until `cancel` (may be null) is true. True: it has finished.
     bool isOver(Clock::time_point end = {}, const std::atomic<bool>* cancel = nullptr);
 
     /// Allows another call to start; a call that has not finished goes on in its thread, which is detached.

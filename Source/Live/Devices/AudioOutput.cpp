@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
 constexpr DeviceSession::Limit openLimit = 10s;    // time limit for a device that a user opens
-constexpr DeviceSession::Limit retryLimit = 500ms; // a driver that takes longer is tried again a second later
+constexpr DeviceSession::Limit retryLimit = 500ms; // a slower driver is tried again a second later
 constexpr DeviceSession::Limit closeLimit = 400ms; // a JACK client aborted here keeps its server busy
 constexpr auto firstBlockLimit = 1s;               // time for a newly opened device to ask for a block
 constexpr std::chrono::milliseconds minFade = 100ms, maxFade = 400ms; // limits of three blocks' time

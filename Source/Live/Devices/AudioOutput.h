@@ -92,7 +92,7 @@ public:
     void alignBinsTo(std::int64_t fromNs, std::int64_t untilNs) noexcept {
         receipts_.alignBinsTo(fromNs, untilNs);
     }
-    /// Any thread.
+    /// Playing time and peak of an actuator. Any thread.
     Receipts::Total outputTotal(int actuator) const noexcept { return receipts_.total(actuator); }
     /// Whether a device is open and asks for blocks without a pause of more than three blocks and 100 ms.
     /// Pauses of a device that discards its samples do not count. Any thread.

@@ -22,7 +22,7 @@ public:
 
     /// Detaches the owner and returns when the render thread has left it. M, not from within a driver's call.
     void detach() noexcept { owner_.end(); }
-    /// See CallbackSlot.
+    /// See CallbackSlot::awaitBlock().
     void awaitBlock() const noexcept { owner_.awaitBlock(); }
 
 private:

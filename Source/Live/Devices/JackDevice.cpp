@@ -85,7 +85,7 @@ bool JackDevice::isOpen() {
 void JackDevice::start(AudioDeviceCallback& callback) {
     if (!isOpen_ || !isAlive()) return;
     if (const auto held = stream_->client.lockBriefly()) {
-        stream_->in.active = connectedPorts(stream_->in); // the render thread reads it once the user is there
+        stream_->in.active = connectedPorts(stream_->in); // the render thread reads it once a callback is set
         stream_->out.active = connectedPorts(stream_->out);
     }
     stream_->slot.begin(*this, callback);
@@ -128,8 +128,6 @@ int JackDevice::deviceLatencyFrames() {
     }
     return static_cast<int>(maxFrames);
 }
-
-// Loads all of JACK's functions, or none.
 
 namespace {
 
@@ -237,8 +235,6 @@ std::vector<std::string> JackClient::portsOf(const std::string& owner, JackPortF
     std::erase_if(names, [&](const std::string& name) { return !name.starts_with(owner + ":"); });
     return names;
 }
-
-// Lists JACK's clients by their ports.
 
 void JackDriver::scan() {
     inputs_.clear();

@@ -168,9 +168,9 @@ public:
                      int blockFrames) override;
     void close() override;
 
-    /// Also follows the server's connections: if others have connected or disconnected outputs, the user is
-    /// stopped and started anew with those that are connected now. JACK reports this on a thread of its own,
-    /// where the user must not be called, so this is polled.
+    /// Also follows the server's connections: if others have connected or disconnected outputs, the callback
+    /// is stopped and started anew with those that are connected now. JACK reports this on a thread of its
+    /// own, where the callback must not be called, so this is polled.
     bool isOpen() override;
 
     void start(AudioDeviceCallback& callback) override;

@@ -34,7 +34,7 @@ public:
     /// Identifies the session that plays: 0 is the own one, n the n-th borrowed one. Any thread.
     std::uint32_t borrowNumber() const noexcept { return isPlayingBorrowed() ? borrowCount_.load() : 0; }
 
-    /// Sample rate and block size; 0 until a device has run. M and R, as the next one.
+    /// Sample rate and block size; 0 until a device has run. M and R, as blockFrames().
     int sampleRateHz() const noexcept { return rateHz_; }
     int blockFrames() const noexcept { return blockFrames_; }
     /// Buffers of blockFrames() frames for each output of the own session.
@@ -105,7 +105,7 @@ private:
 
 class OnOffMotors {
 public:
-    /// `enchanters` from 0. M, while R does not run.
+    /// Sets which `enchanters` (from 0) are such motors. M, while R does not run.
     void prepare(const std::vector<int>& enchanters, int sampleRateHz, double threshold) {
         motors_.clear();
         for (const int j : enchanters)

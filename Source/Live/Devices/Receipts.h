@@ -21,7 +21,7 @@ struct Receipt {
     bool isOver = false;    ///< false: the device has not asked for the end of the span yet
     bool isInMemory = true; ///< false: the span is too old, and parts of it are unknown
     std::int64_t endNs = 0; ///< end of the last frame that left: start of a span that continues this one
-    std::uint32_t opening = 0; ///< number of the last opening in the span; 0: no frame was sent
+    std::uint32_t opening = 0; ///< number of the last device start in the span; 0: no frame was sent
 };
 
 /// A ring of 10 ms bins that covers the newest minute, for one writer and any number of readers. The
@@ -33,7 +33,7 @@ public:
 
     explicit Receipts(int actuators);
 
-    /// The device starts, or comes back after a pause: the next frames belong to a new opening. Render thread
+    /// Call when the device starts, or returns after a pause: a new opening begins. Render thread
     /// (R), or message thread (M) while R does not run.
     void begin() noexcept PHYSVIB_NONBLOCKING { ++opening_; }
 
@@ -52,7 +52,7 @@ public:
     Receipt receiptFor(std::int64_t fromNs, std::int64_t untilNs, int actuator,
                        std::uint32_t session = 0) const noexcept;
 
-    /// An actuator's time and peak since the construction. Any thread, wait-free.
+    /// An actuator's playing time and peak since the construction. Any thread, wait-free.
     struct Total {
         double seconds = 0.0; ///< at the actuator's output
         double peak = 0.0;
@@ -107,7 +107,7 @@ private:
     std::uint32_t opening_ = 0;
     BinRange currentBin_;                                 // the bin that grows
     std::int64_t binEndFrame_ = 0;                        // frame at which it ends
-    std::int64_t alignedFromNs_ = 0, alignedUntilNs_ = 0; // expected times that binEndFrame_ respects
+    std::int64_t alignedFromNs_ = 0, alignedUntilNs_ = 0; // request that binEndFrame_ respects
     int alignedRateHz_ = 0;
     std::array<std::int64_t, 2> alignedFrames_{};
     std::array<MeasuredLanes, static_cast<std::size_t>(limits::maxActuators)> openLevels_{};

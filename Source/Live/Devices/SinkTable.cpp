@@ -24,7 +24,7 @@ std::vector<SinkUnit> listGamePads() {
     return units;
 }
 
-// USB vendor and product: Sony's DualSense and DualSense Edge; Valve's controller of 2026, by cable.
+// USB vendor and product ids of Sony's DualSense and DualSense Edge, and Valve's Steam Controller of 2026.
 constexpr std::array dualSenseModels{HidModel{0x054C, 0x0CE6, PadBus::bluetooth},
                                      HidModel{0x054C, 0x0DF2, PadBus::bluetooth}};
 constexpr std::array steamModels{HidModel{0x28DE, 0x1302, PadBus::usb}};
@@ -56,7 +56,7 @@ std::unique_ptr<Sink> makeOutput(const std::string& address, const PhantomPanner
     return std::make_unique<Output>(address, panner);
 }
 
-/// The entry of a controller with two motors or coils, which is found without a name.
+/// The entry of a controller with two motors or coils; "auto" finds the first one.
 constexpr SinkKind padKind(std::string_view name, std::string_view title, std::string_view about,
                            std::string_view settingKey, decltype(SinkKind::listUnits) listUnits,
                            decltype(SinkKind::make) make, bool acceptsRawReports = true) {

@@ -15,7 +15,7 @@ namespace physvib {
 
 /// A connected unit that a sink can play on.
 struct SinkUnit {
-    std::string address{}, about{}; ///< its address in an output name; a description for users
+    std::string address{}, about{}; ///< as in an output name; a description for users
     bool isLikely = true;           ///< known to be a unit of this kind, so the first-start dialog offers it
 };
 
@@ -39,7 +39,7 @@ struct SinkKind {
 /// All entries, in the order of lists for users. Any thread.
 std::span<const SinkKind> sinkKinds() noexcept;
 
-/// A requested sink: BOARD:auto.
+/// A requested sink, such as BOARD:auto.
 struct SinkName {
     std::string kind, address;
     bool operator==(const SinkName&) const = default;
@@ -48,8 +48,8 @@ struct SinkName {
 /// The entry of that kind, which must exist: OutputNames makes only such names. Any thread.
 const SinkKind& kindOf(const SinkName& sink) noexcept;
 
-/// Parses "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", with up to maxNamedSinks sinks. Without a device,
-/// the sinks follow the clock of the null device None.
+/// Parses "DEVICE", "KIND:ADDRESS" or "DEVICE+KIND:ADDRESS", with up to maxNamedSinks sinks. Without a
+/// device, the sinks follow the clock of the null device None.
 struct OutputNames {
     std::string device;
     std::vector<SinkName> sinks;
@@ -62,7 +62,7 @@ std::string channelCountError(const std::vector<SinkName>& sinks, int channels);
 
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
-/// Named sinks at a time. A SinkSet has as many more places, for recorder, meters and OSC.
+/// Most named sinks at once: half of a SinkSet, whose other half is for recorder, meters and OSC.
 constexpr std::size_t maxNamedSinks = SinkSet::maxSinks / 2;
 
 /// Opens all requested sinks for a session with that panner. Returns the first error. Waits for each as long

@@ -15,7 +15,7 @@
 #include <string_view>
 
 namespace physvib {
-/// All fields except scene and seed. Throws JsonError, as do all readers here.
+/// Reads a mixer state without scene and seed. Throws JsonError, as do all readers here.
 Mix readMix(const JsonField& json);
 
 std::vector<Strip> readCustom(const JsonField& list, const PerChannel<std::vector<Strip>>& kind);
@@ -52,7 +52,7 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
 });
 inline constexpr auto controlNames = namesOf(controlTable);
 
-/// Throws JsonError.
+/// Reads a panner, and its layout's names into `kind`. Throws JsonError.
 PhantomPanner readCustom(const JsonField& json, const DescribedPanner<LayoutDescription>& kind);
 OrderedJson writeCustom(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner);
 
@@ -69,7 +69,7 @@ void visitFields(auto& v, FieldsOf<WorldStall>) {
     v.field("steps", &WorldStall::steps, kinds::wholeNumber(1, 1'000'000'000), Need::optional.from(2));
 }
 
-/// A run with the scene of the run before does not repeat it. In a journal, end, inputs and stalls are later
+/// A run does not repeat the scene of the previous run. In a journal, end, inputs and stalls are later
 /// lines of their own.
 void visitRun(auto& v, bool isJournal) {
     v.field("start_s", &SceneRun::startNs, kinds::Time{});

@@ -61,7 +61,7 @@ struct InputLine : Result<LineInput> {
 /// "silence", "on": true}`.
 /// `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: values are numbers, strings, or lists of
 /// numbers or of pairs.
-/// Or one line about the first error, such as `body: ...`. Any thread.
+/// The error is one line about the first fault, such as `body: ...`. Any thread.
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels);
 
 /// Whether the text contains the word "silence", in upper or lower case. Any thread.

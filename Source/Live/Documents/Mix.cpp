@@ -14,7 +14,7 @@ double lineDb(const GainPoint& from, const GainPoint& to, double seconds) noexce
     return length > 0.0 ? from.db + (to.db - from.db) * (seconds - from.seconds) / length : to.db;
 }
 
-/// Index in from..to of the largest deviation from a straight line; `from` if none exceeds the tolerance.
+/// Index in from..to of the largest deviation from a straight line; `from` if all are within tolerance.
 std::size_t farthestPoint(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
     std::size_t found = from;
     for (std::size_t i = from + 1; i < to; ++i) {

@@ -244,9 +244,9 @@ struct DescribedPanner {
     Layout& described; ///< LayoutDescription, const for writers
 };
 template <class Layout>
-DescribedPanner(int, Layout&) -> DescribedPanner<Layout>; // Clang 14 wants it
+DescribedPanner(int, Layout&) -> DescribedPanner<Layout>; // Clang 14 does not deduce it
 
-/// Scene and seed come from the session's last scene run.
+/// Scene and seed are no fields: they come from the session's last scene run.
 void visitFields(auto& v, FieldsOf<Mix>) {
     constexpr auto dragRange = kinds::within(minDrag, maxDrag);
     v.field("layout", &Mix::layout, Custom<LayoutDescription>{});

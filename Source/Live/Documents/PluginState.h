@@ -41,7 +41,7 @@ enum class NoteKind {
 // indexed by NoteKind
 inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};
 
-/// What one MIDI note does, instead of the default mapping.
+/// What one MIDI note does instead of playing the default voice (NoteVoice).
 struct NoteRule {
     int note = 0; ///< 0 to 127
     NoteKind kind = NoteKind::strike;

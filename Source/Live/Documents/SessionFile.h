@@ -107,8 +107,8 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name);
 /// Reads a file; recordings with relative paths are searched beside it. M only.
 Result<SavedSession> loadSession(const std::filesystem::path& path);
 
-/// The mixer state at the end: its own, or one of layout, gains and mutes; with the last scene as it was
-/// left, drawings too. Any thread.
+/// The mixer state at the end: the saved one, or one made of layout, gains and mutes; its scene is the last
+/// one as it was left, with drawings. Any thread.
 Mix mixOf(const SavedSession& session);
 
 /// Whether the world was paused when the session ended. Any thread.

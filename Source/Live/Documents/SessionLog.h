@@ -27,7 +27,7 @@ struct RecordingFile {
     double decayPerSecond = 0.0; ///< of the material; 0: unknown
     bool isMatched = false;      ///< scaled to the energy of the material's mode; otherwise to a peak of 1
     std::string hash{};     ///< contentHash of the file when read; empty: not checked, or a synthetic contact
-    std::string material{}; ///< whose events play it; empty: all events of that frequency
+    std::string material{}; ///< material whose events play it; empty: all events of that frequency
     bool operator==(const RecordingFile&) const = default;
 
     SoundNumber sound() const noexcept { return material.empty() ? 0 : soundOfMaterial(material); }
@@ -105,12 +105,12 @@ void visitFields(auto& v, FieldsOf<ClipFile>) {
 }
 
 struct SessionLog {
-    std::vector<SceneRun> runs;               ///< one after the other; the last goes on
+    std::vector<SceneRun> runs;               ///< consecutive; the last has no end yet
     std::vector<PannerChange> panners;        ///< in time order
     std::vector<ChannelChange> channels;      ///< in time order
-    std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
-    std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
-    std::vector<ClipFile> clips{};       ///< each once, before its first strike
+    std::vector<RecordingsChange> recordings; ///< in time order; empty: only modes are played
+    std::vector<CollisionEvent> strikes;      ///< events that no world produced, in the order of requests
+    std::vector<ClipFile> clips{};            ///< each once, before its first strike
 
     std::int64_t lastControlNs() const noexcept {
         return std::max(panners.empty() ? 0 : panners.back().timeNs,

@@ -177,8 +177,8 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
      latencyAnswer},
 });
 
-// Clips are supplied by the input of a message through a callback. This module reads no files: each input
-// (lines, OSC) reads them from its own folder.
+// Clips come from the input of a message through a callback. This module reads no files: each input (lines,
+// OSC) reads them from its own folder.
 
 struct LoadedClip {
     std::vector<ContactRecording> channels; ///< one or more, of one file, equal in rate and length; their

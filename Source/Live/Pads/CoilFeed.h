@@ -18,7 +18,7 @@ namespace physvib {
 // on each side: flat to 0.35 of the lower rate, 40 dB down from 0.62 on. It delays by 6.2 output frames (2 ms
 // at 3 kHz).
 
-/// One thread.
+/// Used by one thread.
 class RateReducer {
 public:
     /// From `inHz` to the lower `outHz`, from silence.
@@ -37,7 +37,7 @@ private:
     std::vector<std::vector<float>> kernels_; // per phase, oldest frame first; each sums to 1
     std::vector<CoilFrame> ring_;             // the newest input frames
     std::size_t oldest_ = 0;                  // index in the ring; overwritten next
-    int due_ = 0;                             // until the next output frame, in 1/outRate_ of an input frame
+    int due_ = 0; // time to the next output frame, in 1/outRate_ of an input frame
     std::deque<CoilFrame> outputFrames_;
 };
 

@@ -78,7 +78,7 @@ struct HidFeedKind {
     std::string_view name; ///< "DualSense by Bluetooth"
 };
 
-inline constexpr int silentReportCount = 5; ///< as Linux' own driver sends to a Switch's controller
+inline constexpr int silentReportCount = 5; ///< as many as Linux' own driver sends to Switch controllers
 
 /// Makes the reports of one controller. Methods without a remark run on the controller's thread.
 class HidFeed {

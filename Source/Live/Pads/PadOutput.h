@@ -21,7 +21,7 @@ namespace physvib {
 
 /// Counts of what was sent to a controller, for display and tests.
 struct PadCounts {
-    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: sent again before the time-out
+    std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: commands sent again before the time-out
     std::uint64_t late = 0;    ///< commands not sent, because a stronger one was due as well
     std::uint64_t refused = 0; ///< commands that the controller refused
     std::uint64_t connections = 0;

@@ -32,8 +32,8 @@ public:
     struct Partial {
         double frequencyHz, energy;
     };
-    /// The two tones that fit the partials best: these are divided where both parts are nearest to playable
-    /// tones, and each tone has its part's energy and mean pitch. Total energy is at most 1. Any thread.
+    /// The two tones that fit a low and a high part of the partials best, divided where both are nearest to
+    /// playable tones; each has its part's energy and mean pitch. Total energy is at most 1. Any thread.
     static TonePair fitTones(std::vector<Partial> partials);
 
 private:

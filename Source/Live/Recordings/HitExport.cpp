@@ -16,7 +16,7 @@ namespace {
 
 constexpr double maxWavBytes = 500e6; // the file is written while the user waits for a drag to start
 
-/// Replaces each moving event by a series of stationary ones, as the board does: other formats have none.
+/// Replaces each moving event by a series of stationary ones, because clips of other programs cannot move.
 std::vector<CollisionEvent> stationaryEvents(std::span<const CollisionEvent> events) {
     std::vector<CollisionEvent> stationary;
     for (const CollisionEvent& event : events) {

@@ -32,7 +32,7 @@ Result<ContactRecording> loadContact(const RecordingFile& file);
 
 // Loads clips by name from one folder, so that a message can only read files below it.
 
-/// A ClipSource. Any thread but R.
+/// Loads the clips of messages (a ClipSource). Any thread but R.
 class ClipFolder {
 public:
     explicit ClipFolder(std::filesystem::path folder)

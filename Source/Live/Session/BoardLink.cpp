@@ -15,12 +15,12 @@ constexpr std::int64_t helloIntervalNs = 250 * msNs, telemetryIntervalNs = secon
 // gains are repeated after this, then at doubled intervals, so that a lost mute is late by milliseconds only
 constexpr std::int64_t firstGainsRepeatNs = 8 * msNs;
 constexpr std::int64_t answerTimeOutNs = 3 * secondNs / 2; // without an answer the line is opened again
-constexpr std::int64_t maxAgeNs = 50 * msNs;               // an event later than this is not sent
+constexpr std::int64_t maxAgeNs = 50 * msNs;               // an event this long after its onset is not sent
 // limit for data in the system's buffers: events that are not written yet can still be dropped
 constexpr std::int64_t maxLineAheadNs = 4 * msNs;
 constexpr double marginMs = 4.0 + 3.0 + 2.1;   // maxLineAheadNs, this thread's sleeps, one event on the line
-constexpr std::int64_t maxAnswerNs = secondNs; // an answer is never later than this
-// the clock of a board that did not restart differs by less
+constexpr std::int64_t maxAnswerNs = secondNs; // a later answer is ignored
+// a larger jump of the board's clock means that it has restarted
 constexpr double minRestartJumpFrames = limits::board::sampleRateHz;
 constexpr int maxLongFormCount = 4; // with more pending events the compact form is sent
 
@@ -40,7 +40,7 @@ std::string boardError(const wire::HelloReply& board) {
 }
 
 constexpr std::size_t compactBytes = 16;           // of an event in the compact form on the line
-constexpr std::int64_t earlySegmentNs = 40 * msNs; // a segment due later than this can also be sent later
+constexpr std::int64_t earlySegmentNs = 40 * msNs; // segments due later leave room for new tones
 constexpr std::size_t segmentBytes = 36;           // of a segment
 constexpr double overheadMs = 3.0; // line time for pings, gains and the last events in the long form
 

@@ -3,8 +3,8 @@
 // finds the board, tracks its clock and sends events.
 //
 // The link thread owns the serial line and all state of the connection. Events arrive through a wait-free
-// queue, orders and the status under a lock that is never held while waiting. An event is sent as soon as the
-// line is free, at most `sendAheadMs` before its onset; excess events are thinned (StrikeBacklog). If the
+// queue, commands and the status under a lock that is never held while waiting. An event is sent as soon as
+// the line is free, at most `sendAheadMs` before its onset; excess events are dropped (StrikeBacklog). If the
 // board is silent for too long, the line is closed and opened again, as long as this object exists.
 #pragma once
 #include "Core/EventQueue.h"
@@ -66,8 +66,8 @@ struct BoardLinkStatus {
     enum class State { searching, greeting, synchronising, ready };
     State state = State::searching;
     std::string port, error;                     ///< error: why there is no connection
-    wire::HelloReply board;                      ///< its latest reply
-    wire::Telemetry telemetry;                   ///< the newest
+    wire::HelloReply board;                      ///< latest reply of the board
+    wire::Telemetry telemetry;                   ///< latest telemetry
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
     double outputLatencyMs = 0.0; ///< time before its onset at which an event must be known; 0: not known yet
     double driftPpm = 0.0;        ///< the board's clock relative to this computer's
@@ -99,9 +99,9 @@ public:
     bool push(const BoardStrike& strike) noexcept { return strikes_.push(strike); }
 
     /// True if the connected board plays segments; otherwise moving tones are sent as series of events. Link
-    /// thread, as the next five.
+    /// thread, as the methods up to refuseSegment().
     bool supportsSegments() const noexcept { return status_.board.version >= wire::firstVersionWithSegments; }
-    /// True if a segment that is due then can be sent now: the clock is known, and line and board have room.
+    /// True if a segment due at `dueNs` can be sent now: the clock is known, line and board have room.
     bool canSendSegment(std::int64_t dueNs);
     /// The board's frame at that time, with its fraction; only while the clock is known.
     double frameAt(std::int64_t steadyNs) const noexcept { return clock_.frameAt(steadyNs); }
@@ -111,8 +111,8 @@ public:
     void sendSegment(const BoardSegment& segment, bool isCoarse);
     void refuseSegment() noexcept { ++status_.refused; }
 
-    /// Sets the function that the link thread calls about every millisecond; empty: none. Only that may push
-    /// events, give orders and send segments, and it must be quick. When this returns, the link thread has
+    /// Sets the function that the link thread calls about every millisecond; empty: none. Only it may push
+    /// events, give commands and send segments, and it must be quick. When this returns, the link thread has
     /// left the previous function. M.
     void follow(std::function<void()> feed);
 
@@ -151,8 +151,8 @@ private:
     void handleHello(const wire::HelloReply& board);
     void handlePong(const wire::Pong& pong);
     void greet();                // repeats Hello until the board answers
-    void sendPeriodicMessages(); // sends pings, requests for telemetry and gains when they are due
-    void executeOrders();        // executes pending orders
+    void sendPeriodicMessages(); // pings, requests for telemetry, and gains, when due
+    void executeOrders();
     void sendStrikes();
     void publish();
     double transitMs() const; // longest time from sending to playing
@@ -180,7 +180,7 @@ private:
     std::int64_t lastReceivedNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0,
                  nextGainsNs_ = 0, gainsRepeatNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
     std::vector<std::uint32_t> segmentEnds_; // end frames of segments in transit or on the board
-    std::size_t portsTried_ = 0;             // ports tried so far
+    std::size_t portsTried_ = 0;
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;
 };

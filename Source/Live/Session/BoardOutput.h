@@ -22,7 +22,7 @@
 #include <vector>
 
 namespace physvib {
-/// Its feed() runs on the link thread while it follows a device.
+/// A vibration board as a sink. Its feed() runs on the link thread while it follows a device.
 class BoardOutput final : public Sink {
 public:
     /// Latency for a board that is not awaited: a link needs 20 to 40 ms. One that needs more is an error.
@@ -81,8 +81,8 @@ private:
     PhantomPanner panner_;
     std::vector<PannerChange> pendingPanners_; // panners and other controls for later times
     std::vector<RenderControl> pendingControls_;
-    std::vector<BoardPath> paths_;  // moving and long tones, until their end is felt: another may follow
-    std::vector<BoardSteps> steps_; // such tones as events: further ones, or for boards without segments
+    std::vector<BoardPath> paths_;  // tones sent as segments, until they end: the next may continue them
+    std::vector<BoardSteps> steps_; // tones sent as series of events, for lack of segments
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sentGains_; // the last ones that the link got
     std::array<bool, limits::board::channels> isMuted_{};

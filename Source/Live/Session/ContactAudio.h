@@ -17,11 +17,11 @@
 #include <vector>
 
 namespace physvib {
-/// Renders impacts for listeners by a renderer of its own, with a limiter as late as the actuators'. Their
-/// panning, settings and mutes have no effect. An impact plays its material's recording, or else its mode.
+/// Renders impacts for listeners in a renderer of its own with the actuators' latency; their panning,
+/// settings and mutes do not apply. An impact plays its material's recording, or its mode if there is none.
 class ContactAudio {
 public:
-    /// With one channel the place does not matter; with two, impacts on the left of `field` are louder there.
+    /// With two channels, impacts are panned left to right by their x in `field`; one channel ignores it.
     explicit ContactAudio(std::vector<ContactRecording> recordings, int ears = 1,
                           const PhantomPanner& field = {})
         : recordings_{std::move(recordings)}
@@ -35,7 +35,7 @@ public:
     void prepare(int sampleRateHz);
     void moveTo(int sampleRateHz, std::int64_t frame);
 
-    /// Repeats what the actuators' renderer was given. Render thread (R), wait-free.
+    /// Queues what the actuators' renderer has got. Render thread (R), wait-free.
     void mirror(const CollisionEvent& event) noexcept { events_.push(event); }
     void mirror(const RenderControl& control) noexcept {
         if (control.kind == RenderControl::Kind::stopAll) changes_.push({control.timeNs});
@@ -44,7 +44,7 @@ public:
                 {control.timeNs, control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()});
     }
 
-    /// As HapticRenderer. R, wait-free.
+    /// As HapticRenderer::discard(). R, wait-free.
     void discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
 
     /// Renders the same frames as the actuators' renderer; call it after that one. R, wait-free.
@@ -89,9 +89,8 @@ struct ContactAudioRender {
 RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
                                 const ContactAudioRender& settings, const BlockConsumer& consume);
 
-// The channels that a session renders: those of the actuators, the audio of contacts, the trigger output.
-
-/// Part of a session; HapticRenderer renders the actuators' own.
+/// The channels that a session renders: those of the actuators (by HapticRenderer), the audio of contacts,
+/// and the trigger output.
 class RenderedChannels {
 public:
     /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
@@ -123,7 +122,7 @@ private:
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
 
-    /// Updates mutedChannels() for a mute or gain. One thread at a time, as the next one.
+    /// Updates mutedChannels() for a mute or gain. One thread at a time, as raiseCeiling().
     void noteMute(const RenderControl& control) noexcept {
         lastChanges_.apply(control);
         mutedBits_.store(lastChanges_.mutedChannels(), std::memory_order_relaxed);

@@ -50,7 +50,7 @@ public:
     void addOnset(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (!isMarked(event)) return;
         if (frame <= lastEdgeFrame_ + minIntervalFrames_) return increment(sharedOnsets_);
-        // cannot happen with blocks of the permitted length
+        // the ring is full, which blocks of the permitted length never cause
         if (endEdge_ - firstEdge_ == edges_.size()) return increment(sharedOnsets_);
         edges_[endEdge_++ % edges_.size()] = lastEdgeFrame_ = frame;
         increment(pulses_);

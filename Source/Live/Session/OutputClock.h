@@ -27,7 +27,7 @@ steadyNs(std::chrono::steady_clock::time_point at = std::chrono::steady_clock::n
     return std::chrono::duration_cast<std::chrono::nanoseconds>(at.time_since_epoch()).count();
 }
 
-/// Times are steadyNs().
+/// Detects and counts pauses of a device, and the events that they drop. Times are steadyNs().
 class DevicePulse {
 public:
     static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
@@ -38,7 +38,7 @@ public:
         return 3 * blockNs > 100'000'000 ? 3 * blockNs : 100'000'000;
     }
 
-    /// A device starts. Only pauses longer than `limitNs` count; `never`: none. The first device may take
+    /// Call when a device starts. Pauses above `limitNs` count; `never`: none. The first device may take
     /// goneAfterNs until its first block. Message thread (M), while the render thread (R) does not run.
     void begin(std::int64_t limitNs, std::int64_t nowNs) noexcept {
         limitNs_.store(limitNs, std::memory_order_relaxed);
@@ -52,8 +52,8 @@ public:
         std::uint64_t pauses = 0, losses = 0; ///< pauses that have ended; those after which it counts as gone
         std::int64_t untilNs = 0;             ///< session time at the end of the last pause
     };
-    /// The first block after a pause begins, at session time `sessionNs`. Returns whether the device was
-    /// gone. R, wait-free.
+    /// Call when the first block after a pause begins, at session time `sessionNs`. Returns whether the
+    /// device was gone. R, wait-free.
     bool endPause(std::int64_t nowNs, std::int64_t sessionNs) noexcept {
         const bool wasGone = nowNs - lastNs_.load(std::memory_order_relaxed) > goneAfterNs;
         untilNs_.store(sessionNs, std::memory_order_relaxed);
@@ -61,7 +61,7 @@ public:
         pauses_.fetch_add(1, std::memory_order_release);
         return wasGone;
     }
-    /// A block that began at `nowNs` has been rendered: from now on the device runs. R, wait-free.
+    /// Call when a block that began at `nowNs` has been rendered: the device runs. R, wait-free.
     void blockRendered(std::int64_t nowNs) noexcept { lastNs_.store(nowNs, std::memory_order_release); }
     /// Start of the last block, from blockRendered(); a time in the far future before the first. Any thread.
     std::int64_t lastNs() const noexcept {
@@ -83,7 +83,7 @@ public:
         return {pauses, losses_.load(std::memory_order_relaxed), untilNs_.load(std::memory_order_relaxed)};
     }
 
-    /// Counts events that are not played. Any thread, wait-free, as the next ones.
+    /// Counts events that are not played. Any thread, wait-free, as dropIfPaused() and dropped().
     void drop(std::uint64_t events) noexcept { dropped_.fetch_add(events, std::memory_order_relaxed); }
     /// True, and these events are counted as dropped, while the device pauses.
     bool dropIfPaused(std::uint64_t events) noexcept {
@@ -167,9 +167,10 @@ struct OutputMoment {
     int sampleRateHz = 0;   ///< of the block
 };
 
+/// Time, master level and silence of an output device, for the sinks that follow it.
 class OutputClock {
 public:
-    /// `isEnded`, if given, outlives it: while it is true, the output is silent. Message thread (M).
+    /// While `isEnded` (may be null; outlives this object) is true, the output is silent. Message thread (M).
     explicit OutputClock(const std::atomic<bool>* isEnded = nullptr)
         : isEnded_{isEnded} {}
 
@@ -184,7 +185,7 @@ public:
         }
     }
 
-    /// Master level, a gain from 0 to 1. Any thread, wait-free, as the next ones.
+    /// Master level, a gain from 0 to 1. Any thread, wait-free, as the methods up to setSilent().
     float level() const noexcept { return level_.load(std::memory_order_relaxed); }
     void setLevel(float level) noexcept {
         level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed);
@@ -233,7 +234,7 @@ private:
 // lag by the computer's load. The window is a quarter to half a second: 300 ppm of drift are then at most
 // 0.15 ms.
 
-/// One thread.
+/// Converts session time to the steady time at which it is felt. One thread.
 class SessionClock {
 public:
     static constexpr std::int64_t halfWindowNs = 250'000'000, pauseNs = 80'000'000;
@@ -307,7 +308,7 @@ public:
         if (sessionNs + minBackwardJumpNs < playedNs_) begin();
         return playedNs_ = sessionNs;
     }
-    float level() const { return device_->isSilent() ? 0.0f : device_->level(); } ///< where there is a time
+    float level() const { return device_->isSilent() ? 0.0f : device_->level(); } ///< 0: silent
     /// Locks. Waits until `isReady()`, for `timeOutNs` at most and while `keepGoing()`; returns `error()`.
     std::string await(std::int64_t timeOutNs, const std::function<bool()>& keepGoing, auto isReady,
                       auto error) const {

@@ -59,7 +59,7 @@ public:
     /// output latency later, or the renderer's latency later if the session is direct. False, and counted,
     /// if the queue is full. Render thread (R), wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
-    /// The same, for a time `afterNs` after that frame, which may be in the past.
+    /// Strikes `afterNs` after that frame; the time may be in the past.
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
     /// Copies the control's panner; at most 16 panners can wait.
     bool control(RenderControl control, int frame) noexcept;
@@ -108,7 +108,7 @@ private:
     ControlQueue<128, 16> controls_;           // senders limit their rate
     EventQueue<RenderInput, 1024> inputs_;     // from R to the thread that steps the world
     SampleSource* samples_ = nullptr;
-    std::uint64_t spawnCount_ = 0;          // this and the next are guarded by the world mutex
+    std::uint64_t spawnCount_ = 0;          // the world mutex guards this and bodyNames_
     std::array<std::string, 64> bodyNames_; // of the newest bodies that R spawned
 };
 
@@ -129,8 +129,8 @@ struct PlayedRecordings {
     std::vector<ContactRecording> recordings;
 };
 
-/// From now on automated gains (lanes) follow the scene's time, of each strip that has a lane itself or by
-/// its group. They act at the world's steps like moved faders, and are logged. A gain that is set otherwise
+/// From now on gain lanes (automation) follow the scene's time, for each strip that has one itself or in its
+/// group. They act at the world's steps like moved faders, and are logged. A gain that is set otherwise
 /// holds until the scene time advances.
 struct Lanes {
     std::shared_ptr<const Mix> mix; ///< null: no lanes
@@ -194,7 +194,7 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Part of a session; Session documents these methods. Its mutex is locked before the world's.
+/// Takes inputs from outside the render call, as Session documents. Its mutex is locked before the world's.
 class Scheduler {
 public:
     /// All must outlive it.

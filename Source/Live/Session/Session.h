@@ -37,7 +37,7 @@ public:
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup)
         : Session{std::make_shared<const SessionSetup>(setup)} {}
-    /// The same without a copy of the setup.
+    /// Shares the setup instead of copying it.
     explicit Session(std::shared_ptr<const SessionSetup> setup);
 
     /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
@@ -81,8 +81,8 @@ public:
     /// nothing is lost. The caller supplies the samples meanwhile. R, wait-free.
     void lengthenLatency(int frames) noexcept;
 
-    /// The opposite, in addition to render: the next `frames` of the renderer are rendered to `discarded` and
-    /// not played, which shortens the output latency by as much. Only after it has grown, or if the world
+    /// The opposite of lengthenLatency(), beside render: the renderer's next `frames` go to `discarded` and
+    /// are not played, which shortens the output latency by as much. Only after it has grown, or if the world
     /// is far enough ahead. R, wait-free.
     void shortenLatency(float* const* discarded, int frames) noexcept;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Journal of a live session on disk: what is needed to render it again, and the events played.
 //
-// The journal's own thread appends to both files twice a second. The cost does not grow with the session, and
-// after a crash everything up to the last second is there. At the end the journal becomes an ordinary session
-// file; one that was cut off is readable too.
+// The journal's own thread appends to both files (GrowingFile) twice a second. The cost does not grow with
+// the session, and after a crash everything up to the last second is there. At the end the journal becomes an
+// ordinary session file; one that was cut off is readable too.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/SystemFile.h"
@@ -54,7 +54,7 @@ private:
     bool isFull_ = false;
 };
 
-/// The journal of a session, and its event list. All methods: message thread (M) only.
+/// A sink that writes a session's journal and its event list. All methods: message thread (M) only.
 class SessionJournal final : public Sink {
 public:
     /// Saves `session` as `path` (.json), and the events played beside it as .events.csv. The session must

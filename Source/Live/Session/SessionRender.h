@@ -55,7 +55,7 @@ private:
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing = {});
 
 /// How much of a session is rendered, and a callback for the progress from 0 to 1, the first half of which is
-/// the simulation; false cancels.
+/// the simulation; the callback cancels by returning false.
 struct SessionExtent {
     int sampleRateHz = 48000;
     double seconds = 0.0; ///< the last scene run continues for as long as this takes

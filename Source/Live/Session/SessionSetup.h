@@ -24,7 +24,7 @@ struct RenderInput {
     double scale = 1.0; ///< factor on the group's impulses, and on the velocities of bodies that it spawns
     union {
         HoldAction hold{};    ///< if `group` is device
-        double scriptSeconds; ///< if it is script: where that is, going on at the rate `scale`; in no log
+        double scriptSeconds; ///< if script: its position, which goes on at the rate `scale`; not logged
     };
     std::int64_t timeNs = 0; ///< set by the session
 };

@@ -35,11 +35,12 @@ struct SinkState {
     int channels = 0;                 ///< number of actuators that it plays, from the first on; 0: all
     std::uint64_t sent = 0, lost = 0; ///< events
     std::string error{};              ///< one-line error; empty: none
-    std::string where{};              ///< one line: the port or device, or the progress of connecting
+    std::string where{};              ///< one line: port or device, or how far connecting has got
     std::vector<Detail> details{};
     bool playsClips = true; ///< plays clips and recordings
 };
 
+/// An output beside the device. By default its methods do nothing.
 class Sink {
 public:
     virtual ~Sink() = default;

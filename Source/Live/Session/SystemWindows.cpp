@@ -12,7 +12,7 @@ void raiseThreadPriority(bool isAudio) noexcept {
     SetThreadPriority(GetCurrentThread(), isAudio ? THREAD_PRIORITY_TIME_CRITICAL : THREAD_PRIORITY_HIGHEST);
 }
 
-// they need the COM apartment of that thread
+// drivers need the COM apartment of the thread that created them
 bool needsOneThreadPerDriver() noexcept { return true; }
 
 double threadCpuSeconds() noexcept {

@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Part of a session, which sets and resets it. The render thread (R) advances it; the latency's law changes
+/// The session sets and resets it; the render thread (R) advances it. The law of the latency changes
 /// only while no thread renders, under the mutexes of all parts.
 class Timeline {
 public:
@@ -75,7 +75,7 @@ public:
     /// Session time of an event that the render call creates at a frame of the next block. R.
     std::int64_t nextInputNs(std::int64_t frame) const noexcept { return sessionNs(nextInputFrame(frame)); }
 
-    /// The same in frames; and the frame of session time that leaves the renderer at `frame`. R.
+    /// As nextInputNs(), in frames; and the session frame that leaves the renderer at `frame`. R.
     std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
         return isDirectFromStart_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }

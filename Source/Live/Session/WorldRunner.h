@@ -88,7 +88,7 @@ private:
 
 // Events that were scheduled for a later time and can still be cancelled.
 
-/// In session time. One thread at a time: Session guards it by its world mutex.
+/// All times are session time. One thread at a time: Session guards it by its world mutex.
 class ScheduledEvents {
 public:
     static constexpr std::size_t maxEvents = 65'536; ///< an hour of one every 50 ms
@@ -119,7 +119,7 @@ public:
     std::size_t size() const noexcept { return waiting_.size(); }
 
 private:
-    std::deque<CollisionEvent> waiting_; // in time order; most come at the end, all go at the front
+    std::deque<CollisionEvent> waiting_; // in time order; most are added at the end, all leave at the front
 };
 
 /// The part of a session that steps the world and queues its events. Its mutex is the world mutex.
@@ -229,7 +229,7 @@ private:
     std::atomic<std::size_t> runNumber_{0};
     std::atomic<std::int64_t> stalledNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
     std::atomic<int> slowness_{1}, requestedSteps_{0};
-    std::atomic<bool> isOffline_{false}, isDriven_{false}; // isDriven_: the world has been stepped
+    std::atomic<bool> isOffline_{false}, isDriven_{false}; // isDriven_: D or R has stepped it
     std::atomic<std::uint64_t> drops_{0};
 
     mutable std::mutex mutex_; // guards the following members
