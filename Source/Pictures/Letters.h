@@ -12,7 +12,7 @@ namespace physvib::picture {
 /// Where fonts are looked for on this system.
 std::vector<std::filesystem::path> fontFolders();
 
-/// A plain and a bold face. Without a font that we know, words have no width. One thread at a time.
+/// A plain and a bold face. If no known font is installed, every width is 0. One thread at a time.
 class Letters {
 public:
     explicit Letters(const std::vector<std::filesystem::path>& folders = fontFolders());

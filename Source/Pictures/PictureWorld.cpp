@@ -136,7 +136,7 @@ void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& 
     }
 }
 
-// Rings where it struck, and a line to each enchanter as wide and bright as what it plays of it.
+// Rings where a hit struck, and a line to each actuator, as wide and bright as the level that it plays.
 void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
                    const CollisionEvent& hit) {
     const auto centre = spotOf(input, map, hit.x, hit.y, hit.z);

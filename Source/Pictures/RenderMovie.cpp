@@ -15,13 +15,13 @@ namespace {
 constexpr int margin = 16, headerHeight = 40, lanesHeightPixels = 150;
 constexpr double glowSeconds = 0.5; // after which an impact's light is gone
 constexpr double fadePerSecond = 7.0;
-constexpr float floorDb = 40.0f; // below the loudest: no light
+constexpr float floorDb = 40.0f; // an impact weaker than the strongest by this has no light
 
 std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
 } // namespace
 
-/// The panels, the still part of every picture, and what impacts are measured by.
+/// The panels, the still part of every picture, and the strongest impact's level, to which others compare.
 struct RenderMovie::Parts {
     const PictureInput& input;
     Letters letters;
