@@ -9,7 +9,7 @@
 
 namespace physvib::picture {
 
-/// Where fonts are looked for on this system.
+/// The folders of this system that may contain fonts.
 std::vector<std::filesystem::path> fontFolders();
 
 /// A plain and a bold face. If no known font is installed, every width is 0. One thread at a time.

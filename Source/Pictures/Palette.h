@@ -14,10 +14,10 @@ inline constexpr Colour line = Colour::of(0xff2b2e38);
 inline constexpr Colour text = Colour::of(0xffe6e8ee);
 inline constexpr Colour muted = Colour::of(0xff959bab);
 inline constexpr Colour white = Colour::of(0xffffffff);
-inline constexpr Colour highlight = Colour::of(0xfff6c667); ///< amber: what happens at this moment
-inline constexpr Colour limit = Colour::of(0xfff56565);     ///< red: stop and limit, nothing else
+inline constexpr Colour highlight = Colour::of(0xfff6c667); ///< amber: events of this moment
+inline constexpr Colour limit = Colour::of(0xfff56565);     ///< red: only stop and limits
 inline constexpr Colour camera = Colour::of(0xffd8c69a);    ///< outline of what is felt
-inline constexpr Colour grey = Colour::of(0xff6b7180);      ///< what has no material
+inline constexpr Colour grey = Colour::of(0xff6b7180);      ///< events without a known material
 
 /// Colour of an actuator: eight chosen by eye, then hues a golden angle apart. Any thread.
 inline Colour enchanter(int index) {

@@ -75,7 +75,7 @@ struct Painter::Raster {
         int y;
         FT_Span pixels;
     };
-    std::vector<Span> spans; // of one outline, until it is known that there are no more
+    std::vector<Span> spans; // of an outline; painted once all were found
 
     static void addSpans(int y, int count, const FT_Span* found, void* user) {
         for (int i = 0; i < count; ++i) static_cast<Raster*>(user)->spans.push_back({y, found[i]});
@@ -267,7 +267,7 @@ std::string truncated(const Letters& letters, std::string_view words, float heig
         const std::size_t half = (fits + tooMany) / 2;
         (letters.width(start(half), height, bold) <= room ? fits : tooMany) = half;
     }
-    while (fits > 0 && (static_cast<unsigned char>(words[fits]) & 0xc0) == 0x80) --fits; // a letter is whole
+    while (fits > 0 && (static_cast<unsigned char>(words[fits]) & 0xc0) == 0x80) --fits; // a whole letter
     return fits > 0 ? start(fits) : std::string{};
 }
 
@@ -296,7 +296,7 @@ std::vector<double> ticks(double from, double to, int maxCount) {
             step *= factor;
             break;
         }
-    const double slack = 1e-3 * (to - from); // less than a pixel or two: a tick at the edge stays
+    const double slack = 1e-3 * (to - from); // at most two pixels, so that a tick at the edge is kept
     std::vector<double> places;
     for (double i = std::ceil((from - slack) / step); i * step <= to + slack; ++i) places.push_back(i * step);
     return places;

@@ -82,7 +82,7 @@ enum class Align { left, centre, right }; ///< horizontally; the height is centr
 
 constexpr float smallText = 15.0f, mediumText = 18.0f, largeText = 29.0f;
 
-/// Draws the recurring parts; everything in whole pixels.
+/// Draws text, panels and headings; all areas are in whole pixels.
 struct Canvas {
     Painter& graphics;
     const Letters& letters;

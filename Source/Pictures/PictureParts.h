@@ -53,7 +53,7 @@ std::string laneLabelOf(const PictureInput& input, int channel);
 /// The area of a lane in `row`: between the labels, as wide as they need within reason, and the peak.
 Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);
 
-/// Height that the lanes of `channels` channels need; more channels, less each.
+/// Height of the lanes of `channels` channels; each is lower if there are more.
 int lanesHeight(int channels) noexcept;
 
 /// The amplitude scale that all lanes of a window share, as text.
@@ -92,7 +92,7 @@ public:
 
     void add(Spot centre, float radius, float strength, Colour colour) {
         if (!area_.toFloat().expanded(radius).contains(centre))
-            return; // also what is too far away for whole numbers
+            return; // first, because a coordinate far outside would overflow an int
         const Area box = boxAround(centre, 2.0f * radius, 2.0f * radius).outerPixels().intersection(area_);
         for (int y = box.y; y < box.bottom(); ++y)
             for (int x = box.x; x < box.right(); ++x) {
@@ -103,7 +103,7 @@ public:
             }
     }
 
-    // The exposure follows the brightest pixel; then a film curve: 1 - exp(-light).
+    // Scales the light by the brightest pixel, and applies a film's curve: 1 - exp(-light).
     void draw(Painter& g) const {
         const float brightest = rgb_.empty() ? 0.0f : *std::max_element(rgb_.begin(), rgb_.end());
         const float exposure = brightest > 2.0f ? 2.0f / brightest : 1.0f;
@@ -150,7 +150,7 @@ struct FieldMap {
 /// The field to scale, in the middle of `room`.
 FieldMap fittedFieldMap(const PictureInput& input, Area room);
 
-/// A place of the field. A layout in space is seen obliquely: what is nearer is further down and to the left.
+/// A place of the field. A layout in space is seen obliquely: nearer places are further down and to the left.
 Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
 
 /// Where actuator `channel` stands, the layout being mapped on the field.
