@@ -39,8 +39,7 @@ public:
     }
 
     /// Returns the command for the frame that ends at `untilNs`: per motor the strongest that became due
-    /// since the last pull, so that no impact between two frames is lost; the last command again if none
-    /// became due.
+    /// since the last pull, so that no impact between two frames is lost; if none did, the last one again.
     PadCommand pull(std::int64_t untilNs, double level) noexcept {
         lastPullNs_ = untilNs;
         for (; lateCount_ > 0; motors_.strike(lateEvents_[lateCount_], panner_))

@@ -56,8 +56,7 @@ int closeHandle(std::uintptr_t handle) noexcept {
     });
 }
 
-// Libraries of devices have static objects. The exit handler is registered after they are created, so it runs
-// before they are destroyed.
+// Registered after the static objects of device libraries are created, so it runs before their destruction.
 void registerCloseAtExit() {
     static const int registered = std::atexit([] {
         for (const std::uintptr_t handle : openLiveHandles()) closeHandle(handle);
