@@ -206,7 +206,7 @@ constexpr clap_plugin_params_t parameters{
         const auto& parameter = processorOf(plugin).parameter(static_cast<Parameter>(index));
         const auto& range = parameter.getNormalisableRange();
         *info = {};
-        info->id = index; // places in the table stay
+        info->id = index; // a parameter's place in the table never changes
         info->flags = CLAP_PARAM_IS_AUTOMATABLE;
         if (parameter.isBoolean()) info->flags |= CLAP_PARAM_IS_STEPPED;
         if (parameter.row().parameter == Parameter::bypass) info->flags |= CLAP_PARAM_IS_BYPASS;
@@ -294,7 +294,7 @@ constexpr clap_plugin_latency_t latency{[](const clap_plugin_t* plugin) {
 constexpr clap_plugin_tail_t tail{[](const clap_plugin_t* plugin) -> std::uint32_t {
     const auto& processor = processorOf(plugin);
     const double frames = processor.getTailLengthSeconds() * processor.getSampleRate();
-    return frames < INT32_MAX ? static_cast<std::uint32_t>(frames) : INT32_MAX; // which is for ever
+    return frames < INT32_MAX ? static_cast<std::uint32_t>(frames) : INT32_MAX; // an infinite tail
 }};
 constexpr clap_plugin_render_t renderMode{[](const clap_plugin_t*) { return false; },
                                           [](const clap_plugin_t* plugin, clap_plugin_render_mode mode) {

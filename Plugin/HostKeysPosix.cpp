@@ -66,9 +66,9 @@ public:
         if (data) free_(data);
         return type != None;
     }
-    /// The window above `pluginWindow` that the window manager manages; without one, the last below the root.
+    /// The managed window above `pluginWindow`, or the last below the root; None if the plug-in's is managed.
     Window host() const noexcept {
-        for (Window at = pluginWindow; !isManaged(pluginWindow);) { // else that is a frame
+        for (Window at = pluginWindow; !isManaged(pluginWindow);) {
             Window root = None, parent = None, *children = nullptr;
             unsigned int count = 0;
             if (!tree_(display, at, &root, &parent, &children, &count)) break;

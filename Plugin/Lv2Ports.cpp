@@ -12,7 +12,7 @@ namespace physvib {
 
 namespace {
 
-/// With a point: a number without one is of another type.
+/// The value with a decimal point: without one, LV2's descriptions (Turtle) have an integer.
 std::string number(double value) {
     const std::string text = std::to_string(value);
     return text.substr(0, std::max(text.find('.') + 2, text.find_last_not_of('0') + 1));
@@ -32,7 +32,7 @@ std::string unitOf(const ParameterRow& row) {
     return row.unit == "x" ? "units:coef" : "";
 }
 
-// Hosts show `lv2:enabled`, which is the same; sessions that hold on to this port keep it.
+// Hosts show `lv2:enabled` instead of bypass; its port remains for sessions that have automated it.
 std::string propertiesOf(const ParameterRow& row) {
     if (row.parameter == Parameter::bypass) return "lv2:toggled , lv2:integer , pprop:notOnGUI";
     if (row.scale == ParameterScale::toggle) return "lv2:toggled , lv2:integer";
@@ -40,7 +40,7 @@ std::string propertiesOf(const ParameterRow& row) {
     return row.scale == ParameterScale::log ? "pprop:logarithmic" : "";
 }
 
-// Places where the next choice is not there yet are no points of the scale.
+// The choices as points of a scale; a place that repeats the choice before it is none.
 std::string scaleOf(const ParameterRow& row) {
     std::string points;
     std::string_view before;

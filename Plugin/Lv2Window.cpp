@@ -30,7 +30,7 @@ public:
             const auto port = p == Lv2Controls::enabled ? parts_.firstControl - 1
                                                         : parts_.firstControl + static_cast<std::uint32_t>(p);
             if (value && value != written_[p]) write_(host_, port, sizeof *value, 0, &*value);
-            written_[p] = value; // once: a host may refuse, as where automation plays
+            written_[p] = value; // written once, because a host that plays automation refuses it
         }
     }
 
@@ -41,7 +41,7 @@ private:
     std::array<std::optional<float>, Lv2Controls::portCount> written_{};
 };
 
-/// By JUCE's handles; only on the thread of the host's windows.
+/// The writers by JUCE's handles; only on the thread of the host's windows.
 std::map<LV2UI_Handle, PortWriter>& writers() {
     static std::map<LV2UI_Handle, PortWriter> all;
     return all;

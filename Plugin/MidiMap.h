@@ -42,7 +42,7 @@ public:
     const CollisionEvent& strikeOf(int note) const noexcept {
         return strikes_[static_cast<std::size_t>(note & 127)];
     }
-    /// The same, adjusted by the knobs, on actuators in that layout.
+    /// The strike of a note, adjusted by the knobs, on actuators in that layout.
     CollisionEvent strikeOf(int note, const NoteKnobs& knobs, const ActuatorLayout& layout) const noexcept;
     /// True if the note sounds until its key is released.
     bool isHeld(int note) const noexcept { return isHeld_[static_cast<std::size_t>(note & 127)]; }

@@ -77,7 +77,7 @@ namespace parameterTable {
 /// choice of its own repeats the one before.
 template <std::size_t first, std::size_t count>
 constexpr auto spacedChoices(const std::array<std::string_view, count>& names) {
-    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // how many entries there are
+    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // numbers of places
     static_assert(count <= quarters, "others need a parameter of their own");
     constexpr std::size_t step = count == first ? 1 : count <= halves ? 2 : 4;
     std::array<std::string_view, step*(first - 1) + 1> places{};
@@ -96,7 +96,7 @@ inline constexpr std::array<std::string_view, 9> materialNames{
 inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
 inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by StepTiming
-// The first choice of these leaves what the preset has.
+// The first choice of each list below keeps the preset's value.
 inline constexpr std::array<std::string_view, 3> holdNames{"as the preset", "off", "on"};
 inline constexpr std::array<std::string_view, 4> placementNames{"as the preset", "octave", "actuators",
                                                                 "middle"};

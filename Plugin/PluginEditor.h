@@ -51,13 +51,13 @@ public:
     /// Makes the next controller received move that parameter.
     void learn(Parameter which);
     void go(PluginProcessor::Direction direction); ///< undo, redo, or exchange of A and B
-    /// Write the state as a preset, and the played events by the ending of the file's name.
+    /// Save the state as a preset, and the played events in the format that the file's name ends with.
     void savePresetAs(const juce::File& file);
     void exportPlayedAs(const juce::File& file);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
-    bool keyPressed(const juce::KeyPress& key) override; ///< a key that no control has used
+    bool keyPressed(const juce::KeyPress& key) override; ///< gets the keys that no control used
     bool keyPressed(const juce::KeyPress& key, juce::Component*) override { return keyPressed(key); }
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
         return files.size() == 1 && files[0].endsWithIgnoreCase(".json");
@@ -123,12 +123,12 @@ private:
     KeyboardPanel keys_;
     std::vector<Group> groups_;
     std::vector<ParameterControl*> materialLists_;                // lists of materials
-    NoteKnobs shownKnobs_;                                        // as they are shown
+    NoteKnobs shownKnobs_;                                        // the knobs as the window shows them
     std::uint64_t steppedBlocks_ = 0, previousSteppedBlocks_ = 0; // RunsStatus::blocksSteppedInRender
     std::unique_ptr<juce::FileChooser> chooser_;
     std::vector<juce::File> presets_;            // the user's, as they are listed
     int learningParameter_ = -1;                 // a parameter; -1: none
-    std::uint32_t controllerBeforeLearning_ = 0; // what the processor's lastController() was
+    std::uint32_t controllerBeforeLearning_ = 0; // lastController() when learning began
     juce::String message_;                       // shown until the next edit
     std::uint64_t shownStateVersion_ = 0;        // the processor's count of states
     PluginState state_;

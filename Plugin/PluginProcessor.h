@@ -108,7 +108,7 @@ public:
     /// Plays `state` from now on, in a new run. False if it is not valid: errorText() says why, and nothing
     /// changes. Any thread but R.
     bool apply(PluginState state);
-    /// The same as an edit by the user, which the host notes and which can be undone; the run plays on if
+    /// apply() as an edit by the user: the host is told, and it can be undone; the run plays on if
     /// canKeepPlaying(). M.
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.

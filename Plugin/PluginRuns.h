@@ -6,7 +6,7 @@
 // the worlds of all instances of the process; a builder thread per instance prepares the next run, from an
 // ended one where it can, and frees runs that are no longer needed.
 // Ownership: `mutex_` guards `runs_` (the two threads and M; R only in non-realtime blocks). R has pointers
-// to the playing run, the next one and those that are ending. It obtains a run by an exchange of `spare_` and
+// to the playing run, the next one and those that are ending. It takes a run by an exchange of `spare_`, and
 // returns it by one atomic store to `isReleased`. A run that is being built or freed is in no list, so that
 // no mutex is held meanwhile.
 //

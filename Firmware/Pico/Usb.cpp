@@ -64,8 +64,8 @@ void applyVolume() noexcept {
         player->setVolume(channel, controls.gain(channel));
 }
 
-// TinyUSB 0.18 leaves the endpoints of a stream that is closed armed, and stops for good when it arms them
-// again: a second program that opens the card would hang the board.
+// When a stream is closed, TinyUSB 0.18 leaves its endpoints armed, and it hangs when it arms them again: the
+// board would stop as soon as a second program opened the card.
 void disarmStream() noexcept {
     constexpr std::uint32_t endpointBits = USB_EP_ABORT_EP1_IN_BITS | USB_EP_ABORT_EP1_OUT_BITS;
     const bool canAbort = rp2040_chip_version() >= 2; // erratum E2: the first chips cannot
@@ -184,7 +184,7 @@ bool tud_audio_set_req_entity_cb(std::uint8_t, tusb_control_request_t const* req
 bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return feedbackFormat.isThreeBytes(); }
 
 // A packet that came between a request to open the stream again and its execution is reported when the
-// endpoint is armed anew; TinyUSB would arm it twice, which it does not survive. False: it does nothing.
+// endpoint is armed anew; TinyUSB would arm it twice and hang. False: TinyUSB ignores the packet.
 bool tud_audio_rx_done_pre_read_cb(std::uint8_t, std::uint16_t, std::uint8_t, std::uint8_t, std::uint8_t) {
     return (usb_dpram->ep_buf_ctrl[1].out & USB_BUF_CTRL_AVAIL) == 0;
 }

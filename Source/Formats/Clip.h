@@ -22,8 +22,8 @@ constexpr std::size_t maxClipPoints = 500'000;       // 10,000 impacts on four a
 constexpr std::size_t maxClipEvents = maxClipPoints / 2; // each has at least two points
 constexpr std::size_t maxClipBands = 4096; // of all channels: each may have a sounding wave at any time
 constexpr double maxClipSeconds = 600.0;   // as for recordings, because a clip becomes samples
-constexpr double maxClipSoundingSeconds = 7200.0; // seconds of all waves: one second of computing per
-                                                  // thousand
+constexpr double maxClipSoundingSeconds = 7200.0; // the sum over all waves: a thousand seconds of
+                                                  // waves take one second to render
 constexpr double maxClipFrequencyHz = 10'000.0;   // in MPEG's schema
 constexpr double maxClipAmplitude = 1000.0;       // a channel's gain times an amplitude within -1 to 1
 
@@ -95,7 +95,7 @@ struct ClipTransient {
     }
 };
 
-/// The actuator that a channel was made for, if the format stores it; 0: not known.
+/// Properties of the actuator that a channel was made for, if the format stores them; 0: not known.
 struct ClipDevice {
     double lowHz = 0.0, highHz = 0.0, resonanceHz = 0.0, fullScaleG = 0.0;
     bool operator==(const ClipDevice&) const = default;
@@ -171,8 +171,8 @@ inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     return order;
 }
 
-/// Stable sort by time; timeOrder() does it for all types, which keeps the web page small. `timeOf`: a member
-/// or function that gives a finite number. Any thread.
+/// Stable sort by time; timeOrder() sorts for all types, so that the compiled code is small. `timeOf`: a
+/// member or function that gives a finite number. Any thread.
 template <class T, class TimeOf>
 void sortByTime(std::vector<T>& items, TimeOf timeOf) {
     std::vector<double> times;

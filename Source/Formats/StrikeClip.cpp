@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts events to waves (starts and cuts of a mode are edges on ticks; between two edges it is one
-// decaying sine), and renders clips to samples.
+// Converts events to waves, and renders clips to samples. The starts and ends of a mode's waves are edges on
+// ticks; between two edges the mode is one decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/ClockLaw.h"
 #include "Core/PortableMath.h"
@@ -17,7 +17,7 @@ namespace physvib {
 namespace {
 
 constexpr int ticks = EventClipSettings::ticksPerSecond;
-constexpr double silence = 1e-7; // 140 dB below full scale, where the renderer ends a mode too
+constexpr double silence = 1e-7; // 140 dB below full scale: the renderer, too, ends a mode there
 
 using Phasor = std::complex<double>;
 
@@ -140,7 +140,7 @@ Clip clipFromEvents(std::span<const CollisionEvent> events, const EventClipSetti
                 waves.push_back({number, std::move(wave)});
             }
             ++number;
-            if (points > limits::maxClipPoints) break; // the same
+            if (points > limits::maxClipPoints) break; // more than a clip may have
         }
         clip.channels[j].bands = packedBands(std::move(waves), number);
     }
@@ -189,7 +189,7 @@ public:
         const ClipPoint& from = curve_[next_ - 1];
         return next_ == curve_.size() ? from.value : from.value + slope() * (seconds - from.seconds);
     }
-    /// From 0 to `seconds`.
+    /// The integral from 0 to `seconds`.
     double integral(double seconds) {
         advanceTo(seconds);
         if (next_ == 0) return curve_.front().value * seconds;

@@ -65,7 +65,7 @@ struct Rectangle {
         return {left, top, std::max(T{}, std::min(right(), other.right()) - left),
                 std::max(T{}, std::min(bottom(), other.bottom()) - top)};
     }
-    /// Moved, and made smaller if need be, so that `area` contains it.
+    /// This rectangle moved, and if necessary made smaller, so that `area` contains it.
     Rectangle constrainedWithin(const Rectangle& area) const noexcept {
         const T w = std::min(width, area.width), h = std::min(height, area.height);
         return {std::clamp(x, area.x, area.right() - w), std::clamp(y, area.y, area.bottom() - h), w, h};
@@ -138,10 +138,10 @@ struct Transform {
     Spot apply(Spot p) const noexcept { return {xx * p.x + xy * p.y + dx, yx * p.x + yy * p.y + dy}; }
 };
 
-/// Filled, all of its parts are closed; overlaps count once. One thread at a time.
+/// An outline of lines and curves. Filling closes its parts; overlaps are filled once. One thread at a time.
 class Path {
 public:
-    enum class Kind { move, line, conic, cubic }; ///< with so many points: 1, 1, 2, 3
+    enum class Kind { move, line, conic, cubic }; ///< steps of 1, 1, 2 and 3 points
     struct Part {
         std::vector<Kind> steps;
         std::vector<Spot> points;
@@ -181,7 +181,7 @@ private:
 
 // A colour of a picture.
 
-/// Red, green, blue and opacity, each 0 to 255. Any thread, all of it.
+/// Red, green, blue and opacity, each 0 to 255. Any thread.
 struct Colour {
     std::uint8_t alpha = 0, red = 0, green = 0, blue = 0;
 
@@ -208,12 +208,12 @@ struct Colour {
                static_cast<std::uint32_t>(green) << 8 | blue;
     }
     Colour withAlpha(float value) const noexcept { return {byte(value), red, green, blue}; }
-    /// `by` at most 1: darker, of the same hue.
+    /// A darker colour of the same hue; `by`: 0 to 1.
     Colour withMultipliedBrightness(float by) const noexcept {
         const auto dark = [by](std::uint8_t part) { return byte(by * static_cast<float>(part) / 255.0f); };
         return {alpha, dark(red), dark(green), dark(blue)};
     }
-    /// From this (0) to `other` (1).
+    /// The mixture with `other`; `share`: 0, this colour, to 1, the other.
     Colour mixedWith(Colour other, float share) const noexcept {
         const auto mix = [share](std::uint8_t from, std::uint8_t to) {
             return byte((static_cast<float>(from) + share * static_cast<float>(to - from)) / 255.0f);
@@ -256,7 +256,7 @@ public:
         over(p[0], colour.red), over(p[1], colour.green), over(p[2], colour.blue);
     }
 
-    /// As a PNG: the same pixels, the same bytes; there is no clock in it.
+    /// The image as a PNG without a date, so that equal pixels give equal bytes.
     std::string png() const;
 
 private:

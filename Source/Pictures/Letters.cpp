@@ -10,7 +10,7 @@
 namespace physvib::picture {
 namespace {
 
-/// A font's plain and bold file. The first that a machine has is used, the others for letters that it lacks.
+/// Plain and bold files of fonts: the first that is installed is used, the others for letters that it lacks.
 constexpr std::array<std::array<const char*, 2>, 5> fontFiles{
     {{"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"},
      {"LiberationSans-Regular.ttf", "LiberationSans-Bold.ttf"},

@@ -9,10 +9,10 @@
 
 namespace physvib::picture {
 
-/// Where fonts are looked for on this system.
+/// The folders of this system that may contain fonts.
 std::vector<std::filesystem::path> fontFolders();
 
-/// A plain and a bold face. Without a font that we know, words have no width. One thread at a time.
+/// A plain and a bold face. If no known font is installed, every width is 0. One thread at a time.
 class Letters {
 public:
     explicit Letters(const std::vector<std::filesystem::path>& folders = fontFolders());

@@ -14,12 +14,12 @@ inline constexpr Colour line = Colour::of(0xff2b2e38);
 inline constexpr Colour text = Colour::of(0xffe6e8ee);
 inline constexpr Colour muted = Colour::of(0xff959bab);
 inline constexpr Colour white = Colour::of(0xffffffff);
-inline constexpr Colour highlight = Colour::of(0xfff6c667); ///< amber: what happens at this moment
-inline constexpr Colour limit = Colour::of(0xfff56565);     ///< red: stop and limit, nothing else
+inline constexpr Colour highlight = Colour::of(0xfff6c667); ///< amber: events of this moment
+inline constexpr Colour limit = Colour::of(0xfff56565);     ///< red: only stop and limits
 inline constexpr Colour camera = Colour::of(0xffd8c69a);    ///< outline of what is felt
-inline constexpr Colour grey = Colour::of(0xff6b7180);      ///< what has no material
+inline constexpr Colour grey = Colour::of(0xff6b7180);      ///< events without a known material
 
-/// Colour of an enchanter: eight chosen by eye, then hues a golden angle apart. Any thread.
+/// Colour of an actuator: eight chosen by eye, then hues a golden angle apart. Any thread.
 inline Colour enchanter(int index) {
     constexpr std::array<std::uint32_t, 8> chosen{0xff4fd1c5, 0xfff6ad55, 0xffb794f4, 0xff68d391,
                                                   0xff63b3ed, 0xfff687b3, 0xffd6d765, 0xffa3b1c6};
@@ -30,7 +30,7 @@ inline Colour enchanter(int index) {
 
 constexpr int materialCount = 8;
 
-/// Colour of a material by its index; calm, so that amber and the enchanters stand out. Any thread.
+/// Colour of a material by its index; calm, so that amber and the actuators stand out. Any thread.
 inline Colour material(int index) {
     constexpr std::array<std::uint32_t, materialCount> chosen{0xffd14b5a, 0xffc98d3c, 0xff9fb3cb, 0xffa79fb5,
                                                               0xffb7906b, 0xff5a93c9, 0xffa9744f, 0xff9aa04a};

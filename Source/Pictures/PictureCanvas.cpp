@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws panels, text and axes in the palette's style.
+// Painter, Path, Canvas, ticks and Axis: converts outlines for FreeType and paints the pixels that it finds.
 #include "Pictures/PictureCanvas.h"
 #include "Pictures/FreeType.h"
 #include <algorithm>
@@ -9,13 +9,11 @@
 
 namespace physvib::picture {
 
-// Converts outlines for FreeType, and paints the spans of pixels that it returns.
-
 namespace {
 
 constexpr float maxCoordinatePixels = 100000.0f; // pixels; FreeType refuses outlines that reach further
 constexpr int maxCorners = 1000,
-              maxPartPixels = 128;           // of an outline that FreeType is not asked for in one piece
+              maxPartPixels = 128;           // of an outline: if it has more, it is filled in pieces
 constexpr std::size_t maxStrokeSteps = 1000; // steps at once: an outline has at most 32767 points
 
 FT_Vector fixed(Spot p) {
@@ -28,7 +26,7 @@ FT_Vector fixed(Spot p) {
     return {part(p.x), part(p.y)};
 }
 
-/// FreeType's outline, and what it holds. FreeType 2.13.3 made tags, ends and their counts unsigned.
+/// The arrays of an FT_Outline. FreeType 2.13.3 made tags, ends and their counts unsigned.
 struct Outline {
     using Count = decltype(FT_Outline::n_points);
     using End = std::remove_pointer_t<decltype(FT_Outline::contours)>;
@@ -77,7 +75,7 @@ struct Painter::Raster {
         int y;
         FT_Span pixels;
     };
-    std::vector<Span> spans; // of one outline, until it is known that there are no more
+    std::vector<Span> spans; // of an outline; painted once all were found
 
     static void addSpans(int y, int count, const FT_Span* found, void* user) {
         for (int i = 0; i < count; ++i) static_cast<Raster*>(user)->spans.push_back({y, found[i]});
@@ -97,7 +95,7 @@ struct Painter::Raster {
             }
     }
 
-    /// What may be painted of an outline.
+    /// The pixels within `clip` that an outline can reach.
     static Area paintedArea(const FT_Outline& outline, Area clip) {
         FT_BBox box;
         FT_Outline_Get_CBox(&outline, &box);
@@ -106,7 +104,7 @@ struct Painter::Raster {
                                   static_cast<int>(box.yMax >> 6) + 1 - top});
     }
 
-    // Its memory is small: of an outline with many corners FreeType fills a part at a time.
+    // FreeType's rasteriser has little memory: an outline with many corners is filled in narrow pieces.
     void fill(Painter& painter, FT_Outline& outline, Area part) {
         if (outline.n_points == 0 || part.empty()) return;
         FT_Raster_Params params{};
@@ -123,7 +121,7 @@ struct Painter::Raster {
         fill(painter, outline, part);
     }
 
-    /// What has gone into the stroker, filled.
+    /// Fills the outline of the lines that were given to the stroker.
     void fillStroke(Painter& painter) {
         FT_UInt points = 0, ends = 0;
         FT_Stroker_GetCounts(stroker, &points, &ends);
@@ -171,14 +169,14 @@ private:
         else
             FT_Stroker_CubicTo(stroker, &to[0], &to[1], &to[2]);
     }
-    // FreeType's stroker leaves out what goes nowhere, and ends a path of nothing else outside its memory.
+    // FreeType's stroker skips lines without length; a path of them alone makes it write outside its memory.
     void end(Painter& painter) {
         if (!isBegun_) return FT_Stroker_Rewind(stroker);
         FT_Stroker_EndSubPath(stroker);
         fillStroke(painter);
     }
     static bool isApart(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
-        const FT_Pos minDistance = count == 1 ? 1 : 2; // of 64ths of a pixel, in curves
+        const FT_Pos minDistance = count == 1 ? 1 : 2; // in 64ths of a pixel; 2 for curves
         return std::abs(a.x - b.x) >= minDistance || std::abs(a.y - b.y) >= minDistance;
     }
     bool isBegun_ = false;
@@ -199,7 +197,7 @@ void Painter::fillAll(Colour colour) {
 void Painter::fillPath(const Path& path, const Transform& transform) {
     Outline outline;
     outline.add(path, transform);
-    if (!outline.fits()) return; // no shape of ours has so many corners
+    if (!outline.fits()) return; // no shape that we draw has so many corners
     auto view = outline.view();
     raster_->fill(*this, view, Raster::paintedArea(view, clip_));
 }
@@ -216,8 +214,8 @@ void Painter::blend(int x, int y, Colour colour) {
 }
 
 namespace {
-constexpr float quarterCircleHandle = 0.5522848f; // of a circle by a cubic: its handles, as a share of the
-                                                  // radius
+constexpr float quarterCircleHandle = 0.5522848f; // a quarter of a circle as a cubic: the length of
+                                                  // its handles, relative to the radius
 }
 
 Path& Path::addRectangle(float x, float y, float width, float height) {
@@ -261,7 +259,7 @@ void Path::move(const Transform& transform) {
 
 namespace {
 
-/// As many letters of `words` as there is room for, and three dots.
+/// As many letters of `words` as fit into `room` with three dots behind them.
 std::string truncated(const Letters& letters, std::string_view words, float height, bool bold, float room) {
     const auto start = [words](std::size_t bytes) { return std::string{words.substr(0, bytes)} + "..."; };
     std::size_t fits = 0, tooMany = words.size();
@@ -269,7 +267,7 @@ std::string truncated(const Letters& letters, std::string_view words, float heig
         const std::size_t half = (fits + tooMany) / 2;
         (letters.width(start(half), height, bold) <= room ? fits : tooMany) = half;
     }
-    while (fits > 0 && (static_cast<unsigned char>(words[fits]) & 0xc0) == 0x80) --fits; // a letter is whole
+    while (fits > 0 && (static_cast<unsigned char>(words[fits]) & 0xc0) == 0x80) --fits; // a whole letter
     return fits > 0 ? start(fits) : std::string{};
 }
 
@@ -298,7 +296,7 @@ std::vector<double> ticks(double from, double to, int maxCount) {
             step *= factor;
             break;
         }
-    const double slack = 1e-3 * (to - from); // less than a pixel or two: a tick at the edge stays
+    const double slack = 1e-3 * (to - from); // at most two pixels, so that a tick at the edge is kept
     std::vector<double> places;
     for (double i = std::ceil((from - slack) / step); i * step <= to + slack; ++i) places.push_back(i * step);
     return places;

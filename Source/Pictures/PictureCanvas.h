@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common elements of a picture: panels, plot backgrounds, text in three sizes, axes.
+// Painter fills and strokes outlines on an image; Canvas adds panels, plot backgrounds and text; Axis, ticks.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include "Io/Text/ReadableNumber.h"
@@ -13,8 +13,6 @@
 
 namespace physvib::picture {
 
-// Fills and strokes outlines on an image, with smooth edges, by FreeType's rasteriser.
-
 /// From `inner` at the centre to `outer` at `radius` and beyond.
 struct RadialGradient {
     Spot centre;
@@ -22,7 +20,7 @@ struct RadialGradient {
     Colour inner, outer;
 };
 
-/// Paints on an image that outlives it. One thread at a time.
+/// Paints with smooth edges, by FreeType's rasteriser, on an image that outlives it. One thread at a time.
 class Painter {
 public:
     explicit Painter(Image& image);
@@ -49,7 +47,7 @@ public:
     void drawLine(Spot from, Spot to, float width) {
         strokePath(Path{}.startNewSubPath(from).lineTo(to), width);
     }
-    void blend(int x, int y, Colour colour); ///< one pixel, whatever has been added as a transform
+    void blend(int x, int y, Colour colour); ///< one pixel of the image
 
     /// Restricts painting to `area` within the present clip.
     void reduceClip(Area area) noexcept { clip_ = clip_.intersection(area); }
@@ -80,16 +78,16 @@ private:
 
 using namespace readable;
 
-enum class Align { left, centre, right }; ///< in the middle of its height
+enum class Align { left, centre, right }; ///< horizontally; the height is centred
 
 constexpr float smallText = 15.0f, mediumText = 18.0f, largeText = 29.0f;
 
-/// Draws the recurring parts; everything in whole pixels.
+/// Draws text, panels and headings; all areas are in whole pixels.
 struct Canvas {
     Painter& graphics;
     const Letters& letters;
 
-    /// One line, cut with an ellipsis if it is wider than `area`. Words are clean: cleanLine().
+    /// One line, cut with an ellipsis if it is wider than `area`. The caller has cleaned it: cleanLine().
     void text(std::string_view words, Area area, Align align, Colour colour, float height = smallText,
               bool bold = false) const;
     int textWidth(std::string_view words, float height, bool bold = false) const {
@@ -120,7 +118,7 @@ struct Axis {
     double to = 0.0;
     Area lane;
 
-    /// pixels from the image's left
+    /// The place of `value`, in pixels from the image's left.
     float x(double value) const {
         const double share = to > from ? (value - from) / (to - from) : 0.0;
         return static_cast<float>(lane.x + share * lane.width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a render's picture; each is drawn into a given panel.
+// The parts of a render's picture, each drawn into a given panel, and their colours, lights and field map.
 #pragma once
 #include "Pictures/PictureCanvas.h"
 #include "Pictures/RenderPicture.h"
@@ -10,8 +10,8 @@ namespace physvib::picture {
 /// True for an impact, false for a grain of rolling or sliding.
 inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
 
-/// What a colour of a hit means: its material where the scene tells, else the part of the body on which every
-/// hit is felt, as that part's first actuator is drawn, else its frequency.
+/// What the colour of a hit means: its material if the scene tells it, else the part of the body on which
+/// every hit is felt, as that part's first actuator is drawn, else its frequency.
 class HitColours {
 public:
     struct Class {
@@ -41,7 +41,7 @@ private:
 constexpr int headingHeight = 24, axisHeight = 22;
 constexpr int peakWidth = 92; ///< right of every lane: its peak in dBFS
 
-/// The label of an enchanter: the caller's, else A..Z for up to 26, else its number.
+/// The label of an actuator: the caller's, else A..Z for up to 26, else its number.
 std::string labelOf(const PictureInput& input, int channel);
 
 /// The built-in name of a part of a body; empty of others.
@@ -50,10 +50,10 @@ std::string_view builtInPart(PartNumber part) noexcept;
 /// The label beside a lane: with the built-in part of a body that the actuator is on ("A thumb").
 std::string laneLabelOf(const PictureInput& input, int channel);
 
-/// What is left of `row` for a lane between the labels (as wide as they need, within reason) and the peaks.
+/// The area of a lane in `row`: between the labels, as wide as they need within reason, and the peak.
 Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);
 
-/// Height that the lanes of `channels` channels need; more channels, less each.
+/// Height of the lanes of `channels` channels; each is lower if there are more.
 int lanesHeight(int channels) noexcept;
 
 /// The amplitude scale that all lanes of a window share, as text.
@@ -72,7 +72,7 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
 /// What the colours of hits mean, right-aligned; if the names are too long, each gets its share of the row.
 void drawLegend(const Canvas& canvas, const HitColours& colours, Area row);
 
-/// The field to scale, bodies, hits as glows, traces as lines, enchanters, a sentence on the strongest hit.
+/// The field to scale, bodies, hits as glows, traces as lines, actuators, a sentence on the strongest hit.
 void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel);
 
 /// 100 ms around the strongest hit, a lane per channel; the eight loudest if there are more.
@@ -92,7 +92,7 @@ public:
 
     void add(Spot centre, float radius, float strength, Colour colour) {
         if (!area_.toFloat().expanded(radius).contains(centre))
-            return; // also what is too far away for whole numbers
+            return; // first, because a coordinate far outside would overflow an int
         const Area box = boxAround(centre, 2.0f * radius, 2.0f * radius).outerPixels().intersection(area_);
         for (int y = box.y; y < box.bottom(); ++y)
             for (int x = box.x; x < box.right(); ++x) {
@@ -103,7 +103,7 @@ public:
             }
     }
 
-    // The exposure follows the brightest pixel; then a film curve: 1 - exp(-light).
+    // Scales the light by the brightest pixel, and applies a film's curve: 1 - exp(-light).
     void draw(Painter& g) const {
         const float brightest = rgb_.empty() ? 0.0f : *std::max_element(rgb_.begin(), rgb_.end());
         const float exposure = brightest > 2.0f ? 2.0f / brightest : 1.0f;
@@ -150,7 +150,7 @@ struct FieldMap {
 /// The field to scale, in the middle of `room`.
 FieldMap fittedFieldMap(const PictureInput& input, Area room);
 
-/// A place of the field. A layout in space is seen obliquely: what is nearer is further down and to the left.
+/// A place of the field. A layout in space is seen obliquely: nearer places are further down and to the left.
 Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
 
 /// Where actuator `channel` stands, the layout being mapped on the field.

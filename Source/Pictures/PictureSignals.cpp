@@ -237,7 +237,7 @@ int lanesHeight(int channels) noexcept {
 namespace {
 
 constexpr double floorDb = -60.0;
-constexpr std::ptrdiff_t maxDots = 600; // more heads of stems hide each other
+constexpr std::ptrdiff_t maxDots = 600; // of stems' heads: more would hide each other
 constexpr int headRoom = 6;
 
 /// Amplitude to height: floorDb at the bottom, 0 dBFS or the next ten above the strongest at the top.
@@ -246,7 +246,7 @@ struct LevelAxis {
     Area lane;
     float height(double level) const {
         const double share = (level - floorDb) / (ceiling - floorDb);
-        return static_cast<float>(std::max(share * (lane.height - headRoom), 2.0)); // the quietest shows
+        return static_cast<float>(std::max(share * (lane.height - headRoom), 2.0)); // always visible
     }
 };
 
@@ -279,7 +279,7 @@ int entryWidth(const Canvas& canvas, const HitColours::Class& c) {
 
 } // namespace
 
-// Strong ones first, so that weaker stems at the same pixel stand before them; the strongest again on top.
+// Strong hits first, so that weaker stems at the same place are drawn over them; at last the strongest again.
 void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours& colours, const Axis& axis) {
     const auto order = loudestFirst(input.events);
     const double loudest = order.empty() ? 0.0 : decibels(order.front()->amplitude);
@@ -299,7 +299,7 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
 }
 
 void drawLegend(const Canvas& canvas, const HitColours& colours, Area row) {
-    int width = -20; // nothing behind the last
+    int width = -20; // less the gap, which the last entry needs not
     for (const auto& c : colours.classes()) width += entryWidth(canvas, c);
     const int share = row.width / std::max(static_cast<int>(colours.classes().size()), 1);
     const bool fits = width <= row.width;
@@ -336,7 +336,7 @@ Colour HitColours::colourOf(const CollisionEvent& event) const {
     return palette::grey;
 }
 
-// (f, tau) tells the material, whichever of the two bodies gave its voice to the hit.
+// Frequency and decay of a hit identify the material, whichever of the two bodies vibrates.
 void HitColours::classifyByMaterial(const PictureInput& input) {
     meaning_ = "material";
     const auto& materials = input.scene->materials;
@@ -349,7 +349,7 @@ void HitColours::classifyByMaterial(const PictureInput& input) {
             return m.frequencyHz == event.frequencyHz && m.decayPerSecond == event.decayPerSecond;
         });
         unknown |= found == materials.end();
-        used.insert(static_cast<std::size_t>(found - materials.begin())); // of none: one behind them
+        used.insert(static_cast<std::size_t>(found - materials.begin())); // unknown: their number
     }
     for (const auto index : used) {
         if (index >= materials.size()) continue;
@@ -368,7 +368,7 @@ bool HitColours::classifyByBodyPart(const PictureInput& input) {
     const auto channelOf = [&](PartNumber part) {
         return static_cast<int>(std::ranges::find(places, part, &ActuatorPlace::part) - places.begin());
     };
-    std::set<int> channels; // the first of each part
+    std::set<int> channels; // the first channel of each part
     for (const auto& event : input.events) {
         const int channel = event.source.part == 0 ? input.layout.count : channelOf(event.source.part);
         if (channel == input.layout.count) return false;
@@ -399,7 +399,7 @@ void HitColours::classifyByFrequency(const PictureInput& input) {
         return;
     }
     const std::string to = "\xe2\x80\x93";
-    constexpr double edges[] = {0.0, 50.0, 100.0, 200.0, 400.0, 800.0, endless}; // octaves of touch
+    constexpr double edges[] = {0.0, 50.0, 100.0, 200.0, 400.0, 800.0, endless}; // tactile octaves
     for (int i = 0; i < palette::rampCount; ++i) {
         rules_.push_back({edges[i], edges[i + 1], anyDecay, palette::ramp(i)});
         const auto name = i == 0                    ? "up to " + shortNumber(edges[1])

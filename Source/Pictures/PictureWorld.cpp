@@ -30,10 +30,10 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
 
 namespace {
 
-// What stands outside the field (walls, as a rule) shows as a frame of at most this width.
+// Bodies outside the field, usually walls, are visible in a frame of at most this width around it.
 constexpr float wallPixels = 12.0f;
 
-// A chain is a line: it is stroked, the others are filled.
+// Strokes a chain, which is a line, and fills all other shapes.
 void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, Colour colour,
                  const Transform& body, const FieldMap& map) {
     const auto transform =
@@ -101,8 +101,7 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
     const auto* const strongest = strongestEvent(input.events);
     if (!strongest) return;
     const double loudestDb = decibels(strongest->amplitude);
-    Light hits(clipArea), traces(clipArea); // each exposed for itself: thousands of grains would outshine any
-                                            // hit
+    Light hits(clipArea), traces(clipArea); // apart, because thousands of grains would outshine a hit
     for (const auto& event : input.events) {
         const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudestDb) / 40.0);
         if (level <= 0.0f) continue;
@@ -112,13 +111,13 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
                      colours.colourOf(event));
         else
             traces.add(spot, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
-                       colours.colourOf(event)); // they join to a line
+                       colours.colourOf(event)); // together they form a line
     }
     traces.draw(canvas.graphics);
     hits.draw(canvas.graphics);
 }
 
-/// What a channel plays of the strongest hit, 1 for the loudest; 0 if the picture has no sound of it.
+/// A channel's level in the strongest hit; the loudest channel has 1. 0 if the picture has no sound.
 float shareOf(const PictureInput& input, int channel) {
     const bool hasSound =
         input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
@@ -136,7 +135,7 @@ void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& 
     }
 }
 
-// Rings where it struck, and a line to each enchanter as wide and bright as what it plays of it.
+// Rings where a hit struck, and a line to each actuator, as wide and bright as the level that it plays.
 void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
                    const CollisionEvent& hit) {
     const auto centre = spotOf(input, map, hit.x, hit.y, hit.z);
@@ -177,7 +176,7 @@ std::string describeBodies(const PictureInput& input, const CollisionEvent& hit)
 }
 
 float closestPairPixels(const PictureInput& input, const FieldMap& map) {
-    float closest = 400.0f; // alone
+    float closest = 400.0f; // pixels; also for a single actuator
     for (int a = 0; a < input.layout.count; ++a)
         for (int b = a + 1; b < input.layout.count; ++b)
             closest = std::min(closest, placeOf(input, map, a).distanceTo(placeOf(input, map, b)));
@@ -194,7 +193,7 @@ void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour c
 
 } // namespace
 
-// As large as the closest pair allows; too close for a label, it is a dot.
+// Badges are as large as the closest pair allows; without room for labels they are dots.
 void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
     const float closest = closestPairPixels(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
     for (int c = 0; c < input.layout.count; ++c) {

@@ -15,13 +15,13 @@ namespace {
 constexpr int margin = 16, headerHeight = 40, lanesHeightPixels = 150;
 constexpr double glowSeconds = 0.5; // after which an impact's light is gone
 constexpr double fadePerSecond = 7.0;
-constexpr float floorDb = 40.0f; // below the loudest: no light
+constexpr float floorDb = 40.0f; // an impact weaker than the strongest by this has no light
 
 std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
 } // namespace
 
-/// The panels, the still part of every picture, and what impacts are measured by.
+/// The panels, the still part of every picture, and the strongest impact's level, to which others compare.
 struct RenderMovie::Parts {
     const PictureInput& input;
     Letters letters;
@@ -116,7 +116,7 @@ struct RenderMovie::Parts {
         canvas.text(clockText(seconds), header, Align::right, palette::highlight, mediumText, true);
         const float x = time.x(std::min(seconds, time.to));
         const Box lane = time.lane.toFloat();
-        canvas.graphics.setColour(palette::ground.withAlpha(0.72f)); // what is still to come
+        canvas.graphics.setColour(palette::ground.withAlpha(0.72f)); // dims the lanes after this moment
         canvas.graphics.fillRect({x, lane.y, std::max(0.0f, lane.right() - x), lane.height});
         canvas.graphics.setColour(palette::highlight);
         canvas.graphics.fillRect({x - 1.0f, lane.y, 2.0f, lane.height});
@@ -148,8 +148,8 @@ Image RenderMovie::draw(std::int64_t momentNs, const WorldPoses& poses, const Sc
 
 namespace {
 
-constexpr float quality = 78.0f; // of libwebp's 0 to 100: words stay sharp, ten seconds take about a megabyte
-constexpr int method = 3;        // of 0 to 6: slower is a few per cent smaller
+constexpr float quality = 78.0f; // libwebp's, 0 to 100: text is sharp; ten seconds take about a megabyte
+constexpr int method = 3;        // libwebp's, 0 to 6: higher is slower, and the file a few per cent smaller
 
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error{"no WebP could be made: " + why}; }
 

@@ -20,7 +20,7 @@ public:
     RenderMovie(const RenderMovie&) = delete;
     RenderMovie& operator=(const RenderMovie&) = delete;
 
-    /// How many pictures the render has: one at least.
+    /// Number of pictures, at least one.
     std::int64_t count() const noexcept;
     /// When picture `index` is shown, in nanoseconds of the render.
     static std::int64_t timeNs(std::int64_t index) noexcept {
@@ -37,7 +37,7 @@ private:
 
 // Encoder of movies as animated WebP, by libwebp.
 
-/// Pictures of one size, by time. One thread at a time. What libwebp refuses is a std::runtime_error.
+/// Pictures of one size, by time. One thread at a time. Throws std::runtime_error if libwebp fails.
 class WebpMovie {
 public:
     WebpMovie(int width, int height);
@@ -47,7 +47,7 @@ public:
 
     void add(const picture::Image& image, std::int64_t timeMs); ///< shown from then on
 
-    /// All of the file, once; the last picture is shown until `endMs`. It is played again and again.
+    /// The whole file, which repeats endlessly; the last picture is shown until `endMs`. Call it once.
     std::string bytes(std::int64_t endMs);
 
 private:

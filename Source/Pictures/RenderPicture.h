@@ -24,13 +24,13 @@ struct PictureInput {
     WorldPoses poses;                           ///< at the strongest event; without bodies: as it began
     std::span<const CollisionEvent> events;     ///< in any order
     ActuatorLayout layout;                      ///< channel j of the waveforms is place j
-    std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers
+    std::vector<std::string> labels;            ///< of the actuators; missing ones are A, B, ... or numbers
     const WaveformEnvelope* waveform = nullptr; ///< of the whole render
     const WaveformEnvelope* zoom = nullptr;     ///< of zoomWindow()
     int sampleRateHz = 0;
     double durationSeconds = 0.0;
-    std::string law;        ///< words for the numbers line: "linear law"
-    std::string provenance; ///< version, seed, source: what it takes to make this again
+    std::string law;        ///< the panning law as the picture's footer names it: "linear law"
+    std::string provenance; ///< version, seed, source: all that is needed to render this again
 };
 
 /// The event with the largest |amplitude|, the first of equals; null without events. Any thread.
@@ -49,7 +49,7 @@ struct FrameWindow {
 /// What the picture enlarges of a render: 10 ms before to 90 ms after the strongest onset. Any thread.
 FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept;
 
-/// The picture, 1600 x 1000 pixels. Without any font the words are missing and the rest is there. Any thread.
+/// The picture, 1600 x 1000 pixels. Without any font it is drawn without its text. Any thread.
 picture::Image drawPicture(const PictureInput& input, const picture::Letters& letters = picture::Letters{});
 
 /// drawPicture as the bytes of a PNG, the same bytes for the same input and fonts. Any thread.

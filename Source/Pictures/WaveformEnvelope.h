@@ -26,7 +26,7 @@ public:
     int channels() const noexcept { return static_cast<int>(peaks_.size()); }
     std::int64_t firstFrame() const noexcept { return firstFrame_; }
     std::int64_t frameCount() const noexcept { return frameCount_; }
-    /// One column; where the window has fewer frames than columns, the frame before. Outside: silence.
+    /// One column; one without a frame repeats the column before. Outside the render: silence.
     SampleRange column(int channel, int index) const noexcept;
     /// Largest magnitude of a channel inside the window.
     float peak(int channel) const noexcept { return peaks_[static_cast<std::size_t>(channel)]; }
@@ -38,8 +38,8 @@ private:
 
     std::int64_t firstFrame_;
     std::int64_t frameCount_;
-    std::int64_t processedFrames_ = 0; // frames taken so far
-    std::vector<SampleRange> ranges_;  // channel by channel; lowest > highest: nothing there yet
+    std::int64_t processedFrames_ = 0; // frames added so far
+    std::vector<SampleRange> ranges_;  // channel by channel; lowest > highest: no frame yet
     std::vector<float> peaks_;
 };
 

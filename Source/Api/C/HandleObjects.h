@@ -39,7 +39,7 @@ public:
     }
 
     /// Returns the command for the frame that ends at `untilNs`: per motor the strongest that became due
-    /// since the last pull, so that no impact between two frames is lost. If none did, it is the last one.
+    /// since the last pull, so that no impact between two frames is lost; if none did, the last one again.
     PadCommand pull(std::int64_t untilNs, double level) noexcept {
         lastPullNs_ = untilNs;
         for (; lateCount_ > 0; motors_.strike(lateEvents_[lateCount_], panner_))
@@ -61,7 +61,7 @@ private:
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
 
     PadLaw law_;
-    PhantomPanner panner_; // gains of the grips, at the left and the right end of the field
+    PhantomPanner panner_; // gains of the two grips, which lie at the left and right end of the field
     PadMotors motors_;
     PadCommand lastCommand_;
     std::array<CollisionEvent, 256> lateEvents_; // start with the next pull; in any order
@@ -96,7 +96,7 @@ struct World {
     std::vector<CollisionEvent> pendingEvents; // physvib_world_take() has not returned them yet
     // Device by body, if not the first; an entry outlives its body, whose events may still be pending.
     std::unordered_map<int, int> devices;
-    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // totals at the last explanation
+    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // totals up to the last explanation
 };
 
 /// Controllers of a program that sends the motor commands itself.

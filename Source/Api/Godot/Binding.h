@@ -183,7 +183,7 @@ private:
     GDExtensionMethodBindPtr bind = nullptr;
 };
 
-Variant singleton(const char* name); ///< such as "Input"
+Variant singleton(const char* name); ///< one of Godot's servers or globals, such as "Input"
 bool isInEditor();                   ///< true in the editor, where the scene does not play
 void warn(const std::string& line);  ///< prints a warning in Godot; the same line only once per run
 

@@ -121,8 +121,8 @@ void addGroup(const ClassTable& table, const char* name) {
     api.registerGroup(api.library, StringName(table.name).get(), group.get(), prefix.get());
 }
 
-// The creator of an object must send it the notification "created". It is sent by pointer, since a Variant of
-// a new resource would hold its first reference and free the object when it goes out of scope.
+// The creator of an object must send it the notification "created", by a method with this hash. It is sent by
+// pointer: a Variant of a new resource would hold its first reference, and free it at the end of its scope.
 GDExtensionObjectPtr create(void* data, GDExtensionBool shouldNotify) {
     const ClassTable& table = *static_cast<ClassTable*>(data);
     GDExtensionObjectPtr object = api.constructObject(StringName(table.parent).get());

@@ -24,26 +24,26 @@ struct Surface {
 
 /// A body, or another object with collision shapes, that the world observes.
 struct ObservedBody {
-    std::uint64_t id;                       ///< of Godot's object, or derived from the RID if it has none
-    int number;                             ///< of the body in physvib.h
-    Variant object = {};                    ///< Godot's object; nil: it has none
-    std::uint64_t rid = 0;                  ///< 0: several, as of a TileMapLayer
-    const HapticBody* hapticBody = nullptr; ///< its HapticBody; null: it only touches others
+    std::uint64_t id;      ///< Godot's id of the object, or derived from the RID if it has none
+    int number;            ///< the body's number in physvib.h
+    Variant object = {};   ///< Godot's object; nil: it has none
+    std::uint64_t rid = 0; ///< of the physics server's body; 0: several, as in a TileMapLayer
+    const HapticBody* hapticBody = nullptr; ///< null: only its contacts with haptic bodies count
     bool isNode = false;
     bool isRigid = false, isCharacter = false; ///< rigid body; CharacterBody
     bool wasTouched = false;       ///< touched in the last tick; bodies without a node are dropped otherwise
-    BodyState state = {};          ///< of this tick
+    BodyState state = {};          ///< Godot's physics state in this tick
     physvib_body description = {}; ///< as last given to physvib_world_set_body
-    std::uint64_t revision = 0;    ///< of properties when it was described; 0: never
+    std::uint64_t revision = 0;    ///< count of property changes at the last description; 0: none
     const HapticBody* describedHapticBody = nullptr;
     Vector velocityBefore = {};                ///< velocity before the solver, m/s, with this tick's gravity
     Vector spin = {}, centre = {};             ///< rad/s and m, before the solver
-    Vector gravity = {};                       ///< m/s^2, at its place
-    Vector acceleration = {};                  ///< gravity, m/s^2; 0 if the body does not fall
-    Vector velocityChange = {};                ///< of the velocity by the solver, m/s
+    Vector gravity = {};                       ///< at its place, m/s^2
+    Vector acceleration = {};                  ///< by gravity, m/s^2; 0 if the body does not fall
+    Vector velocityChange = {};                ///< by the solver, m/s
     Surface support = {};                      ///< its slowest contact in the last tick
-    Vector lastPosition = {}, lastTravel = {}; ///< of a CharacterBody, last tick, m
-    bool hasLastPosition = false;              ///< of a CharacterBody: `lastPosition` is known
+    Vector lastPosition = {}, lastTravel = {}; ///< of a CharacterBody in the last tick, m
+    bool hasLastPosition = false;              ///< true if `lastPosition` is known
 };
 
 /// A contact of two bodies whose strength is known only after the next tick.
@@ -85,9 +85,9 @@ private:
     void observeRigidBodies();
     bool exists(const ObservedBody& body) const;
     ObservedBody* findOrAdd(std::uint64_t id, std::uint64_t rid, const HapticBody* hapticBody);
-    void removeBodies(); ///< all bodies; ends an open step
+    void removeBodies(); ///< removes all bodies, after ending an open step
     void updateDescription(ObservedBody& body);
-    Variant materialOf(const ObservedBody& body) const; ///< by its PhysicsMaterial; nil: none
+    Variant materialOf(const ObservedBody& body) const; ///< for its PhysicsMaterial; nil: none
     void reportMotion(ObservedBody& body);
     void reportSolvedVelocity(ObservedBody& body);
     void reportTouches(ObservedBody& body);
@@ -114,7 +114,7 @@ private:
     Vector toFieldVector(const Vector& v) const;
     Vector toFieldSpin(const Vector& spin) const;
     Variant describeHit(const physvib_event& event) const;
-    Variant objectOf(int number) const; ///< nil: it was freed
+    Variant objectOf(int number) const; ///< Godot's object of a body; nil: it was freed
     Variant server() const;
 
     double stepSeconds = 0.0;
@@ -124,10 +124,10 @@ private:
     Vector fieldOrigin{};    ///< lower left corner of the field, in Godot's units
     std::uint64_t space = 0; ///< RID of the physics server's space
     std::map<std::uint64_t, ObservedBody> bodies;
-    std::map<int, std::uint64_t> objectIds; ///< instance ids by body number
-    std::set<std::uint64_t> rigidBodies;    ///< of the space, whether they have a HapticBody or not
-    std::unordered_map<std::uint64_t, double> restitutions;        ///< of this tick, by RID
-    std::vector<PendingContact> pendingContacts, previousContacts; ///< of this tick; of the last one
+    std::map<int, std::uint64_t> objectIds;                 ///< instance ids by body number
+    std::set<std::uint64_t> rigidBodies;                    ///< all of the space, with or without HapticBody
+    std::unordered_map<std::uint64_t, double> restitutions; ///< restitutions read in this tick, by RID
+    std::vector<PendingContact> pendingContacts, previousContacts; ///< of this tick, and of the last one
     int nextBodyNumber = 0;
     Outputs outputs;
 };

@@ -64,7 +64,7 @@ private:
     mutable std::mutex statusMutex_;
     LiveRigStatus status_;
     std::string saveError_; // written by the message thread; read after it has ended
-    int updateCount_ = 0;   // message thread only, as problem_
+    int updateCount_ = 0;   // used by the message thread only, like problem_
     std::string problem_;
     std::thread messageThread_;
 };

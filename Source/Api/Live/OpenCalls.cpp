@@ -17,7 +17,7 @@ namespace {
 
 /// Held while a device is opened or closed, one at a time. Opening may wait for a driver.
 std::mutex& openMutex() {
-    static auto* const mutex = new std::mutex; // never destroyed, as the next: they are needed at exit
+    static auto* const mutex = new std::mutex; // never destroyed, because the exit handler locks it
     return *mutex;
 }
 
@@ -37,7 +37,7 @@ struct OutputRangeList {
     std::vector<OutputRange> ranges;
 };
 OutputRangeList& openOutputs() {
-    static auto* const list = new OutputRangeList;
+    static auto* const list = new OutputRangeList; // likewise
     return *list;
 }
 
@@ -56,8 +56,7 @@ int closeHandle(std::uintptr_t handle) noexcept {
     });
 }
 
-// Libraries of devices have static objects. The exit handler is registered after they are created, so it runs
-// before they are destroyed.
+// Registered after the static objects of device libraries are created, so it runs before their destruction.
 void registerCloseAtExit() {
     static const int registered = std::atexit([] {
         for (const std::uintptr_t handle : openLiveHandles()) closeHandle(handle);

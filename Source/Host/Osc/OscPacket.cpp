@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parses and writes OSC bundles and messages, and converts values with names.
+// Parses and writes OSC bundles and messages, matches address patterns, and reads lists of names and values.
 #include "Host/Osc/OscPacket.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -171,7 +171,7 @@ bool matchesOscPattern(std::string_view pattern, std::string_view address) {
     for (std::size_t at = 0; at < pattern.size() && reached != 0; ++at) {
         const char mark = pattern[at];
         const std::size_t end = pattern.find(mark == '[' ? ']' : mark == '{' ? '}' : mark, at);
-        if (end == pattern.npos) return false; // cut
+        if (end == pattern.npos) return false; // the bracket is not closed
         const std::string_view inside = pattern.substr(at + 1, end - std::min(end, at + 1));
         at = end;
         if (mark == '*')

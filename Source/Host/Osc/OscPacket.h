@@ -34,7 +34,7 @@ constexpr int maxBundleDepth = 16;
 /// Alternating names and values, in the order of `message`; the inverse of parseOscValues. Numbers are single
 /// precision, the only type that all programs read (Pd no other); exact times are tags. Any thread but R.
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message);
-/// The same in a bundle.
+/// The same message in a bundle with that tag.
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag);
 /// A message that has strings only. Any thread but R.
 std::vector<char> oscStringPacket(const std::string& address, std::initializer_list<std::string> words);

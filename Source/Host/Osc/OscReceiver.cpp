@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dispatches an OSC message by its address: silence, message, input or control, or phone sensor.
+// OscReceiver, which dispatches messages by their addresses; OscClock; PhoneSensors.
 #include "Host/Osc/OscReceiver.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/SceneLimits.h"

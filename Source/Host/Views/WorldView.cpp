@@ -354,7 +354,7 @@ void WorldView::drawBodies(juce::Graphics& g, const FieldTransform& at) {
 
 // All grains of one update form one segment of a contact's path, which starts where the last one ended.
 void WorldView::addContact(const CollisionEvent& event, double nowMs, bool isFelt) {
-    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether an unmuted one plays it
+    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // felt if an unmuted one plays it
         PhantomPanner::Gains gains{};
         panner_.gainsAt(event, gains);
         isFelt = false;

@@ -238,7 +238,7 @@ private:
     int gainMapActuator_ = -1, selected_ = -1, margin_ = 38;
     bool showsMaterials_ = false;
     juce::Image gainMap_;
-    mutable std::vector<juce::Rectangle<float>> badges_; // for the field badgesIn_; empty: not laid out yet
+    mutable std::vector<juce::Rectangle<float>> badges_; // laid out within badgesIn_; empty: not yet
     mutable juce::Rectangle<float> badgesIn_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_, filesAt_;
