@@ -62,7 +62,7 @@ private:
     OscChoice choice_;
     std::mutex mutex_; // guards the next member
     std::vector<PendingInput> pending_;
-    // used by the message thread, counted for the open port:
+    // used by the message thread, counted since the port was opened:
     std::uint64_t lastMessageCount_ = 0, refusedCount_ = 0; // messages as of the last hasNewMessages();
                                                             // refused by the mixer
     std::string lastError_;                                 // why the mixer refused the last of them

@@ -62,7 +62,6 @@ public:
     MixerExposure& exposure() noexcept { return exposure_; }
     MixerScript& script() noexcept { return script_; }
     const MixerSignals& signals() const noexcept { return signals_; }
-    /// The last contacts that were played.
     const RecentContacts& recentContacts() const noexcept { return recentContacts_; }
     std::string open(const DeviceChoice& choice);
     /// As MixerListening::monitor. Actuators on these outputs lose them, which can be undone.
@@ -75,7 +74,6 @@ public:
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
     MixerSnapshot poll(); ///< changes since the last call; at most about 30 times a second
     MixerMessages& messages() noexcept { return messages_; }
-    /// One line, or empty.
     const juce::String& messageText() const noexcept { return messages_.current().text; }
     bool isInfo() const noexcept { return messages_.current().isInfo; }
     void report(const juce::String& error) { messages_.show({error}); }
@@ -84,7 +82,7 @@ public:
 
 private:
     class MixEdit;
-    friend class MixerInputs; // calls showSilence() and, often, collectPlayed()
+    friend class MixerInputs; // calls showSilence(), and collectPlayed() at its own rate
     void countEdit(bool changesDisplay = true);
 
     void checkOutput();

@@ -241,8 +241,7 @@ void ActuatorsTab::resized() {
     edit_->setBounds(bottom.removeFromRight(140));
     hint_.setBounds(bottom);
     area.removeFromBottom(isLow ? 4 : 8);
-    list_.setBounds(area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight())); // whole
-                                                                                                      // rows
+    list_.setBounds(area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight()));
 }
 
 } // namespace physvib

@@ -46,6 +46,7 @@ private:
     int dragCount_ = 0, formatIndex_ = 0;
 };
 
+/// List of played contacts, from which files are saved and dragged. Message thread.
 class EventsTab final : public Tab, private juce::ListBoxModel {
 public:
     static constexpr const char* dragDescription = "chosen contacts"; ///< description of a drag

@@ -106,8 +106,7 @@ private:
     std::unique_ptr<juce::TextButton> scan_;
     StatusTable statusTable_{"What follows from it", 1};
     std::vector<AudioDeviceName> devices_;
-    std::string headphoneDevice_; // device of the item Headphones: the last one in use, else the first with
-                                  // two outputs
+    std::string headphoneDevice_; // of the item Headphones: last used, else the first with two outputs
     std::vector<std::vector<SinkUnit>> sinks_; // available units of each kind, in the order of sinkKinds()
     std::vector<SinkRow> sinkRows_;
     std::ptrdiff_t readySinkCount_ = 0; // as last displayed

@@ -71,6 +71,7 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
+/// The row of strips and groups, which scrolls, and the master strip at its right. Message thread.
 class StripsPanel final : public juce::Component {
 public:
     explicit StripsPanel(MixerModel& model);

@@ -24,7 +24,7 @@ private:
     Icon icon_;
 };
 
-/// A line of text with a less prominent one below, or beside it where it is low.
+/// Two lines of text, the second less prominent; side by side where the height is too small for both.
 class TwoLineText final : public ReadOnlyText, public juce::SettableTooltipClient {
 public:
     explicit TwoLineText(const juce::String& title) { setTitle(title); }
@@ -56,7 +56,6 @@ inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, 
     g.fillRoundedRectangle(area, corner);
 }
 
-/// Draws the background of a selected row.
 inline void drawSelectedRow(juce::Graphics& g, const juce::Component& c, int width, int height,
                             float alpha = 0.16f) {
     g.setColour(shade(c, Shade::accent).withAlpha(alpha));

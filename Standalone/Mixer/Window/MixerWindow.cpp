@@ -195,8 +195,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
     bar.onSave = [this] { save(); };
     bar.onDevice = [this] { view_->tabs().choose("Output"); };
     model_->device().onSinksRequested = [this](const DeviceChoice& choice) {
-        callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // the calling tab goes
-                                                                                      // with its model
+        callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // deletes the tab
     };
     bar.onOpenScene = [this] { import("Scene"); };
     bar.setOwnScenes(files_.ownScenes());
@@ -637,9 +636,7 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document, bool 
 void MixerWindow::playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
                               bool isPaused) {
     std::vector<std::size_t> withoutHeadphone;
-    if (device_.isHeadphones)
-        withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // L and R instead of the outputs of the
-                                                                    // file
+    if (device_.isHeadphones) withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // only L and R
     const Mix requested = mix;
     const auto lowered = lowerToLimits(maxLevels, mix);
     beginSession(std::move(mix), document, isPaused);

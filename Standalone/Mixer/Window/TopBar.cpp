@@ -179,7 +179,7 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
     if (std::exchange(losses_, losses) != losses) lostAtMs_ = nowMs();
     if (nowMs() - lostAtMs_ > lossDisplayMs || losses.late < seenLosses_.late ||
         losses.lost < seenLosses_.lost)
-        seenLosses_ = losses; // smaller counts: of another device
+        seenLosses_ = losses; // counts become smaller when another device is opened
     const Losses newLosses{losses.late - seenLosses_.late, losses.lost - seenLosses_.lost};
     load_.set("Load " + number(100.0 * snapshot.device.load, 1) + " %",
               joinedByDots({count(newLosses.late, "late"), count(newLosses.lost, "lost")}),
