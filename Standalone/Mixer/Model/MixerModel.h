@@ -11,7 +11,8 @@ namespace physvib {
 
 class SentMix;
 
-/// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
+/// A live session with its device, mixer state and undo steps. Listeners are notified when the mixer state,
+/// the device or the message changes. Message thread.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
     static constexpr int channels = limits::maxActuators; ///< of the session: the maximum of actuators
@@ -39,10 +40,10 @@ public:
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.
     std::shared_ptr<MixerHistory> history() const { return history_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false: no channel
+    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false: none free
     void detach(int actuator);                 ///< the last actuator cannot be detached
 
-    std::uint64_t editCount() const noexcept { return editCount_; } ///< inputs included; for unsaved changes
+    std::uint64_t editCount() const noexcept { return editCount_; } ///< edits and inputs since the start
     const SavedSession& savedSession(); ///< the session until now; rendering it reproduces what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<int, 6> sampleRatesHz{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blockSizes{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevelsDb{0, -5, -10, -15, -20, -25, -30, -40, -50};
-constexpr int noneId = 1, zeroDbId = 100; // items of lists: 1 + output or pair; 100 - level in dB
+constexpr int noneId = 1, zeroDbId = 100; // item ids: noneId + 1 + output, zeroDbId - level in dB
 constexpr int firstSinkId = 1000;         // item ids of the list of outputs: behind those of devices
 
 struct Cell {

@@ -77,9 +77,8 @@ public:
     explicit StripsPanel(MixerModel& model);
     void mixChanged();
     void refresh(const MixerSnapshot& snapshot);
-    int widthFor(int width) const; ///< pixels of the panel that show all strips at that width
-    /// Opens the list of outputs of a strip.
-    void showOutputs(int actuator);
+    int widthFor(int width) const;  ///< pixels of the panel that show all strips at that width
+    void showOutputs(int actuator); ///< opens the list of outputs of its strip
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip

@@ -153,8 +153,7 @@ public:
         setValue(0.0, dontNotify);
         setDoubleClickReturnValue(true, 0.0);
     }
-    /// Angle for a TiltAction.
-    double angleRadians() const { return juce::degreesToRadians(-getValue()); }
+    double angleRadians() const { return juce::degreesToRadians(-getValue()); } ///< for a TiltAction
 
     /// Turns to that angle, wrapped to +-180 degrees.
     void turnTo(double degrees) {
@@ -222,8 +221,7 @@ public:
     enum class Fold { none, column, row };  ///< how the names lie if it is folded
     static constexpr int foldedPixels = 30; ///< pixels across the names
 
-    /// `title` for screen readers.
-    explicit TabPanel(const juce::String& title);
+    explicit TabPanel(const juce::String& title); ///< `title` is for screen readers
     ~TabPanel() override;
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name); ///< also opens it

@@ -132,6 +132,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     const bool hasCrashed = !files_.copies().abandonedCopies().empty();
     if (hasCrashed) limitsBeforeCrash_ = files_.limits();
     start(file);
+    // sizes and shows the window
     setResizable(true, false);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
@@ -142,6 +143,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     addToDesktop();
     setVisible(true);
     view_->grabKeyboardFocus();
+    // asks for a device at the first start, and offers what a crash has left
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
                          (chosen.isEmpty() || chosen.startsWith(juce::String{nullDeviceType} + ":"));
@@ -175,6 +177,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
     const bool hadQuestion = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
     if (view_) savePanelLayout();
+    // the new session replaces the previous model and view
     requestedMix_.reset();
     lostOutputs_.clear();
     clearContentComponent();
@@ -211,6 +214,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
             announceSaved("Recorded, with its events beside it:", file,
                           {"Play", [this, file] { model_->eventPlayer().playRecording(file); }});
     };
+    // applies the settings that the new model and view do not have
     OscChoice osc{oscAccessFromName(settings.getValue("osc")), settings.getValue("osc-to").toStdString(),
                   settings.getDoubleValue("osc-turn")};
     if (const auto error = model_->inputs().configure(osc); !error.empty()) {

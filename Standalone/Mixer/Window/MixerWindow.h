@@ -45,12 +45,10 @@ public:
     /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
     /// window is lowered.
     void setZoom(int percent);
-    int zoom();               ///< %, as chosen; 0: by the display's size
-    void stepZoom(int steps); ///< to the next larger (1) or smaller (-1) one
-    /// Full screen: the world alone, and the button that silences.
-    void setShowMode(bool isShowMode);
-    /// Asks if changes would be lost, then quits.
-    void requestQuit();
+    int zoom();                        ///< %, as chosen; 0: by the display's size
+    void stepZoom(int steps);          ///< to the next larger (1) or smaller (-1) one
+    void setShowMode(bool isShowMode); ///< full screen: the world alone, and the button that silences
+    void requestQuit();                ///< asks if changes would be lost, then quits
 
     bool hasUnsavedChanges() const { return model_->editCount() != savedEditCount_; }
     const juce::File& document() const noexcept { return document_; }

@@ -149,6 +149,7 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
         record_.setButtonText(discSymbol +
                               clock(snapshot.session.sessionNs - recordingStartNs_).dropLastCharacters(3));
     }
+    // the device and its latency, as long as there is room
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isWithoutDevice = name.startsWith(juce::String{nullDeviceType} + ":");
@@ -172,9 +173,10 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
                                  : latencyText + "later",
                     isVisualOnly ? Shade::highlight : Shade::text);
     device_.setTooltip(name);
+    // load and recent losses
     const bool hadWarning = warnsOfLoad_;
     const auto& r = snapshot.session.render;
-    constexpr double lossDisplayMs = 5e3; // losses are shown; Telemetry shows the totals
+    constexpr double lossDisplayMs = 5e3; // then only Telemetry shows them, in its totals
     const Losses losses{r.late, model_.session().world().drops() + r.unsent};
     if (std::exchange(losses_, losses) != losses) lostAtMs_ = nowMs();
     if (nowMs() - lostAtMs_ > lossDisplayMs || losses.late < seenLosses_.late ||
