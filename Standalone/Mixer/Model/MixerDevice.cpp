@@ -61,7 +61,7 @@ bool MixerDevice::hasNoDevice() const { return rig_.output().device().starts_wit
 bool MixerDevice::isPlayed(std::size_t actuator) const {
     if (!choice_.sinks.empty() || hasNoDevice()) return true;
     const int output = mix_.strips[actuator].output;
-    return output >= 0 && (output < outputCount() || outputCount() == 0); // lost: it may return
+    return output >= 0 && (output < outputCount() || outputCount() == 0); // a lost device may return
 }
 
 std::vector<int> MixerDevice::outputMap() const {

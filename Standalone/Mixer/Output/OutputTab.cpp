@@ -33,13 +33,13 @@ void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     }
 }
 
-// in the order of OscAccess
+// who may send OSC messages, in the order of OscAccess
 constexpr std::array<const char*, 3> oscAccessLabels{"nobody", "this computer", "phones too"};
 struct PhoneOrientation {
     const char* label;
     double phoneTurnDegrees;
 };
-// by the direction of the top edge of the phone
+// how a phone is held, by the direction in which its top edge points
 constexpr std::array<PhoneOrientation, 4> phoneOrientations{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, lastReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers

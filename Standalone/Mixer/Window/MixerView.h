@@ -226,7 +226,7 @@ private:
     std::unique_ptr<juce::Component> card_;
     CardFocus cardFocus_;
     juce::Component::SafePointer<juce::Component> progress_, screen_;
-    std::vector<juce::Component::SafePointer<juce::Component>> hiddenByScreen_; // visible again after it
+    std::vector<juce::Component::SafePointer<juce::Component>> hiddenByScreen_; // shown again after it
     DisplayTypeface typeface_;
     std::uint64_t checkedEditCount_ = ~std::uint64_t{0}; // edit count of the world at the last check
     juce::String silenceReason_;                         // as last reported

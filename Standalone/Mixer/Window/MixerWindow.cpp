@@ -14,7 +14,7 @@
 namespace physvib {
 namespace {
 
-// in the order of OscAccess
+// names in the settings, in the order of OscAccess
 constexpr std::array<const char*, 3> oscAccessNames{"off", "this-computer", "any-computer"};
 
 OscAccess oscAccessFromName(const juce::String& name) {
@@ -27,7 +27,7 @@ constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a 
 constexpr const char* silentSetting = "silent";
 constexpr const char* outputsBeforeHeadphonesSetting = "outputs-before-headphones";
 constexpr const char* panelLayoutSetting = "mode";    // mode and unfolded panels; none: play mode
-constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
+constexpr const char* folderSetting = "files-folder"; // of the user's files; empty: that of UserFolder
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
 constexpr juce::Point<int> frameRoom{8, 40};
@@ -39,7 +39,7 @@ constexpr double maxRenderSeconds = 86'400.0; // the limit of `physvib render`
 
 juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
 
-// without thousands separators
+// The field accepts digits and a point only, so its value has no thousands separators.
 QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
 
 /// Copy of `mix` with the scene or the layout of the file.
@@ -352,7 +352,7 @@ Mix MixerWindow::defaultMix() {
     return mix;
 }
 
-// Offered once, if headphones may be connected instead of actuators.
+// Offers the monitor once, if headphones may be connected instead of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     constexpr const char *offered = "monitor-offered", *label = "monitor-offer";
@@ -367,7 +367,7 @@ void MixerWindow::offerMonitor() {
                             label});
 }
 
-// Not while a study uses the mixer's output, or behind a card.
+// No file is accepted while a study uses the mixer's output, or behind a card.
 bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
     return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible() &&
            view_->openCard() == nullptr;

@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr int updatesPerClock = 3, updatesPerNumbers = 12;
-constexpr int sceneFileId = 1000; // followed by the user's scenes
+constexpr int sceneFileId = 1000; // item id; those of the user's scenes follow
 constexpr std::array<int, 4> slownessSteps{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
