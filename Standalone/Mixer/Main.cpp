@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Main program of the application `physvib-mixer`.
+// Main program of `physvib-mixer`: reads the command line, opens the window, and quits in order.
 #include "Host/Devices/HostDrivers.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
@@ -21,7 +21,7 @@ physvib-mixer --study PROTOCOL [--participant CODE] [--number N] [--out FOLDER]
 physvib-mixer --help | --version
 )";
 
-/// The argument after `option`; empty if there is none.
+/// The command-line argument after `option`; empty if there is none.
 juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option) {
     const int at = arguments.indexOfOption(option);
     return at < 0 ? juce::String{} : arguments[at + 1].text;
@@ -91,7 +91,7 @@ public:
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    static constexpr int milliseconds = 200; // until a signal is heeded
+    static constexpr int milliseconds = 200; // how often signals are checked
 
     void timerCallback() override {
         if (interrupted) quit();

@@ -61,8 +61,7 @@ bool MixerDevice::hasNoDevice() const { return rig_.output().device().starts_wit
 bool MixerDevice::isPlayed(std::size_t actuator) const {
     if (!choice_.sinks.empty() || hasNoDevice()) return true;
     const int output = mix_.strips[actuator].output;
-    return output >= 0 && (output < outputCount() || outputCount() == 0); // a device that is gone may come
-                                                                          // back
+    return output >= 0 && (output < outputCount() || outputCount() == 0); // a lost device may return
 }
 
 std::vector<int> MixerDevice::outputMap() const {
@@ -72,8 +71,7 @@ std::vector<int> MixerDevice::outputMap() const {
 }
 
 std::string MixerDevice::assignOutputs() {
-    rig_.output().setListening(listening_.resetToStudySettings()); // first, as an actuator may get a monitor
-                                                                   // output
+    rig_.output().setListening(listening_.resetToStudySettings()); // frees the monitor's outputs
     auto error = rig_.output().assign(outputMap(), mix_.count());
     listening_.applyRequested();
     return error;

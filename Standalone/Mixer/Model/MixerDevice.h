@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The output of the mixer: the chosen device with its sinks (MixerDevice), its outputs for ears and triggers
-// (MixerListening), and the vibration exposure (MixerExposure). MixerSignals reads the samples for display:
-// peaks, the last second, its spectrum, and the whole scene run.
+// The output of the mixer: the chosen device with its sinks (MixerDevice), its outputs for headphones and
+// trigger boxes (MixerListening), and the vibration exposure (MixerExposure). MixerSignals reads the samples
+// for display: peaks, the last second, its spectrum, and the whole scene run.
 #pragma once
 #include "Core/Limits.h"
 #include "Live/Devices/AudioOutput.h"
@@ -25,7 +25,7 @@
 
 namespace physvib {
 
-/// Snapshot for display; lists hold what is new since the last one.
+/// State of session and device for display; `hits` are those played since the previous snapshot.
 struct MixerSnapshot {
     std::vector<BodyPose> poses;
     std::int64_t posesNs = 0;   ///< session time of the poses
@@ -130,8 +130,8 @@ public:
         return nth(nth(lanes_, channel), (newestColumn_ + 1 + index) % columnCount);
     }
 
-    /// Minimum and maximum at pixel `x` of a trace that is `width` pixels wide: of the pixel's columns and
-    /// the one before, since a column is half a wave of 400 Hz.
+    /// Minimum and maximum at pixel `x` of a trace that is `width` pixels wide, over the pixel's columns and
+    /// the one before: a single column may hold only the upper or lower half of a wave of 400 Hz.
     SampleRange pixelRange(int channel, int x, int width) const {
         const auto columnOf = [width](int pixel) { return pixel * (columnCount - 1) / std::max(1, width); };
         const int first = columnOf(x), last = std::max(first, columnOf(x + 1) - 1);
@@ -280,7 +280,8 @@ class MixerModel;
 
 constexpr const char* noDeviceTitle = "No device: seen, not felt"; ///< in lists of devices
 
-/// Audio for ears and machines (monitor, noise, markers), on outputs without an actuator. Message thread.
+/// Signals on outputs without an actuator: contact sound on headphones (the monitor), noise that masks the
+/// actuators' own sound, and pulses at onsets for trigger boxes (the markers). Message thread.
 class MixerListening {
 public:
     /// All references outlive it. Requested settings are stored in `choice`, and `onChange` is called when
@@ -307,7 +308,7 @@ public:
     const ListeningSettings& resetToStudySettings() {
         return appliedSettings_ = studySettings_.value_or(ListeningSettings{});
     }
-    std::string applyRequested(); ///< applies what outputs are free for; empty, or an error
+    std::string applyRequested(); ///< applies what has free outputs; empty, or an error
 
     bool isFree(int output) const; ///< the device has it, and no strip uses it
 
@@ -356,8 +357,7 @@ public:
     /// Applies changed actuators or output assignments of the mixer state. Empty, or an error.
     std::string assignOutputs();
 
-    /// Name of a sink that cannot play clips; empty if all can.
-    juce::String sinkWithoutClips() const;
+    juce::String sinkWithoutClips() const; ///< name of a sink that cannot play clips; empty: all can
     /// Called if the choice has other sinks. They change the output latency, so the session must be
     /// restarted.
     std::function<void(const DeviceChoice&)> onSinksRequested;
@@ -405,8 +405,7 @@ void leaveHeadphones(MixerModel& model, const DeviceChoice& headphones);
 
 /// Reports strips for which headphones have no output, with a button that leaves two. Message thread.
 void reportNoHeadphoneOutput(MixerModel& model, const std::vector<std::size_t>& strips);
-constexpr const char *noHeadphoneOutputLabel = "ears", *noOutputLabel = "outputs"; ///< of that message, and
-                                                                                   ///< the next
+constexpr const char *noHeadphoneOutputLabel = "ears", *noOutputLabel = "outputs"; ///< message labels
 
 /// Reports strips that lost their output to another one, with a button that gives them free outputs. Message
 /// thread only.
@@ -425,10 +424,10 @@ public:
     /// Adds the output since the last call. Call it often, and before the layout changes.
     void update();
 
-    /// Adds exposure before this session, weighted.
+    /// Adds the exposure of the day before this session, frequency-weighted.
     void addEarlierExposure(double squareGSeconds) noexcept { squareGSeconds_ += squareGSeconds; }
     double squareGSeconds() const noexcept { return squareGSeconds_; } ///< weighted, g^2 s of today
-    /// A(8) in m/s^2, if there was no other exposure that day
+    /// A(8) in m/s^2 of today; exposure from other sources is not included.
     double dailyA8() const noexcept { return dailyExposure(squareGSeconds_); }
 
 private:

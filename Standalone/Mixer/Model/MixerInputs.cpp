@@ -117,7 +117,7 @@ std::string MixerInputs::apply(const RenderControl& control) {
     return {};
 }
 
-// Silence takes effect at once; the message thread only displays it. On the port's thread.
+// Runs on the port's thread. Silence takes effect at once; the message thread only displays it.
 std::string MixerInputs::receive(const LineInput& input, const OscOrigin& origin) {
     const auto* silence = std::get_if<SilenceControl>(&input);
     const bool isSilenced = silence != nullptr && silence->isOn;
@@ -211,7 +211,7 @@ std::string MixerEventPlayer::audition(int material, double shareX, double share
 void MixerEventPlayer::testPulse(int actuator) {
     CollisionEvent pulse;
     const auto profile = findActuator(nth(mix_.layout.actuators, actuator).actuator);
-    // resonance of the thesis' actuators
+    // actuators without a profile get the resonance of those in the thesis
     pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0;
     pulse.decayPerSecond = 30.0;
     pulse.amplitude = testAmplitude;
@@ -267,7 +267,7 @@ Result<std::string> MixerEventPlayer::playClip(const PlainMessage& clip) {
     };
     const auto result = messages_.handle(clip, nullptr, loadClip);
     if (!result) return Failure{result.error};
-    // a note, if there is one
+    // the answer has at most one value, a note
     return result.value.values.empty() ? std::string{}
                                        : std::get<std::string>(result.value.values.front().value);
 }

@@ -62,10 +62,9 @@ private:
     OscChoice choice_;
     std::mutex mutex_; // guards the next member
     std::vector<PendingInput> pending_;
-    // used by the message thread, counted for the open port:
-    std::uint64_t lastMessageCount_ = 0, refusedCount_ = 0; // messages as of the last hasNewMessages();
-                                                            // refused by the mixer
-    std::string lastError_;                                 // why the mixer refused the last of them
+    // used by the message thread, counted since the port was opened:
+    std::uint64_t lastMessageCount_ = 0, refusedCount_ = 0; // the first as of the last hasNewMessages()
+    std::string lastError_;                                 // why the mixer refused the last message
     std::optional<MessageRouter> messages_;
     std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
 };

@@ -82,8 +82,7 @@ public:
         : onChange_{std::move(onChange)} {}
 
     const MixerMessage& current() const noexcept { return current_; }
-    /// Number of messages shown so far, repeated ones included.
-    int shownCount() const noexcept { return shownCount_; }
+    int shownCount() const noexcept { return shownCount_; } ///< messages so far, repeated ones included
 
     /// Displays the message; a persistent one that it replaces is queued. No text: displays the next queued.
     void show(MixerMessage message);
@@ -129,6 +128,7 @@ juce::String unsupportedFeatures(const SavedSession& session);
 
 /// Why levels, mutes or missing outputs prevent all vibration; empty: they do not. Any thread.
 juce::String silenceReason(const MixerModel& model);
+/// Shows that reason as a message; an empty reason withdraws the message. Message thread.
 void hintOnLevels(MixerModel& model, const juce::String& reason);
 
 } // namespace physvib

@@ -11,7 +11,8 @@ namespace physvib {
 
 class SentMix;
 
-/// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
+/// A live session with its device, mixer state and undo steps. Listeners are notified when the mixer state,
+/// the device or the message changes. Message thread.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
     static constexpr int channels = limits::maxActuators; ///< of the session: the maximum of actuators
@@ -39,10 +40,10 @@ public:
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.
     std::shared_ptr<MixerHistory> history() const { return history_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false: no channel
+    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false: none free
     void detach(int actuator);                 ///< the last actuator cannot be detached
 
-    std::uint64_t editCount() const noexcept { return editCount_; } ///< inputs included; for unsaved changes
+    std::uint64_t editCount() const noexcept { return editCount_; } ///< edits and inputs since the start
     const SavedSession& savedSession(); ///< the session until now; rendering it reproduces what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
@@ -62,7 +63,6 @@ public:
     MixerExposure& exposure() noexcept { return exposure_; }
     MixerScript& script() noexcept { return script_; }
     const MixerSignals& signals() const noexcept { return signals_; }
-    /// The last contacts that were played.
     const RecentContacts& recentContacts() const noexcept { return recentContacts_; }
     std::string open(const DeviceChoice& choice);
     /// As MixerListening::monitor. Actuators on these outputs lose them, which can be undone.
@@ -75,7 +75,6 @@ public:
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
     MixerSnapshot poll(); ///< changes since the last call; at most about 30 times a second
     MixerMessages& messages() noexcept { return messages_; }
-    /// One line, or empty.
     const juce::String& messageText() const noexcept { return messages_.current().text; }
     bool isInfo() const noexcept { return messages_.current().isInfo; }
     void report(const juce::String& error) { messages_.show({error}); }
@@ -84,7 +83,7 @@ public:
 
 private:
     class MixEdit;
-    friend class MixerInputs; // calls showSilence() and, often, collectPlayed()
+    friend class MixerInputs; // calls showSilence(), and collectPlayed() at its own rate
     void countEdit(bool changesDisplay = true);
 
     void checkOutput();

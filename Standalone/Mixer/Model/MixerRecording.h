@@ -40,8 +40,7 @@ public:
     bool isRunning() const noexcept { return recording_ != nullptr && !isEnding_; }
     double seconds() const noexcept;
     bool wasSilent() const noexcept { return wasSilent_; } ///< the last recording, from start to end
-    /// Session frame of the last recording's start.
-    std::int64_t startFrame() const noexcept { return startFrame_; }
+    std::int64_t startFrame() const noexcept { return startFrame_; } ///< session frame of its start
     std::function<void(const juce::File&, const juce::String& error)> onEnd;
 
     /// Records an event that was played.
@@ -49,8 +48,7 @@ public:
         if (recording_) recording_->addEvent(played);
     }
 
-    /// To be called often, with the newest device status.
-    void poll(const AudioOutputStatus& device);
+    void poll(const AudioOutputStatus& device); ///< to be called often, with the newest status
 
 private:
     void detachRecorder();
@@ -92,8 +90,9 @@ private:
     double polledAtSeconds_ = 0.0;
 };
 
+/// A played impact, or a rolling or sliding contact with all its grains.
 struct RecentContact {
-    CollisionEvent event; ///< the first event, with the largest amplitude and the last place
+    CollisionEvent event; ///< its first event, with the largest amplitude and the place of the last one
     int grainCount = 1;
     std::int64_t lastGrainNs = 0;
     std::uint64_t id = 0; ///< unique

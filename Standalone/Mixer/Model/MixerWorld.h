@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's world: its pace (PaceWatch), input and undoable edits (MixerWorld, MixerHistory), the recorded
+// The mixer's world: its speed (PaceWatch), input and undoable edits (MixerWorld, MixerHistory), the recorded
 // script (MixerScript), and the comparison of two mixes (MixerCompare).
 #pragma once
 #include "Core/CollisionEvent.h"
@@ -22,12 +22,12 @@ namespace physvib {
 
 class MixerModel;
 
-/// Whether the simulation keeps up with real time. To be polled a few times a second; one thread at a time.
+/// Measures whether the simulation keeps up with real time. To be polled a few times a second; one thread.
 class PaceWatch {
 public:
     static constexpr std::int64_t intervalNs = 500'000'000;
     static constexpr double minShare = 0.9; ///< of real time; below it the world is too slow
-    static constexpr int minBodies = 300;   ///< fewer are delayed by other load, not by the world
+    static constexpr int minBodies = 300;   ///< a smaller world is taken to be delayed by other load
 
     /// Share of real time at which the world ran since the last result, twice a second; nullopt in between.
     /// Arguments: session time, and the time by which the world is behind it (skipped after stalls, or not
@@ -153,8 +153,7 @@ private:
     std::uint64_t worldEditCount_ = 0;
     std::shared_ptr<const Scene> recordedScene_;
     RecordedInputs recording_;
-    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> trimsOfScenes_; // so that undo restores
-                                                                                   // them
+    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> trimsOfScenes_; // for undo
 };
 
 /// The energy of these events in a mix, in g^2: the sum of their squared levels at all actuators, after

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int actuatorRowPixels = 34;
 
-// Index of the preset with this geometry, whatever its name; -1: none.
+/// Index of the preset with the geometry of this layout, whatever its name; -1: none.
 int presetIndexOf(const ActuatorLayout& layout) {
     const auto hasGeometry = [&layout](std::string_view name) {
         return isSame(presetLayout(name).geometry, layout);
@@ -241,8 +241,7 @@ void ActuatorsTab::resized() {
     edit_->setBounds(bottom.removeFromRight(140));
     hint_.setBounds(bottom);
     area.removeFromBottom(isLow ? 4 : 8);
-    list_.setBounds(area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight())); // whole
-                                                                                                      // rows
+    list_.setBounds(area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight()));
 }
 
 } // namespace physvib

@@ -22,7 +22,7 @@ struct WrittenHits {
     std::vector<std::string> losses; ///< data that the format cannot store
 };
 
-/// Writes the impacts (in any order) from the first one on, panned over the actuators by the law of `mix`, in
+/// Writes the impacts (in any order) with the first at 0 s, panned over the actuators by the law of `mix`, in
 /// the format of the extension of `path`; or one error line. Several files never replace existing ones.
 /// Message thread.
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
@@ -46,6 +46,7 @@ private:
     int dragCount_ = 0, formatIndex_ = 0;
 };
 
+/// List of played contacts, from which files are saved and dragged. Message thread.
 class EventsTab final : public Tab, private juce::ListBoxModel {
 public:
     static constexpr const char* dragDescription = "chosen contacts"; ///< description of a drag

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<int, 6> sampleRatesHz{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blockSizes{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevelsDb{0, -5, -10, -15, -20, -25, -30, -40, -50};
-constexpr int noneId = 1, zeroDbId = 100; // items of lists: 1 + output or pair; 100 - level in dB
+constexpr int noneId = 1, zeroDbId = 100; // item ids: noneId + 1 + output, zeroDbId - level in dB
 constexpr int firstSinkId = 1000;         // item ids of the list of outputs: behind those of devices
 
 struct Cell {
@@ -33,13 +33,13 @@ void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     }
 }
 
-// in the order of OscAccess
+// who may send OSC messages, in the order of OscAccess
 constexpr std::array<const char*, 3> oscAccessLabels{"nobody", "this computer", "phones too"};
 struct PhoneOrientation {
     const char* label;
     double phoneTurnDegrees;
 };
-// by the direction of the top edge of the phone
+// how a phone is held, by the direction in which its top edge points
 constexpr std::array<PhoneOrientation, 4> phoneOrientations{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, lastReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers

@@ -36,6 +36,7 @@ private:
     std::vector<StatusRow> rows_;
 };
 
+/// Counters of session, device and board as a table. Message thread.
 class TelemetryTab final : public Tab {
 public:
     explicit TelemetryTab(MixerModel& model);
@@ -56,6 +57,7 @@ private:
 std::vector<StatusRow> telemetryRows(const MixerModel& model, const MixerSnapshot& snapshot,
                                      float medianLoad);
 
+/// Choice of device, sinks, monitor, trigger output and OSC, with their state. Message thread.
 class OutputTab final : public Tab {
 public:
     explicit OutputTab(MixerModel& model);
@@ -106,14 +108,14 @@ private:
     std::unique_ptr<juce::TextButton> scan_;
     StatusTable statusTable_{"What follows from it", 1};
     std::vector<AudioDeviceName> devices_;
-    std::string headphoneDevice_; // device of the item Headphones: the last one in use, else the first with
-                                  // two outputs
+    std::string headphoneDevice_; // for the item Headphones: last used, else the first with two outputs
     std::vector<std::vector<SinkUnit>> sinks_; // available units of each kind, in the order of sinkKinds()
     std::vector<SinkRow> sinkRows_;
     std::ptrdiff_t readySinkCount_ = 0; // as last displayed
     bool isScanned_ = false;
 };
 
+/// List of actuators, layout presets and the panning law. Message thread.
 class ActuatorsTab final : public Tab, private juce::ListBoxModel {
 public:
     /// `world` shows the gain map of the actuator selected here.

@@ -18,10 +18,10 @@ constexpr double folderCheckMs = 1000.0;
 
 juce::File eventsFileOf(const juce::File& wav) { return wav.withFileExtension("csv"); }
 
-bool discardFile(const juce::File& file) { return file.moveToTrash() || file.deleteFile(); } // or without bin
+bool discardFile(const juce::File& file) { return file.moveToTrash() || file.deleteFile(); } // or deletes it
 
 juce::String lengthText(double seconds) {
-    if (seconds < 59.95) return number(seconds, 1) + " s"; // not 60.0 s
+    if (seconds < 59.95) return number(seconds, 1) + " s"; // longer ones would be rounded to 60.0 s
     const int rounded = static_cast<int>(std::max(60.0, seconds));
     return juce::String{rounded / 60} + ":" + juce::String{rounded % 60}.paddedLeft('0', 2);
 }
@@ -152,7 +152,7 @@ std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, 
 }
 
 constexpr const char *startField = "from_s", *endField = "to_s", *takeLengthField = "of_s";
-constexpr double lengthToleranceSeconds = 1e-6; // as written in text
+constexpr double lengthToleranceSeconds = 1e-6; // of lengths that are read from text
 
 /// Folder beside the takes for files that belong to them and are not listed.
 juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }

@@ -61,7 +61,7 @@ private:
     juce::ThreadPool reader_{1};              // destroyed first, because its thread uses the other members
 };
 
-/// Message thread.
+/// List of the takes, with buttons to play, trim, copy and delete the selected one. Message thread.
 class TakesTab final : public Tab, private juce::ListBoxModel {
 public:
     explicit TakesTab(MixerModel& model);

@@ -44,7 +44,7 @@ void LanesTab::mixChanged() {
     rows_.repaint();
 }
 
-// A round duration that covers the scene so far and all points.
+// Returns a round duration that covers the scene so far and all points of the lanes.
 double LanesTab::spanSeconds() const {
     double needed = model_.signals().runTrace().seconds();
     const auto include = [&needed](const GainLane& lane) {

@@ -21,7 +21,7 @@ public:
     void focusGained(FocusChangeType) override { repaint(); }
     void paint(juce::Graphics& g) override;
 
-    static juce::NormalisableRange<double> scale(); ///< of gains in dB, upwards, as for a fader
+    static juce::NormalisableRange<double> scale(); ///< vertical scale of gains in dB, as of a fader
 
 private:
     /// False between the removal of a strip and the update of the view.
@@ -50,6 +50,7 @@ private:
     bool isDragging_ = false, hasMoved_ = false;
 };
 
+/// All gain lanes over one time axis, which grows with the scene. Message thread.
 class LanesTab final : public Tab {
 public:
     explicit LanesTab(MixerModel& model);

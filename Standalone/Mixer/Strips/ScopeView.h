@@ -29,6 +29,7 @@ private:
     double updatedAtMs_ = 0.0;
 };
 
+/// Waveforms of the last second beside their spectra. Message thread.
 class ScopeView final : public Tab {
 public:
     explicit ScopeView(MixerModel& model);

@@ -71,14 +71,14 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
+/// The row of strips and groups, which scrolls, and the master strip at its right. Message thread.
 class StripsPanel final : public juce::Component {
 public:
     explicit StripsPanel(MixerModel& model);
     void mixChanged();
     void refresh(const MixerSnapshot& snapshot);
-    int widthFor(int width) const; ///< pixels of the panel that show all strips at that width
-    /// Opens the list of outputs of a strip.
-    void showOutputs(int actuator);
+    int widthFor(int width) const;  ///< pixels of the panel that show all strips at that width
+    void showOutputs(int actuator); ///< opens the list of outputs of its strip
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip

@@ -99,7 +99,7 @@ private:
     juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
 };
 
-constexpr int maxPictureSize = 450; ///< pixels of a side
+constexpr int maxPictureSize = 450; ///< pixels of each side of a picture on a card
 
 /// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
 /// the others. Message thread.
@@ -167,8 +167,7 @@ public:
     /// Runs on its own thread, reports progress from 0 to 1, and stops when that returns false. Empty, or one
     /// error line; "cancelled".
     using Work = std::function<std::string(const std::function<bool(double)>& progress)>;
-    /// May destroy the card.
-    using Done = std::function<void(const std::string& error, bool isCancelled)>;
+    using Done = std::function<void(const std::string& error, bool isCancelled)>; ///< may destroy the card
 
     RenderTask(const juce::File& file, Work work, Done done);
     ~RenderTask() override;

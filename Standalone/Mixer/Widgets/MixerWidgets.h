@@ -24,7 +24,7 @@ private:
     Icon icon_;
 };
 
-/// A line of text with a less prominent one below, or beside it where it is low.
+/// Two lines of text, the second less prominent; side by side where the height is too small for both.
 class TwoLineText final : public ReadOnlyText, public juce::SettableTooltipClient {
 public:
     explicit TwoLineText(const juce::String& title) { setTitle(title); }
@@ -56,7 +56,6 @@ inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, 
     g.fillRoundedRectangle(area, corner);
 }
 
-/// Draws the background of a selected row.
 inline void drawSelectedRow(juce::Graphics& g, const juce::Component& c, int width, int height,
                             float alpha = 0.16f) {
     g.setColour(shade(c, Shade::accent).withAlpha(alpha));
@@ -154,8 +153,7 @@ public:
         setValue(0.0, dontNotify);
         setDoubleClickReturnValue(true, 0.0);
     }
-    /// Angle for a TiltAction.
-    double angleRadians() const { return juce::degreesToRadians(-getValue()); }
+    double angleRadians() const { return juce::degreesToRadians(-getValue()); } ///< for a TiltAction
 
     /// Turns to that angle, wrapped to +-180 degrees.
     void turnTo(double degrees) {
@@ -223,8 +221,7 @@ public:
     enum class Fold { none, column, row };  ///< how the names lie if it is folded
     static constexpr int foldedPixels = 30; ///< pixels across the names
 
-    /// `title` for screen readers.
-    explicit TabPanel(const juce::String& title);
+    explicit TabPanel(const juce::String& title); ///< `title` is for screen readers
     ~TabPanel() override;
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name); ///< also opens it

@@ -9,8 +9,7 @@ namespace {
 
 constexpr int maxRows = 6, rowGap = 5, fieldHeight = 200;
 constexpr int readyCheckMs = 100,
-              maxReadyChecks = 50; // time for a sink to become ready: greeting and clock of a board need half
-                                   // a second, Bluetooth one
+              maxReadyChecks = 50; // 5 s: boards need half a second, Bluetooth needs one
 
 /// Whether the system's name of a device is that of headphones.
 bool isHeadphoneName(const std::string& device) {

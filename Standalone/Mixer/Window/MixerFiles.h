@@ -72,9 +72,8 @@ public:
     double exposureToday() const;
     void setExposureToday(double squareGSeconds, bool isLast = false); ///< rate-limited unless `isLast`
 
-    /// Folder of the user's scenes.
-    juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }
-    juce::Array<juce::File> ownScenes() const; ///< its files, sorted by name
+    juce::File scenesFolder() const { return folder_.getChildFile("scenes"); } ///< for the user's scenes
+    juce::Array<juce::File> ownScenes() const;                                 ///< its files, sorted by name
 
     RecoveryCopies& copies() noexcept { return copies_; }
     /// Writes this run's recovery copy if there are changes, at a limited rate. Empty, or why it cannot be

@@ -247,13 +247,11 @@ void MixerView::showPanels() {
     repaint();
 }
 
-// Names in files may be in any script, so a typeface with their letters is selected.
+// Selects a typeface with the letters of all names. Those of the scene are read only after it was edited.
 void MixerView::updateTypeface() {
     juce::String words = model_.messageText() + juce::String::fromUTF8(model_.output().device().c_str());
     for (const auto& actuator : model_.mix().layout.actuators) words += utf8(actuator.label);
-    if (std::exchange(checkedEditCount_, model_.world().editCount()) != model_.world().editCount()) { // only
-                                                                                                      // after
-        // changes
+    if (std::exchange(checkedEditCount_, model_.world().editCount()) != model_.world().editCount()) {
         const Scene& scene = model_.world().drawing().drawn();
         words += utf8(scene.name);
         for (const auto& body : scene.bodies) words += utf8(body.name);

@@ -10,6 +10,7 @@
 
 namespace physvib {
 
+/// The bar at the top: scene, time, recording, status, and the silence button. Message thread.
 class TopBar final : public juce::Component {
 public:
     explicit TopBar(MixerModel& model);
@@ -45,9 +46,7 @@ public:
 
 private:
     static constexpr int minOneLineWidth = 1260, minStatusWidth = 1400,
-                         secondLineHeight = 24; // pixels;
-                                                // minStatusWidth:
-                                                // all states
+                         secondLineHeight = 24; // pixels
     void placeStates(juce::Rectangle<int> area);
     void showControls();
     bool isShowMode_ = false, isPlayMode_ = false, warnsOfLoad_ = false;
@@ -61,7 +60,7 @@ private:
     struct Losses { // hits since the session began
         std::uint64_t late = 0, lost = 0;
         bool operator==(const Losses&) const = default;
-    } losses_, seenLosses_; // before the last time without losses
+    } losses_, seenLosses_; // the latter are no longer reported as new
     double lostAtMs_ = 0.0;
     bool isRecording_ = false;
     std::int64_t recordingStartNs_ = -1; // -1: not known yet
@@ -117,6 +116,7 @@ Arrangement arrange(juce::Rectangle<int> area, const StripWidths& widths, const 
 
 struct StudySelection;
 
+/// The contents of the window, which updates all panels by a timer and handles keys. Message thread.
 class MixerView final : public juce::Component,
                         public juce::DragAndDropContainer,
                         public CardHost,
@@ -124,8 +124,7 @@ class MixerView final : public juce::Component,
                         private juce::Timer {
 public:
     static constexpr int framesPerSecond = 60, idleFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
-    static constexpr int worldUpdatesPerPanelUpdate = 3; ///< updates of the world per update of the other
-                                                         ///< panels
+    static constexpr int worldUpdatesPerPanelUpdate = 3; ///< the other panels need fewer updates
 
     double errorShownMs = 20e3; ///< how long errors are shown once the user is active
 
@@ -227,15 +226,14 @@ private:
     std::unique_ptr<juce::Component> card_;
     CardFocus cardFocus_;
     juce::Component::SafePointer<juce::Component> progress_, screen_;
-    std::vector<juce::Component::SafePointer<juce::Component>> hiddenByScreen_; // visible again after it
+    std::vector<juce::Component::SafePointer<juce::Component>> hiddenByScreen_; // shown again after it
     DisplayTypeface typeface_;
     std::uint64_t checkedEditCount_ = ~std::uint64_t{0}; // edit count of the world at the last check
     juce::String silenceReason_;                         // as last reported
     bool isDropShown_ = false, isShowMode_ = false;
     MixerSnapshot latest_;
     int idleUpdates_ = 0, updates_ = 0, lastShownCount_ = 0;
-    double messageAtMs_ = 0.0, activityAtMs_ = 0.0;   // times of the message and of the first user activity
-                                                      // since then; 0: none
+    double messageAtMs_ = 0.0, activityAtMs_ = 0.0;   // the latter: first user activity since then; 0: none
     std::array<float, limits::maxActuators> peaks_{}; // maxima since the last update of the strips
     TooltipHost tooltips_{*this};
     EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return escapeOnlyCloses(); }};

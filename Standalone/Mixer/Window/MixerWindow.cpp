@@ -14,7 +14,7 @@
 namespace physvib {
 namespace {
 
-// in the order of OscAccess
+// names in the settings, in the order of OscAccess
 constexpr std::array<const char*, 3> oscAccessNames{"off", "this-computer", "any-computer"};
 
 OscAccess oscAccessFromName(const juce::String& name) {
@@ -27,7 +27,7 @@ constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a 
 constexpr const char* silentSetting = "silent";
 constexpr const char* outputsBeforeHeadphonesSetting = "outputs-before-headphones";
 constexpr const char* panelLayoutSetting = "mode";    // mode and unfolded panels; none: play mode
-constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
+constexpr const char* folderSetting = "files-folder"; // of the user's files; empty: that of UserFolder
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
 constexpr juce::Point<int> frameRoom{8, 40};
@@ -39,7 +39,7 @@ constexpr double maxRenderSeconds = 86'400.0; // the limit of `physvib render`
 
 juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
 
-// without thousands separators
+// The field accepts digits and a point only, so its value has no thousands separators.
 QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
 
 /// Copy of `mix` with the scene or the layout of the file.
@@ -132,6 +132,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     const bool hasCrashed = !files_.copies().abandonedCopies().empty();
     if (hasCrashed) limitsBeforeCrash_ = files_.limits();
     start(file);
+    // sizes and shows the window
     setResizable(true, false);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
@@ -142,6 +143,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     addToDesktop();
     setVisible(true);
     view_->grabKeyboardFocus();
+    // asks for a device at the first start, and offers what a crash has left
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
                          (chosen.isEmpty() || chosen.startsWith(juce::String{nullDeviceType} + ":"));
@@ -175,6 +177,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
     const bool hadQuestion = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
     if (view_) savePanelLayout();
+    // the new session replaces the previous model and view
     requestedMix_.reset();
     lostOutputs_.clear();
     clearContentComponent();
@@ -195,8 +198,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
     bar.onSave = [this] { save(); };
     bar.onDevice = [this] { view_->tabs().choose("Output"); };
     model_->device().onSinksRequested = [this](const DeviceChoice& choice) {
-        callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // the calling tab goes
-                                                                                      // with its model
+        callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // deletes the tab
     };
     bar.onOpenScene = [this] { import("Scene"); };
     bar.setOwnScenes(files_.ownScenes());
@@ -212,6 +214,7 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
             announceSaved("Recorded, with its events beside it:", file,
                           {"Play", [this, file] { model_->eventPlayer().playRecording(file); }});
     };
+    // applies the settings that the new model and view do not have
     OscChoice osc{oscAccessFromName(settings.getValue("osc")), settings.getValue("osc-to").toStdString(),
                   settings.getDoubleValue("osc-turn")};
     if (const auto error = model_->inputs().configure(osc); !error.empty()) {
@@ -349,7 +352,7 @@ Mix MixerWindow::defaultMix() {
     return mix;
 }
 
-// Offered once, if headphones may be connected instead of actuators.
+// Offers the monitor once, if headphones may be connected instead of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     constexpr const char *offered = "monitor-offered", *label = "monitor-offer";
@@ -364,7 +367,7 @@ void MixerWindow::offerMonitor() {
                             label});
 }
 
-// Not while a study uses the mixer's output, or behind a card.
+// No file is accepted while a study uses the mixer's output, or behind a card.
 bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
     return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible() &&
            view_->openCard() == nullptr;
@@ -637,9 +640,7 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document, bool 
 void MixerWindow::playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
                               bool isPaused) {
     std::vector<std::size_t> withoutHeadphone;
-    if (device_.isHeadphones)
-        withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // L and R instead of the outputs of the
-                                                                    // file
+    if (device_.isHeadphones) withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // only L and R
     const Mix requested = mix;
     const auto lowered = lowerToLimits(maxLevels, mix);
     beginSession(std::move(mix), document, isPaused);

@@ -37,7 +37,7 @@ public:
     void exportLayout();
     /// Shows a link to the web page; `asksAddress`: the user types the address of the page.
     void share(bool asksAddress = false);
-    /// Saves bodies as drawn or as they are now, to a file asked for in `in`; none: the folder of own scenes.
+    /// Saves bodies as drawn or now, to a file asked for in `parent`; none: the folder of own scenes.
     void saveScene(bool hasCurrentPoses, const juce::File& in = {});
     std::string saveSceneTo(const juce::File& file, bool hasCurrentPoses); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
@@ -45,12 +45,10 @@ public:
     /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
     /// window is lowered.
     void setZoom(int percent);
-    int zoom();               ///< %, as chosen; 0: by the display's size
-    void stepZoom(int steps); ///< to the next larger (1) or smaller (-1) one
-    /// Full screen: the world alone, and the button that silences.
-    void setShowMode(bool isShowMode);
-    /// Asks if changes would be lost, then quits.
-    void requestQuit();
+    int zoom();                        ///< %, as chosen; 0: by the display's size
+    void stepZoom(int steps);          ///< to the next larger (1) or smaller (-1) one
+    void setShowMode(bool isShowMode); ///< full screen: the world alone, and the button that silences
+    void requestQuit();                ///< asks if changes would be lost, then quits
 
     bool hasUnsavedChanges() const { return model_->editCount() != savedEditCount_; }
     const juce::File& document() const noexcept { return document_; }
@@ -72,7 +70,7 @@ private:
     void start(const juce::File& file);
     void beginSession(Mix mix, const juce::File& document, bool isPaused = false,
                       std::shared_ptr<MixerHistory> history = {});
-    /// `isOwn`: the file is a copy of the run that crashed, and is limited to the levels at its end.
+    /// `isCrashCopy`: the file is a copy of the run that crashed, and is limited to the levels at its end.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
     /// Plays a file with its levels lowered to `maxLevels`. Reports what was lowered; a button restores it.
     void playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
@@ -86,7 +84,7 @@ private:
     bool saveTo(const juce::File& file);
     void offerSaveThen(std::function<void()> proceed,
                        const juce::String& words = "What was changed since it was saved would be lost.");
-    /// `suggested`: a file name without extension; `in`: a folder instead of the last one.
+    /// `suggested`: a file name without extension; `parent`: a folder instead of the last one.
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
                     std::function<void(const juce::File&)> onAccept, const juce::String& suggested = {},
                     const juce::File& in = {});
@@ -134,7 +132,7 @@ private:
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
     std::optional<Mix> requestedMix_; // state of the last file, if its levels were lowered
-    std::vector<std::pair<std::size_t, Strip>> lostOutputs_; // strips that lost an output to it
+    std::vector<std::pair<std::size_t, Strip>> lostOutputs_; // by strip: its state before it lost its output
     std::optional<MixerLimits> limitsBeforeCrash_;           // limits before a run that crashed
     static constexpr std::uint64_t neverSaved = UINT64_MAX;  // never equals a count of edits
     std::uint64_t savedEditCount_ = 0;

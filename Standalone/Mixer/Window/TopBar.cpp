@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr int updatesPerClock = 3, updatesPerNumbers = 12;
-constexpr int sceneFileId = 1000; // followed by the user's scenes
+constexpr int sceneFileId = 1000; // item id; those of the user's scenes follow
 constexpr std::array<int, 4> slownessSteps{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
@@ -149,6 +149,7 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
         record_.setButtonText(discSymbol +
                               clock(snapshot.session.sessionNs - recordingStartNs_).dropLastCharacters(3));
     }
+    // the device and its latency, as long as there is room
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isWithoutDevice = name.startsWith(juce::String{nullDeviceType} + ":");
@@ -172,14 +173,15 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
                                  : latencyText + "later",
                     isVisualOnly ? Shade::highlight : Shade::text);
     device_.setTooltip(name);
+    // load and recent losses
     const bool hadWarning = warnsOfLoad_;
     const auto& r = snapshot.session.render;
-    constexpr double lossDisplayMs = 5e3; // losses are shown; Telemetry shows the totals
+    constexpr double lossDisplayMs = 5e3; // then only Telemetry shows them, in its totals
     const Losses losses{r.late, model_.session().world().drops() + r.unsent};
     if (std::exchange(losses_, losses) != losses) lostAtMs_ = nowMs();
     if (nowMs() - lostAtMs_ > lossDisplayMs || losses.late < seenLosses_.late ||
         losses.lost < seenLosses_.lost)
-        seenLosses_ = losses; // smaller counts: of another device
+        seenLosses_ = losses; // counts become smaller when another device is opened
     const Losses newLosses{losses.late - seenLosses_.late, losses.lost - seenLosses_.lost};
     load_.set("Load " + number(100.0 * snapshot.device.load, 1) + " %",
               joinedByDots({count(newLosses.late, "late"), count(newLosses.lost, "lost")}),
