@@ -152,7 +152,7 @@ private:
     bool areAlike(std::size_t session, const Alternative& a, const Alternative& b) const {
         const auto isAlike = [&](std::size_t c, const std::string& label) {
             const Levels &ofA = levelsOf(c, label, a.name), &ofB = levelsOf(c, label, b.name);
-            if (a.levelDb == b.levelDb && !ofA.empty() && !ofB.empty() && // rendered at their highest levels
+            if (a.levelDb == b.levelDb && !ofA.empty() && !ofB.empty() && // rendered at their highest
                 ofA.rbegin()->first == ofB.rbegin()->first)
                 return ofA.rbegin()->second->samplesHash == ofB.rbegin()->second->samplesHash;
             return hashOf(c, session, label, a.name, a.levelDb) ==
