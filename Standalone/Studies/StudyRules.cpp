@@ -18,6 +18,7 @@ namespace {
 
 using SamplesHash = std::uint64_t;
 
+/// Applies the rules of checkRules() to a check, and adds their errors and warnings to it.
 class RuleChecker {
 public:
     RuleChecker(const Protocol& protocol, StudyCheck& check)

@@ -47,6 +47,7 @@ public:
         const auto at = table_.column(column);
         return at ? row.cells[*at] : std::string{};
     }
+    /// The number in the column frequency_hz; or one error line if it is out of range.
     Result<double> frequencyHz(const CsvRow& row) const {
         const auto hz = parseNumber<double>(cell(row, "frequency_hz"));
         if (hz && *hz >= limits::minMeasuredHz && *hz <= limits::maxFrequencyHz) return *hz;

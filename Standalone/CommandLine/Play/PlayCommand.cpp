@@ -21,7 +21,7 @@ namespace physvib {
 namespace {
 
 struct PlayOptions {
-    RenderJob scene;
+    RenderJob scene;       ///< what is played, with its layout and panning
     LivePlaySettings live; ///< settings of the playback
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib report`; writeFolder(), which writes all files or none; and runAnalysisScript(), by R.
+// The command `physvib report`, with writeFolder() and with runAnalysisScript(), which runs R.
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"

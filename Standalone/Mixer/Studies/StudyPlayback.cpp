@@ -152,7 +152,7 @@ std::vector<double> StimulusPlayer::plannedPeaks(const PlayableStimulus& stimulu
     return peaks;
 }
 
-// After a short pause the device continues with what was posted, so the end is awaited even if the playback
+// After a short pause the device continues with what was sent, so the end is awaited even if the playback
 // is already incomplete.
 void StimulusPlayer::update() {
     if (status_ != PlaybackStatus::playing) return;

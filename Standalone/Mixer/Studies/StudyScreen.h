@@ -17,7 +17,7 @@ namespace physvib {
 /// An error line if the mixer has fewer actuators than the layout needs; else empty. Any thread.
 std::string actuatorCountError(const std::string& layout, int needed, int available);
 
-/// Status of the last playback, by the receipts of the output.
+/// Status of the last playback, by the level history that the output keeps (its receipts).
 enum class PlaybackStatus {
     none,       ///< nothing was played yet, or it was stopped
     playing,    ///< it is playing
@@ -65,7 +65,7 @@ private:
     MixerModel& model_;
     int slowness_;
     double outputStartMs_ = 0.0, lastPlayingMs_ = 0.0, seconds_ = 0.0, playedSeconds_ = 0.0;
-    std::vector<float> gains_; // last posted values
+    std::vector<float> gains_; // last sent values
     PlaybackStatus status_ = PlaybackStatus::none;
     bool isMuted_ = false;                 // stop() has muted all actuators
     bool wasSilent_ = false;               // the mixer was silenced during the stimulus
@@ -260,7 +260,7 @@ private:
     PlaybackStatus status() const {
         return worldSet() != nullptr ? worldPane_.world().status() : player_.status();
     }
-    /// The device is stopped: what is posted now would be played all at once when it runs again.
+    /// The device is stopped: what is sent now would be played all at once when it runs again.
     bool isDeviceStopped() const { return !model_.output().isPlaying(); }
     /// Time for which the current or last part has been felt.
     double playedSeconds() const {
