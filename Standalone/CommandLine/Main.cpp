@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
     for (const auto factory : commands) {
         const Command command = factory();
         OptionTable& table = app.addCommand(command.name, command.description);
-        // declaring the options of all commands would take longer than many calls
+        // only the called command's options are declared: those of all take longer than many runs
         if (writesReference || std::find(argv, argv + argc, std::string_view{command.name}) != argv + argc)
             runFunctions[&table] = command.declare(table);
     }

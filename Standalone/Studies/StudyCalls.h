@@ -16,7 +16,7 @@ struct PlayableStimulus {
     Stimulus stimulus; ///< times start at 0
     LayoutDescription layout;
     std::vector<float> gains; ///< per actuator: from the events' unit (g, or shares) to full scale
-    std::vector<ContactRecording> recordings; ///< play instead of modes; empty: modes
+    std::vector<ContactRecording> recordings; ///< are played instead of modes; empty: modes
 };
 
 /// A scene to be seen and felt.
@@ -40,8 +40,8 @@ std::string protocolError(const Protocol& protocol, const std::string& name);
 Result<PlayableStimulus> makePlayableStimulus(const TrialJob& job, int sampleRateHz,
                                               const std::string& folder = {});
 
-/// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line.
-/// Message thread.
+/// The world of `render SCENE ...`, as `physvib play` plays it; or one error line. Files are searched in
+/// `folder` first, if it is not empty. Message thread.
 Result<PlayableWorld> makePlayableWorld(const ResolvedCall& call, const std::string& folder = {});
 
 } // namespace physvib

@@ -52,8 +52,6 @@ StudyCheck checkStudy(const Protocol& protocol, int participants,
 /// phantoms only where their gains exceed the layout. Message thread.
 std::string findStudyError(const Protocol& protocol);
 
-// Rules of a study's check: stimuli that render alike, and settings that cannot take effect.
-
 /// Adds to the errors and warnings of a check whose stimuli have their hashes. Errors: a level, a factor,
 /// alternatives or objects that change no sample; reversals, steps and times that cannot be reached.
 /// Warnings: stimuli or conditions with the same samples, and settings that may be a mistake. Message thread.

@@ -18,6 +18,7 @@ namespace {
 
 using SamplesHash = std::uint64_t;
 
+/// Applies the rules of checkRules() to a check, and adds their errors and warnings to it.
 class RuleChecker {
 public:
     RuleChecker(const Protocol& protocol, StudyCheck& check)
@@ -152,7 +153,7 @@ private:
     bool areAlike(std::size_t session, const Alternative& a, const Alternative& b) const {
         const auto isAlike = [&](std::size_t c, const std::string& label) {
             const Levels &ofA = levelsOf(c, label, a.name), &ofB = levelsOf(c, label, b.name);
-            if (a.levelDb == b.levelDb && !ofA.empty() && !ofB.empty() && // rendered at their highest levels
+            if (a.levelDb == b.levelDb && !ofA.empty() && !ofB.empty() && // rendered at their highest
                 ofA.rbegin()->first == ofB.rbegin()->first)
                 return ofA.rbegin()->second->samplesHash == ofB.rbegin()->second->samplesHash;
             return hashOf(c, session, label, a.name, a.levelDb) ==

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib calibrate`: measures an actuator with a device, or from two files, and writes its
-// profile.
+// The command `physvib calibrate`: measures an actuator by a device or two files, and writes its profile.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "Core/Units.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib coupling`: measures the coupling matrix from recordings that drive one actuator at a
-// time. Each gives a column; repetitions are averaged.
+// time. Each recording gives a column of the matrix; repetitions are averaged.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "Io/Disk/AtomicFile.h"

@@ -47,6 +47,7 @@ public:
         const auto at = table_.column(column);
         return at ? row.cells[*at] : std::string{};
     }
+    /// The number in the column frequency_hz; or one error line if it is out of range.
     Result<double> frequencyHz(const CsvRow& row) const {
         const auto hz = parseNumber<double>(cell(row, "frequency_hz"));
         if (hz && *hz >= limits::minMeasuredHz && *hz <= limits::maxFrequencyHz) return *hz;
@@ -60,17 +61,13 @@ private:
     CsvTable table_;
 };
 
-// Measures steady vibrations in accelerometer recordings with one channel per axis or actuator.
-
 /// Root mean square of each channel without its mean; or one error line with the file's name. Message thread.
 Result<std::vector<double>> axisLevels(const std::string& path);
 
 /// Complex amplitude of each channel at that frequency; or one error line. Message thread.
 Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz);
 
-// Parses frequency bands such as "90-1000".
-
-/// Parses "LO-HI" in Hz, 0 < LO < HI; nullopt for any other text. Any thread.
+/// Parses a band such as "90-1000" (LO-HI in Hz, 0 < LO < HI); nullopt for any other text. Any thread.
 inline std::optional<FrequencyBand> parseBand(std::string_view text) {
     const std::size_t dash = text.find('-');
     if (dash == std::string_view::npos) return std::nullopt;

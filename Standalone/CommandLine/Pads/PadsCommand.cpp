@@ -61,7 +61,7 @@ int listPads() {
         std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, audioDevices)
                   << "  profile " << info.profile << '\n';
     bool hasAny = !found.empty();
-    for (const SinkKind& kind : sinkKinds()) // those with coils or more motors
+    for (const SinkKind& kind : sinkKinds()) // controllers with coils or more motors
         for (const SinkUnit& unit : kind.acceptsRawReports ? kind.listUnits() : std::vector<SinkUnit>{}) {
             std::cout << unit.about << "  " << unit.address << "  --device " << kind.name << ':'
                       << unit.address << '\n';

@@ -91,7 +91,7 @@ private:
     const double sensitivity_;
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
-    std::int64_t startNs_ = 0, processedFrames_ = 0; // session time of its first sample; samples so far
+    std::int64_t startNs_ = 0, processedFrames_ = 0; // session time of the first frame; frames since
     std::atomic<std::uint64_t> beats_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;

@@ -21,12 +21,11 @@ namespace physvib {
 namespace {
 
 struct PlayOptions {
-    RenderJob scene;
+    RenderJob scene;       ///< what is played, with its layout and panning
     LivePlaySettings live; ///< settings of the playback
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
-    std::vector<std::string> pads; ///< game controllers, with or without other outputs: auto or
-                                   ///< NAME[@PROFILE]
+    std::vector<std::string> pads; ///< game controllers: auto or NAME[@PROFILE]
     std::string map;               ///< "1,2,3,4": device outputs from 1, in the order of the actuators
     std::string onOff;             ///< actuators from 1 that are on/off motors; empty: none
     double threshold = OnOffSteps::thesisThreshold; ///< of these motors, as a share of full scale
@@ -81,8 +80,7 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     return setup;
 }
 
-/// Resolves the DualSense's device name, selects the outputs of its coils unless others were given, and sends
-/// the report that it needs. Returns an exit code.
+/// Selects the DualSense's device and coil outputs, and switches its coils to audio. Returns an exit code.
 int prepareDualSense(AudioOutputSettings& settings, int channels) {
     if (settings.channelMap.empty() && channels != 2)
         return reportExit(exitUsage, "--device " + settings.device + ": it has two coils, this layout " +
@@ -214,6 +212,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
                 return reportExit(exitUsage,
                                   std::string{option} + ": expected a --device, as it is of its channels");
     }
+    // options that a board or a live session cannot apply
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto error = sceneOptionsError(o.scene); !error.empty()) return reportExit(exitUsage, error);
     if (!o.scene.coupling.empty()) return reportExit(exitUsage, "--coupling: not yet live; render has it");
@@ -230,6 +229,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     if (o.isDirect && hasBoard)
         return reportExit(exitUsage,
                           "--direct: a board has to know of a strike earlier; expected no --board");
+    // scene or sound file, layout, actuators and recordings
     if (const auto preset = picoLayoutPreset(systemAudioDrivers, o.device);
         !preset.empty() && !isGiven(command, "--layout"))
         o.scene.layout = preset;
@@ -277,6 +277,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
             : std::filesystem::path{o.live.rig.savePath}.replace_extension(".events.csv").string()};
     if (auto clash = fileClashError(outputPaths, job.namedInputs()); !clash.empty())
         return reportExit(exitUsage, clash);
+    // device outputs, and what they play besides the actuators' signals
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     const std::string actuatorsOf = "actuators like 1,2, of " + std::to_string(job.channels());
     ListeningSettings& listening = settings.listening;
@@ -295,6 +296,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     listening.contactDb = o.scene.contactSoundDb;
     const auto voices = beatVoicesOf(o.beats, job.channels());
     if (!voices) return reportExit(exitUsage, voices.error);
+    // the session
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return reportExit(exitUsage,

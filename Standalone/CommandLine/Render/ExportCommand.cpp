@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib export`: loads events like `render`, pans them, and writes their curves as a haptic
-// file.
+// The command `physvib export`: loads events like `render`, and writes their curves as a haptic file.
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
@@ -16,13 +15,13 @@ namespace {
 
 struct ExportOptions {
     RenderJob input; ///< what is exported, and its layout and panning
-    std::string to;  ///< path; its extension selects the format
+    std::string to;  ///< its extension selects the format
     double maxDeviation = 0.004;
 };
 
 constexpr double minError = 1e-5, maxError = 0.1;
 
-/// The panner at an event's time: a session may have changed its layout.
+/// Gains of an event by the panner at its time, because a session may have changed its layout.
 EventGains gainsOf(const LoadedRender& job) {
     return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event,
                                                                 PhantomPanner::Gains& gains) mutable {

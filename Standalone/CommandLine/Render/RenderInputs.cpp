@@ -80,9 +80,6 @@ Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     return warnings;
 }
 
-// A channel with a place is played there. Without places, as many channels as actuators are played one on
-// each, and a single channel in the middle of all.
-
 namespace {
 
 bool hasPlaces(const Clip& clip) {

@@ -15,12 +15,12 @@ int loadInputs(LoadedRender& job);
 /// warnings about what the shaping loses, or one error line. Message thread.
 Result<std::vector<std::string>> makeEvents(LoadedRender& job);
 
-// Haptic files of other programs as inputs: the actuators on which each of their channels is played.
-
-/// A clip's channels at the job's sample rate, each as a recorded contact, and the event that plays it.
+/// The channels of a clip (a haptic file of another program) at the job's sample rate, each as a recorded
+/// contact, and the events that play them.
 class ClipEvents {
 public:
-    /// `job` has a clip; RenderInputs.cpp says where its channels are played. Prints losses on stderr.
+    /// `job` has a clip. Its channels are played at their places; without places one on each actuator, or a
+    /// single channel in the middle of all. Prints losses on stderr.
     explicit ClipEvents(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }

@@ -18,9 +18,8 @@
 
 namespace physvib {
 
-// A render as on and off times, for motors without other states.
-
-/// Collects the pattern; csv() is `channel,on_s,off_s`, a line per pulse, channels from 1. Message thread.
+/// Collects a render as on and off times, for motors without other states. csv() is `channel,on_s,off_s`, a
+/// line per pulse, channels from 1. Message thread.
 class OnOffPattern final : public VibrationConverter {
 public:
     OnOffPattern(int channels, int sampleRateHz, double threshold)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib report`; writeFolder(), which writes all files or none; and runAnalysisScript(), by R.
+// The command `physvib report`, with writeFolder() and with runAnalysisScript(), which runs R.
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -43,7 +43,7 @@ public:
     CreatedFolders& operator=(const CreatedFolders&) = delete;
     ~CreatedFolders() {
         std::error_code ignored;
-        // only if empty
+        // a folder with files in it stays
         for (auto at = created_.rbegin(); at != created_.rend(); ++at) std::filesystem::remove(*at, ignored);
     }
 
@@ -122,7 +122,7 @@ public:
             if (!entry.path().filename().string().starts_with(prefix)) continue;
             const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(ignored);
             if (age > std::chrono::hours{1})
-                std::filesystem::remove_all(entry.path(), ignored); // R has ten minutes
+                std::filesystem::remove_all(entry.path(), ignored); // R is stopped after ten minutes
         }
         for (int attempt = 0; attempt < 10 && path.empty() && !error; ++attempt) {
             const auto newPath = root / (prefix + std::to_string(random()) + std::to_string(random()));

@@ -53,10 +53,9 @@ int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
 /// Runs analysis.R in a temporary folder; returns its tables (none without R) or an error. Message thread.
 Result<StudyFiles> runAnalysisScript(const StudyFiles& files);
 
-// The option `--columns`, shared by commands that read tables of other programs.
-
 class OptionTable;
 
+/// Declares the option `--columns` of commands that read tables of other programs.
 void declareColumns(OptionTable& command, std::vector<std::string>& words);
 
 } // namespace physvib

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib thesis`: where each part of the thesis is, and its figures that no other command
-// draws.
+// The command `physvib thesis`: where each part of the thesis is, and figures that no other command draws.
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Actuators/VibrationConverter.h"

@@ -446,7 +446,7 @@ std::string StudiesTab::begin() {
     auto* host = findParentComponentOfClass<CardHost>();
     if (screen_ || analysis_ || !protocol_ || host == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return fail("expected a participant's code");
-    stopCheck(); // which may still run, unless the button called this
+    stopCheck(); // the check may still run, unless the button called this
     if (auto error = studyRunError(selectedRun()); !error.empty()) return fail(error);
     if (auto error = outputsError(*protocol_, model_); !error.empty()) return offerLayout(), fail(error);
     if (auto error = findPlaybackError(*protocol_, model_); !error.empty()) return fail(error);
@@ -570,15 +570,14 @@ void StudiesTab::paint(juce::Graphics& g) {
     auto textArea = descriptionArea_, freeArea = adviceArea_;
     for (const juce::String& words : juce::StringArray::fromLines(description_))
         if (!drawIfFits(textArea, words, Shade::muted)) break;
-    const bool isStatusFirst = statusShade_ == Shade::limit || !begin_.isEnabled(); // it says why nothing can
-                                                                                    // begin
+    const bool isStatusFirst = statusShade_ == Shade::limit || !begin_.isEnabled(); // says what is missing
     if (isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
     for (const juce::String& words : advice()) drawIfFits(freeArea, words, Shade::highlight);
     if (!isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 15, spacing = 5, footHeight = 32, lower = 24; // pixels, for a small window
+    constexpr int captionHeight = 15, spacing = 5, footHeight = 32, lower = 24; // pixels
     const int line = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };

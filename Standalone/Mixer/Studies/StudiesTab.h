@@ -15,7 +15,7 @@ namespace physvib {
 class AnalysisScreen final : public FullScreen {
 public:
     AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
-    /// Shows this report instead, under that title.
+    /// Shows `report` under `title`, without an analysis.
     AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report);
 
     /// Shows the first analysis that fits the trial files of one study, or any table that `physvib analyse`
@@ -54,6 +54,7 @@ struct StudySelection {
     juce::String folder;
 };
 
+/// The tab that selects, checks and starts studies, and opens analyses. Message thread.
 class StudiesTab final : public Tab {
 public:
     explicit StudiesTab(MixerModel& model);

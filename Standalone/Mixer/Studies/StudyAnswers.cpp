@@ -274,9 +274,9 @@ private:
     }
     const StudyTexts& translate_;
     const std::vector<std::string> anchors_;
-    const int points_; // of the scale, from 1; 0: a scale from 0 to 100
+    const int points_; // points of the scale, from 1; 0: a scale from 0 to 100
     const bool showsNumbers_;
-    std::vector<std::size_t> scoreIndices_; // of each slider, among the session's scores
+    std::vector<std::size_t> scoreIndices_; // place of each slider's score among the session's scores
     std::vector<std::unique_ptr<Scale>> scales_;
 };
 

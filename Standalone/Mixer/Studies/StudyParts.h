@@ -14,7 +14,7 @@ namespace physvib {
 /// Left and right margin of the screens that fill the window, in pixels.
 constexpr int pageInset = 40;
 
-/// Covers its parent, with a silence button, because the session behind it keeps running. Message thread.
+/// A screen over its parent, with a silence button because the session below keeps running. Message thread.
 class FullScreen : public juce::Component {
 public:
     std::function<void()> onClose; ///< called when the screen is finished or left
@@ -75,7 +75,7 @@ public:
     /// Translates a text such as "trial {n}" and inserts the value of {n}; English without a translation.
     juce::String operator()(const std::string& english,
                             std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
-    const std::set<std::string>& untranslated() const noexcept { return untranslated_; } ///< texts so far
+    const std::set<std::string>& untranslated() const noexcept { return untranslated_; } ///< so far
 
     /// Question of a trial: the protocol's, or the task's default.
     juce::String question(const SessionPlan& session, const ConditionPlan& condition) const;
@@ -142,7 +142,7 @@ public:
     bool isComplete() const override { return !response_.empty(); }
 
 protected:
-    /// A click on it chooses that response.
+    /// Lets a click on `button` choose `response`.
     void addChoice(juce::Button& button, const std::string& response) {
         choices_.emplace_back(&button, response);
         button.onClick = [this, response] { choose(response); };

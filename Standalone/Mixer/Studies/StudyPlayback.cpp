@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What StudyScreen plays: StimulusPlayer sends events to the mixer's session and checks by receipts that they
-// were played; StudyMarkers sends LSL markers; StudyWorld runs a world, which StudyWorldPane displays.
+// Parts of StudyScreen that play a trial: StimulusPlayer sends events to the mixer's session, and checks in
+// the output's level history (receipts) that they were played whole; StudyWorld runs a world as a session of
+// its own, which StudyWorldPane displays; StudyMarkers reports their times to the Lab Streaming Layer.
 #include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
@@ -14,9 +15,9 @@ namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t eventLeadNs = 50'000'000; // from the gains, which are ramped, to the events
+constexpr std::int64_t eventLeadNs = 50'000'000; // events begin this long after the gains, which are ramped
 
-// An actuator is compared if its planned peak has this share of the loudest one, and of full scale.
+// An actuator is compared if its planned peak is at least this share of the loudest one, and of full scale.
 constexpr double minComparedShare = 0.01, minComparedPeak = 1e-4, toleranceDb = 1.0;
 constexpr double maxPauseMs = 1e-6 * DevicePulse::goneAfterNs + 500.0; // longer pauses lose events
 constexpr double maxPlannedSeconds = 60.0; // receipts are kept that long; longer stimuli are not compared
@@ -151,7 +152,7 @@ std::vector<double> StimulusPlayer::plannedPeaks(const PlayableStimulus& stimulu
     return peaks;
 }
 
-// After a short pause the device continues with what was posted, so the end is awaited even if the playback
+// After a short pause the device continues with what was sent, so the end is awaited even if the playback
 // is already incomplete.
 void StimulusPlayer::update() {
     if (status_ != PlaybackStatus::playing) return;
@@ -283,7 +284,7 @@ std::string StudyWorld::begin(PlayableWorld world, bool isInteractive, const std
         file, *session_, setup_,
         Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
     if (auto error = journal_->error(); !error.empty()) return finish(), error;
-    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts the time
+    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts session time
     status_ = PlaybackStatus::playing;
     return {};
 }
@@ -310,7 +311,7 @@ void StudyWorld::readReceipts(std::int64_t untilNs) {
             receipt.meanSquare * static_cast<double>(receipt.frames) / model_.output().sampleRateHz();
     }
     outputSums_ = std::move(sums);
-    checkedNs_ = std::max(endNs, untilNs); // the last frame of a lost span is earlier
+    checkedNs_ = std::max(endNs, untilNs); // a span with lost frames ends before untilNs
     readReceipts(requestedNs);
 }
 
@@ -357,7 +358,7 @@ WorldFrame StudyWorld::update() {
     const std::int64_t now = session_->status().sessionNs, outputNs = session_->timeline().nextOutputNs();
     if (outputNs >= checkedNs_ + receiptIntervalNs || !model_.output().isPlaying()) readReceipts(outputNs);
     if (model_.isSilent() && seconds_ > 0.0 && isMoving())
-        status_ = PlaybackStatus::incomplete;                          // the trial repeats it
+        status_ = PlaybackStatus::incomplete;                          // the trial will repeat the world
     if (status_ == PlaybackStatus::incomplete) return finish(), frame; // a stopped device plays no fade-out
     if (isMoving()) {
         session_->world().setSlowness(model_.isSilent() ? 0 : 1); // a world pauses while silent
@@ -387,7 +388,7 @@ void StudyWorld::finish() {
         for (PlayedEvent played; session_->played().pop(played);)
             journal_->onPlayed(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
-        saveError_ = journal_->finish(SessionJournal::maxQuickBytes); // limited, because the window waits
+        saveError_ = journal_->finish(SessionJournal::maxQuickBytes); // limited, as the window waits for it
     }
     journal_.reset();
     session_.reset();

@@ -416,7 +416,7 @@ std::string StudyScreen::markerText(const char* event) const {
            ";stimulus=" + trial.stimulus;
 }
 
-// The start time of a stimulus is known when it is posted, that of a world once it plays.
+// The start time of a stimulus is known when it is sent, that of a world once it plays.
 void StudyScreen::sendStartMarker() {
     if (!isStartMarkerPending_ || (worldSet() != nullptr && worldPane_.world().playedSeconds() <= 0.0))
         return;

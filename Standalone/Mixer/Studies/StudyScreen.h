@@ -17,7 +17,7 @@ namespace physvib {
 /// An error line if the mixer has fewer actuators than the layout needs; else empty. Any thread.
 std::string actuatorCountError(const std::string& layout, int needed, int available);
 
-/// Status of the last playback, by the receipts of the output.
+/// Status of the last playback, by the level history that the output keeps (its receipts).
 enum class PlaybackStatus {
     none,       ///< nothing was played yet, or it was stopped
     playing,    ///< it is playing
@@ -65,10 +65,10 @@ private:
     MixerModel& model_;
     int slowness_;
     double outputStartMs_ = 0.0, lastPlayingMs_ = 0.0, seconds_ = 0.0, playedSeconds_ = 0.0;
-    std::vector<float> gains_; // last posted values
+    std::vector<float> gains_; // last sent values
     PlaybackStatus status_ = PlaybackStatus::none;
-    bool isMuted_ = false;                 // by stop()
-    bool wasSilent_ = false;               // at any time of the stimulus
+    bool isMuted_ = false;                 // stop() has muted all actuators
+    bool wasSilent_ = false;               // the mixer was silenced during the stimulus
     std::int64_t startNs_ = 0, endNs_ = 0; // of the last stimulus, in session time
     std::uint32_t sessionNumber_ = 0;
     std::vector<ActuatorDescription> actuators_; // of the last stimulus' layout
@@ -99,7 +99,7 @@ private:
 
 /// A world that a participant sees, feels and can act in: a session of its own on the mixer's output, saved
 /// as a file that renders exactly what was felt. One at a time, and the mixer state must not be edited
-/// meanwhile. Strips give polarity, delay and ceiling; the study sets levels. Message thread.
+/// meanwhile. The mixer's strips give polarity, delay and ceiling; the study sets levels. Message thread.
 class StudyWorld {
 public:
     explicit StudyWorld(MixerModel& model)
@@ -146,7 +146,7 @@ private:
     std::unique_ptr<SessionJournal> journal_;
     std::unique_ptr<ThreadDriver> driver_;
     std::string saveError_;
-    double seconds_ = 0.0; // of a world without user input
+    double seconds_ = 0.0; // nominal duration; 0: with user input
     PlaybackStatus status_ = PlaybackStatus::none;
     std::uint32_t sessionNumber_ = 0; // of the session, for receipts
     struct OutputSums {
@@ -231,7 +231,7 @@ private:
     void showError(const std::string& reason); ///< stops playback and shows the error page
     void logEvent(std::string_view event) {
         model_.reportIfError(study_->logEvent(event));
-    }                     ///< with the time
+    }                     ///< writes it to the study's log with the time
     void continueStudy(); ///< leaves the current page, as its button and Enter do
     void leave();         ///< closes the screen, unless a stimulus plays
     void play(std::size_t part);
@@ -260,7 +260,7 @@ private:
     PlaybackStatus status() const {
         return worldSet() != nullptr ? worldPane_.world().status() : player_.status();
     }
-    /// The device is stopped: what is posted now would be played all at once when it runs again.
+    /// The device is stopped: what is sent now would be played all at once when it runs again.
     bool isDeviceStopped() const { return !model_.output().isPlaying(); }
     /// Time for which the current or last part has been felt.
     double playedSeconds() const {
@@ -295,21 +295,21 @@ private:
     // current trial:
     LayoutDescription layout_;
     std::optional<TrialProgress> progress_;
-    std::optional<Answer> exploredAnswer_; // its stimulus plays, then it is recorded
+    std::optional<Answer> exploredAnswer_; // chosen while exploring; recorded when its stimulus has played
     std::vector<std::unique_ptr<BigButton>> buttons_;
     std::optional<std::size_t> queuedPart_;  // a world that starts when the previous one has faded out
     std::vector<std::string> savedSessions_; // files of the worlds played in this trial
     std::vector<PlayedLevel> playedLevels_;  // by part
-    std::size_t part_ = 0;
-    double partEndMs_ = 0.0;                // when that part ended
-    std::optional<bool> wasRight_;          // the previous answer was; empty: no feedback
-    bool hasTimedOut_ = false;              // the previous trial ended by its time limit
-    std::optional<double> acceptedSeconds_; // time for which answers were accepted; empty: not yet
+    std::size_t part_ = 0;                   // the part that plays or was played last
+    double partEndMs_ = 0.0;                 // when that part ended
+    std::optional<bool> wasRight_;           // whether the previous answer was right; empty: no feedback
+    bool hasTimedOut_ = false;               // the previous trial ended by its time limit
+    std::optional<double> acceptedSeconds_;  // time for which answers were accepted; empty: not yet
     double lastUpdateMs_ = 0.0;
     std::vector<int> wrongLevelPlays_; // by part: plays at another level than planned
     bool isPlayIncomplete_ = false;    // the last play was incomplete and must be repeated
     double maxReductionDb_ = 0.0;      // maximum gain reduction observed in this trial
-    double countedSeconds_ = 0.0, firstPlayMs_ = 0.0, breakEndMs_ = 0.0;
+    double countedSeconds_ = 0.0, firstPlayMs_ = 0.0, breakEndMs_ = 0.0; // first: added to progress_
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};
     juce::TextEditor comment_;

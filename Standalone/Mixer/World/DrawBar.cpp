@@ -117,7 +117,7 @@ public:
         setTitle("Material " + getName());
         setWantsKeyboardFocus(true);
     }
-    /// An empty `reason`: typical impacts of the material are felt.
+    /// `reason`: why typical impacts of the material are not felt; empty: they are felt.
     void setSilentReason(const std::string& reason) {
         isPerceptible_ = reason.empty();
         setTooltip(isPerceptible_ ? getName() + ": draw with it; a double click: its name and colour"
@@ -141,7 +141,7 @@ public:
                         .brighter(isOver ? 0.1f : 0.0f)
                         .withAlpha(0.95f));
         g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(shade(*this, Shade::accent)); // as in tabs; frames mark the focus
+        g.setColour(shade(*this, Shade::accent)); // underlined as tabs are; a frame would mark the focus
         if (getToggleState()) g.fillRect(getLocalBounds().reduced(6, 0).removeFromBottom(2));
         g.setColour(colour_);
         const float middle = 0.5f * static_cast<float>(getHeight());
@@ -184,7 +184,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     setTitle("Chosen bodies");
     const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
         pane_.changeSelected(name, what, continuesEdit);
-        refresh(); // restores the display if it was refused
+        refresh(); // shows the old value again if the change was refused
     };
     const auto bindSlider = [change](juce::Slider& slider, const char* name, auto set) {
         onSliderChange(slider, [change, name, set, &slider](bool continuesEdit) {
@@ -215,6 +215,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setSliderStyle(juce::Slider::LinearBar);
     }
+    // density and bounce
     describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
     density_.textFromValueFunction = [](double kg) {
@@ -233,6 +234,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     bindSlider(bounce_, "Bounce", [](BodyDescription& b, double bounce) {
         for (auto& fixture : b.fixtures) fixture.restitution = bounce;
     });
+    // motor, spring and belt of a single body
     constexpr double maxSpeed = 20.0; // rad/s, about three turns a second
     describe(speed_, "Motor speed",
              "Speed of the motor, in rad/s, counter-clockwise; 0 with a torque: a brake");
@@ -266,6 +268,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
         constexpr double minBeltSpeed = 0.01; // m/s; a belt without speed would be a wall
         b.velocityMetresPerSecond.x = speed == 0.0 ? minBeltSpeed : speed;
     });
+    // material
     newButton_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, assignMaterial_); };
     material_ = makeLinkButton({}, "Material of what is chosen");
     material_->setTooltip("The material: name, colour, copy, figures, recording");
@@ -288,6 +291,7 @@ void BodyPanel::refresh() {
     setVisible(body != nullptr && pane_.tool() != DrawTool::hand);
     if (body == nullptr) return;
     const Scene& scene = model_.world().drawing().drawn();
+    // motor, spring and belt of a single body
     const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
     motorJoint_ = motor ? motor->name : std::string{};
     physvib::setVisible({&speedLabel_, &speed_, &torqueLabel_, &torque_}, motor != nullptr);
@@ -304,6 +308,7 @@ void BodyPanel::refresh() {
     physvib::setVisible({&beltLabel_, &belt_},
                         chosen.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
     if (!belt_.isMouseButtonDown()) belt_.setValue(belt, juce::dontSendNotification);
+    // properties in which the bodies may differ
     const auto differs = [&](auto property) {
         return std::ranges::any_of(chosen, [&](const std::string& name) {
             const auto* other = model_.world().drawing().find(name);
@@ -460,7 +465,7 @@ void MaterialPalette::refresh() {
             swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
                 editMaterial(from, isMenu, model_, i, selectMaterial_, openPage_);
             };
-            // its error is not shown: the tooltip says that a material is silent
+            // the result is ignored: the tooltip already says that a material is silent
             swatch.onEnter = [this, i] { model_.eventPlayer().audition(i, 0.5, 0.5); };
             addAndMakeVisible(swatch);
             prepareControls(swatch); // it is created after the other controls
@@ -500,8 +505,7 @@ void MaterialPalette::resized() {
         area.removeFromLeft(gapWidth);
     }
     newButton_.setBounds(area.removeFromLeft(newWidth));
-    editButton_.setVisible(area.getWidth() >= gapWidth + editWidth); // without room: by a double click on a
-                                                                     // swatch
+    editButton_.setVisible(area.getWidth() >= gapWidth + editWidth); // without room: double-click a swatch
     editButton_.setBounds(area.withTrimmedLeft(gapWidth).removeFromLeft(editWidth));
     placeName();
 }

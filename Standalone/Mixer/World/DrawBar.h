@@ -29,7 +29,7 @@ private:
     juce::TextButton snapButton_{"#"};
 };
 
-/// A material's chip, which shows its decay.
+/// A small button that draws the decay of a material.
 class MaterialSwatch;
 
 /// Opens the page of a material's figures; with `isRecording`, also asks for a recording to measure.
@@ -62,8 +62,8 @@ private:
     juce::ComboBox ballCountChoice_, patternChoice_;
 };
 
-/// Static or moving, haptic source or not, material, density and restitution of the selected bodies; of a
-/// single one also speed and torque of its motor, and stiffness of its spring. Message thread.
+/// Edits the selected bodies: static or moving, haptic source, material, density and restitution; of a single
+/// body also speed and torque of its motor, and stiffness of its spring. Message thread.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& openPage);
@@ -74,7 +74,7 @@ public:
     }
     void resized() override { layOut(getWidth(), true); }
     int heightFor(int width) { return layOut(width, false); } ///< in pixels
-    static constexpr int preferredWidth = 216; ///< beside the field, px; above it, as wide as the field
+    static constexpr int preferredWidth = 216; ///< px, beside the field; above it, it is as wide as the field
 
 private:
     static constexpr int edge = 4, lineHeight = 26;
@@ -88,7 +88,7 @@ private:
     DrawPane& pane_;
     std::vector<Material> shownMaterials_;
     std::vector<std::unique_ptr<MaterialSwatch>> materials_;
-    std::string motorJoint_, springJoint_; // of the single selected body; empty: none
+    std::string motorJoint_, springJoint_; // joints of the single selected body; empty: none
     const OpenMaterialPage& openPage_;
     const std::function<void(int)> assignMaterial_{
         [this](int material) { pane_.setSelectedMaterial(material), refresh(); }}; ///< to the selected bodies

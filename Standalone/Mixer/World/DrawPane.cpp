@@ -9,7 +9,8 @@ namespace physvib {
 
 namespace {
 
-/// Material of a new body: if it can move, as the last moving body that vibrates; else the first that does.
+/// Index of the material for a new body. Tools that draw moving bodies use the material of the last moving
+/// body that vibrates; other tools, or a scene without such a body, use the first material that vibrates.
 int defaultMaterial(const Scene& scene, DrawTool tool) {
     const auto vibrates = [](const Material& m) { return m.frequencyHz > 0.0; };
     if (tool != DrawTool::wall && tool != DrawTool::line && tool != DrawTool::conveyor)
@@ -68,7 +69,7 @@ void DrawPane::setSelectedMaterial(int material) {
         const auto vibrates = [&scene](int m) { return nth(scene.materials, m).frequencyHz > 0.0; };
         if (!vibrates(material)) // a source must vibrate
             setSource(scene, body, false);
-        else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as a new body would be
+        else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as if it were drawn anew
             setSource(scene, body, true);
         for (auto& fixture : body.fixtures) fixture.material = material;
     });
@@ -307,7 +308,7 @@ void DrawPane::addAt(DrawTool tool, Vector place) {
     setTool(tool);
     pointerMetres_ = place;
     stroke_ = {place};
-    constexpr double length = 0.2; // of a spring to a place above, share of the field's height
+    constexpr double length = 0.2; // of an upward spring, as a share of the field's height
     if (tool == DrawTool::spring) pointerMetres_.y += length * model_.world().scene().fieldHeightMetres;
     isJointTool(tool) ? addJoint() : addStroke();
     setTool(before);

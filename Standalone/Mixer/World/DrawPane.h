@@ -58,10 +58,10 @@ public:
 
     std::optional<BodyPlace> currentPlace(const std::string& name) const; ///< nullopt: it is not in the world
 
-    bool isDrawing() const noexcept { return isDrawing_; } ///< or moving the selected bodies
+    bool isDrawing() const noexcept { return isDrawing_; } ///< also while selected bodies are dragged
     void cancelStroke();
 
-    void mixChanged(); ///< the mixer state changed
+    void mixChanged(); ///< to be called after each change of the mixer state
     bool handleKey(const juce::KeyPress& key);
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
@@ -72,8 +72,8 @@ public:
 
 private:
     static constexpr double gridsPerField = 40.0, turnStep = juce::MathConstants<double>::pi / 12.0;
-    enum class Grip { none, move, size, turn, marquee };
-    struct Handles { // of one body, in pixels
+    enum class Grip { none, move, size, turn, marquee }; // what a drag with the tool select changes
+    struct Handles {                                     // of one body, in pixels
         std::array<juce::Point<float>, 4> corners;
         juce::Point<float> turn, centre;
     };
@@ -104,11 +104,10 @@ private:
     void closePolygon();
     void addAtCentre();
     bool handleToolKey(const juce::KeyPress& key);
-    std::string findOrAddAnchor(std::vector<Action>& actions, const Vector& place); ///< for a joint to the
-                                                                                    ///< field
-    std::string jointAt(juce::Point<float> pixel) const;                            ///< its name; empty: none
-    Vector atCurrentPose(const Vector& point, const std::string& body) const;       ///< moved with the body
-    juce::Line<float> jointLine(const JointDescription& joint) const;               ///< in pixels
+    std::string findOrAddAnchor(std::vector<Action>& actions, const Vector& place); ///< a static body's name
+    std::string jointAt(juce::Point<float> pixel) const; ///< name of the joint; empty: none
+    Vector atCurrentPose(const Vector& point, const std::string& body) const; ///< moved with `body`
+    juce::Line<float> jointLine(const JointDescription& joint) const;         ///< in pixels
     void drawBelts(juce::Graphics& g) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
@@ -121,14 +120,14 @@ private:
     DrawTool tool_ = DrawTool::hand;
     int material_ = 0;
     bool isMaterialChosen_ = false;      // the user chose the material
-    std::shared_ptr<const Scene> scene_; // scene of that choice
+    std::shared_ptr<const Scene> scene_; // scene for which it was chosen
     int rainCount_ = 50;
     Rain rain_;
     bool isSnapping_ = false, isDrawing_ = false;
     std::vector<std::string> selected_;
     CopiedBodies clipboard_;
     Grip grip_ = Grip::none;
-    std::vector<Vector> stroke_; // its points, or the corners of the polygon, in metres
+    std::vector<Vector> stroke_; // points of the stroke, or corners of the polygon, in metres
     Vector pointerMetres_;       // mouse position
 };
 

@@ -103,7 +103,7 @@ void setFountainStart(std::vector<BodyDescription>& bodies, const Scene& scene) 
     const double gravity = std::hypot(scene.gravityMetresPerSecond2.x, scene.gravityMetresPerSecond2.y),
                  upSpeed = std::sqrt(2.0 * gravity * fountainHeightShare * scene.fieldHeightMetres);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-        const int jet = static_cast<int>(3 * k) % jetCount - jetCount / 2; // neighbours differ
+        const int jet = static_cast<int>(3 * k) % jetCount - jetCount / 2; // consecutive balls differ
         bodies[k].positionMetres = centroid;
         bodies[k].velocityMetresPerSecond = {2.0 * sidewaysShare * upSpeed * jet / (jetCount - 1), upSpeed};
     }

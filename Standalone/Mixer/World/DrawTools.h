@@ -52,11 +52,11 @@ inline constexpr std::array<DrawToolInfo, 15> drawTools{{
     {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
 }};
 
-inline bool isStrokeTool(DrawTool tool) {
+inline bool isStrokeTool(DrawTool tool) { // a drag draws bodies
     return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
            tool == DrawTool::wall || tool == DrawTool::rain || tool == DrawTool::conveyor;
 }
-inline bool isJointTool(DrawTool tool) {
+inline bool isJointTool(DrawTool tool) { // a click or a drag joins two bodies
     return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||
            tool == DrawTool::slider || tool == DrawTool::motor;
 }

@@ -20,7 +20,7 @@ juce::String strengthText(double g) {
     return g < 0.02 ? "hardly felt" : g < 0.1 ? "felt softly" : g < 0.4 ? "felt" : "felt strongly";
 }
 
-constexpr double stepSeconds = 0.01; // of the sliders, one step of the world
+constexpr double stepSeconds = 0.01; // step of the trim sliders: one step of the world
 
 } // namespace
 
@@ -28,6 +28,7 @@ WorldPanel::WorldPanel(MixerModel& model)
     : model_{model} {
     setTitle("World");
     setWantsKeyboardFocus(true);
+    // what the pointer does in the view
     view_.onFling = [this](const std::string& body, Vector screenMetres, Vector point) {
         const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
         model_.reportIfError(
@@ -71,6 +72,7 @@ WorldPanel::WorldPanel(MixerModel& model)
         makeMenu(place).showMenuAsync(
             juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
     };
+    // row below the view
     hitLabel_.setTitle("Strongest hit");
     hitLabel_.setFont(text::font(text::medium));
     lawLabel_.setBorderSize({0, 0, 0, 6});
@@ -244,7 +246,7 @@ void WorldPanel::sendInput(const std::vector<Action>& actions) {
         previousRunCount_ = model_.savedSession().log.runs.size();
         model_.change("Play",
                       [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
-        shownScene_ = model_.mix().scene; // keeps the player
+        shownScene_ = model_.mix().scene; // so that mixChanged() keeps the player
         pendingInputs_ = actions;
         return;
     }
@@ -292,7 +294,7 @@ void WorldPanel::cancelDrag() {
 
 void WorldPanel::updatePlayer() {
     if (!player_) return;
-    // the world has restarted
+    // the first inputs are sent once the world has restarted
     if (!pendingInputs_.empty() && model_.savedSession().log.runs.size() > previousRunCount_)
         sendInput(std::exchange(pendingInputs_, {}));
     if (!player_->moves()) return;

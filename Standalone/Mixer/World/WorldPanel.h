@@ -13,8 +13,7 @@ class ScriptStrip final : public juce::Component {
 public:
     explicit ScriptStrip(MixerModel& model);
 
-    void refresh(bool isHandTool); ///< to be called a few times a second; `isHandTool`: the hand tool is
-                                   ///< active
+    void refresh(bool isHandTool); ///< call it a few times a second; `isHandTool`: the hand tool is active
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
@@ -88,7 +87,7 @@ private:
     juce::Rectangle<int> bodyPanelAreaInField(int width, int height) const;
     void showTools(); ///< updates all controls of drawing
     void sendInput(const std::vector<Action>& actions);
-    void updatePlayer();                ///< moves it towards the pointer, and keeps it in the field
+    void updatePlayer();                ///< moves the player towards the pointer, and keeps it in the field
     double fieldXMetres(float x) const; ///< x on the field, m, from pixels of the view
     juce::String hitText(const CollisionEvent& hit) const;
     juce::String fitInLines(const juce::StringArray& parts) const;
@@ -118,9 +117,9 @@ private:
     bool isBadgeMoving_ = false; // a badge is being moved since the mouse was pressed
     bool isShowMode_ = false, isPlayMode_ = false, hasMaster_ = false;
     double hitTimeMs_ = 0.0;
-    CollisionEvent shownHit_;               // of amplitude 0: none yet
+    CollisionEvent shownHit_;               // described in hitLabel_; amplitude 0: none yet
     std::shared_ptr<const Scene> hitScene_; // scene of shownHit_
-    juce::String nothingFeltReason_;        // as displayed
+    juce::String nothingFeltReason_;        // in hitLabel_; empty: something is felt
     std::shared_ptr<const Scene> shownScene_;
     std::uint64_t shownEditCount_ = 0;
 };
