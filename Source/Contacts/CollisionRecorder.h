@@ -104,7 +104,7 @@ public:
     const Transmitted& transmittedToReceiver(std::int32_t receiver) const noexcept {
         return transmitted_[static_cast<std::size_t>(receiver)];
     }
-    /// Place where most of it was transmitted, m, world, in the same step; 0 if nothing was.
+    /// World place of the contact that transmitted most of `received`, m; 0 if nothing was transmitted.
     Vector3 pointOf(const Transmitted& received) const noexcept {
         return received.other == FixtureTable::none ? Vector3{} : contacts_[received.contact].place.point();
     }
@@ -156,7 +156,7 @@ public:
     /// Call right before the engine's step.
     void beginStep(const StepSpan& span) noexcept;
 
-    /// Call right after it: all contacts have been reported.
+    /// Call right after the engine's step, when all contacts have been reported.
     void endReports();
 
     /// Call when the step's records have been used.
@@ -245,8 +245,8 @@ public:
                 push(pair, pairs_[pair.number], isOfSource, newtonSeconds))
             place->set(point);
     }
-    /// The same for a caller that has the stored pair and knows whether it touches a source. Returns the
-    /// place, to be set, or null.
+    /// push() for a caller that has the stored pair and knows whether it touches a source. Returns the
+    /// place, which the caller sets, or null.
     TransmittedImpulses::Place* push(const TouchingPairs::Handle& pair, const TouchingPairs::Pair& stored,
                                      bool isOfSource, Vector3 newtonSeconds) {
         hasReports_ = true;

@@ -21,7 +21,7 @@ struct EventBounds {
     double minX = std::numeric_limits<double>::infinity(), minY = minX, maxX = -minX, maxY = -minX;
 
     void add(std::size_t added, std::array<double, 2> min, std::array<double, 2> max) noexcept {
-        count += added - 2;
+        count += added - 2; // the two corners below add 2
         add(min[0], min[1]);
         add(max[0], max[1]);
     }
@@ -104,7 +104,7 @@ struct ContactCounts {
 struct OutputFacts {
     bool isMissing = false;                ///< no device asks for samples
     bool isSilent = false;                 ///< the output is muted
-    std::string_view silentBy{};           ///< by whom, in words; empty: unknown
+    std::string_view silentBy{};           ///< who muted it, in words; empty: unknown
     std::string_view error{};              ///< error of the device, in one line
     int channels = 0;                      ///< that the device plays; 0: all of the layout
     double levelGain = 1.0;                ///< gain of all channels

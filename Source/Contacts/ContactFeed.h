@@ -43,8 +43,8 @@ struct FedContact {
     std::optional<double> impulseNewtonSeconds; ///< along the normal, in this step
     double tangentialNewtonSeconds = 0.0;       ///< to the left of the normal, of engines in the plane;
                                                 ///< only with an impulse
-    Vector3 frictionNewtonSeconds; ///< on b, across the normal, of engines in space, instead of the number
-                                   ///< above; only with an impulse
+    Vector3 frictionNewtonSeconds;              ///< on b, across the normal, of engines in space, instead of
+                                                ///< tangentialNewtonSeconds; only with an impulse
     std::optional<double> approachMetresPerSecond; ///< before the engine's solver
     double restitution = 0.0;                      ///< 0 to 1, of the pair; used where no impulse is reported
     std::optional<double> effectiveMassKg; ///< used where no impulse is reported; without it, it follows
@@ -55,13 +55,13 @@ struct FedContact {
     /// surfaces when the engine measured it, and the speed.
     std::optional<double> fraction;
     double gapMetres = 0.0;   ///< between the surfaces; below 0: they overlap
-    double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)
+    double gapFraction = 0.0; ///< when gapMetres counts, in steps: 0 (before bodies are moved) to 1 (after)
 
-    /// True of an engine whose contacts take several steps to turn a body round, or push overlaps apart. Its
+    /// True if contacts of the engine take several steps to reverse a body, or push overlaps apart. Its
     /// impulse of one step does not say how hard an impact is; speed and restitution do. The impulse is then
     /// the load that a pair passes on while it goes on touching.
     bool isSoft = false;
-    /// Of a soft contact: the reported impulse is all that the engine gave the bodies in this step. Where
+    /// True for a soft contact whose reported impulse is all that the engine gave in this step. Where
     /// that is clearly more than speed and masses say (the struck body stands on something, hangs in joints,
     /// or carries others), it is the impulse of the impact.
     bool isPushWhole = false;
@@ -99,10 +99,10 @@ public:
 
     /// Takes effect with the next step. Throws as the constructor does.
     void configure(const ImpactSettings& settings);
-    /// Any thread but while it is stepped.
+    /// Any thread, but not while the feed is stepped.
     const ImpactSettings& settings() const noexcept;
 
-    /// Adds a body, or changes it. Returns the error, or empty: it is set. So do the next functions.
+    /// Adds a body, or changes it. Returns the error, or an empty text, as all calls that return one.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
 
     /// The mass of a body as it is now, kg; its inertia changes by as much.

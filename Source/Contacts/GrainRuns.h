@@ -9,15 +9,15 @@
 
 namespace physvib {
 
-/// Grains of one surface and one haptic source: keys and places, then by compute() times and strengths, by
-/// write() events. Each lane computes as for a single grain, so the bits are the same with each processor.
+/// Grains of one surface and one haptic source. The caller sets keys and places; compute() adds times and
+/// impulses, and write() makes events. Each lane computes as for a single grain, with the same bits.
 struct GrainRuns {
     static constexpr std::size_t maxGrains = 128, maxRuns = 64;
 
     /// A point's way along the surface, which does not reverse.
     struct alignas(32) Run {
         double start, metresPerSecond, metresPerSecond2, sign; ///< of the motion; sign: of its direction
-        double slip, newtons, every, unused;  ///< m/s; load, N; thinning: one grain of so many
+        double slip, newtons, every, unused;  ///< slip: m/s; newtons: load; every: one of so many grains
         std::array<float, 3> point, velocity; ///< of the contact point at the step's end, m, m/s, world
         std::int32_t otherId, unusedToo;
     };

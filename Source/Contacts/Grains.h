@@ -80,7 +80,7 @@ struct GrainGap {
     double fromMetres = 0.0; ///< along the path, as SurfaceMotion's metres
     double toMetres = 0.0;   ///< its other end
     std::int64_t next = 0;   ///< index of the grain at that end to which the point moved
-    bool isUp = true;        ///< that is `toMetres`
+    bool isUp = true;        ///< it moved upwards, so that end is `toMetres`
 
     /// True if a motion that does not reverse certainly stays within.
     bool contains(const SurfaceMotion& motion) const noexcept {
@@ -115,8 +115,8 @@ public:
     }
 
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
-    /// they are passed. Returns where the point is then. `gap`: the same of the step before, of these grains
-    /// and this `every`, which saves a search; or null.
+    /// they are passed. Returns the gap in which the point is then. `gap`: that of the step before, for the
+    /// same grains and `every`, which saves a search; or null.
     template <class Passed>
     [[gnu::always_inline]] GrainGap visit(const SurfaceMotion& motion, std::int64_t every,
                                           const GrainGap* gap, Passed&& passed) const {

@@ -96,7 +96,7 @@ struct PairSound {
     SoundNumber sound = 0;       ///< of events of the first mode, for which there may be a recording
 };
 
-/// By the numbers of two kinds (HapticFixture::surface), in any order. World thread (M).
+/// Sounds of pairs of surface kinds (HapticFixture::surface), in any order. World thread (M).
 class PairSounds {
 public:
     /// Sets or replaces the sound of a pair. Returns the error (nothing is changed) or empty. Allocates.

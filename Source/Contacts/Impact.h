@@ -84,11 +84,11 @@ struct StepSpan {
         return thresholdMetresPerSecond(gravityScale) / 1.5;
     }
 
-    /// N s that change the lighter body's velocity by the threshold.
+    /// The impulse, N s, that changes the lighter body's velocity by the threshold.
     double minNewtonSeconds(double lighterMassKg, float gravityScale) const noexcept {
         return thresholdMetresPerSecond(gravityScale) * lighterMassKg;
     }
-    /// True if an impulse is at least that.
+    /// True if an impulse is above 0 and at least `minNewtonSeconds`.
     static bool isImpact(double newtonSeconds, double minNewtonSeconds) noexcept {
         return newtonSeconds > 0.0 && newtonSeconds >= minNewtonSeconds;
     }

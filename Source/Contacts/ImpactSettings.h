@@ -52,7 +52,7 @@ struct ImpactSettings {
     /// no effect on amplitudes; driveGain and the gains of sources and pairs still do. `automatic`: it is
     /// learned from the world's hits, see FullScale.
     double fullScaleNewtonSeconds = 0.0;      ///< 0: off
-    static constexpr double automatic = -1.0; ///< of fullScaleNewtonSeconds
+    static constexpr double automatic = -1.0; ///< a value of fullScaleNewtonSeconds
 
     /// Impacts before this world time are not felt, nor learned from: bodies that are created in the air, or
     /// in each other, come to rest first. They are counted as muted.

@@ -128,7 +128,7 @@ private:
         isMapped_ = true;
     }
 
-    std::vector<Record> before_{1}, now_{1};                 // buffers, of which so many are in use, and one
+    std::vector<Record> before_{1}, now_{1};                 // the records, and one without a key
     std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
     std::size_t next_ = 0;                                   // in before_
     IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
@@ -187,7 +187,7 @@ public:
         return isRelevant(table_.traits(a) | table_.traits(b));
     }
 
-    /// The same from the traits of both.
+    /// isRelevant() from the traits of both fixtures.
     static constexpr bool isRelevant(unsigned traits) noexcept {
         return traits == (FixtureTable::source | FixtureTable::rough);
     }
@@ -196,7 +196,7 @@ public:
 
     /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
     void touch(const LastingPoint& point) { touch(point, pairKey(point.a, point.b)); }
-    /// The same with the pair's key, which the caller has.
+    /// touch() for a caller that has the pair's key.
     void touch(const LastingPoint& point, std::uint64_t pairsKey) {
         computePending();
         if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
@@ -205,7 +205,7 @@ public:
     [[gnu::always_inline]] FacePoint& touchFace() {
         if (faceCount_ == faces_.size()) [[unlikely]]
             computePending();
-        computeFaces_ = &computeFaces; // so that programs without faces do not have it
+        computeFaces_ = &computeFaces; // a pointer, so that programs without faces do not link it
         return faces_[faceCount_++];
     }
     bool hasReports() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
@@ -251,7 +251,7 @@ private:
         std::uint64_t key = 0;
         std::int32_t now = 0, before = 0, pair = 0; // as StepRecords needs them; index into pairs_
         LastingPoint point;
-        std::int32_t gapSurface = 0; // slot of the surface of what follows; none: unknown
+        std::int32_t gapSurface = 0; // slot of the surface of the gap; none: unknown
         std::uint32_t revision = 0;
         std::int64_t every = 0;
         GrainGap gap; // between two grains of that surface, as of that revision: where the point is
@@ -272,7 +272,7 @@ private:
     }
     /// How one point passes along one surface in this step; moveAlong() computes it.
     struct Passage {
-        // At first the paths of the last step (not a number: it is not known) and of this one
+        // Before moveAlong(): the paths of the last step (NaN: it is not known) and of this one
         double startMetres, metresPerSecond, metresPerSecond2, endMetres;
         double loadNewtons, grainMetres, grains; // grains: about so many
         double fastest;                          // m/s; below 0: it reverses

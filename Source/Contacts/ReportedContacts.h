@@ -23,7 +23,7 @@ namespace physvib {
 /// thread (M). Allocates only to grow.
 class ReportedPoints {
 public:
-    static constexpr std::int32_t none = -1; ///< of a chain: empty
+    static constexpr std::int32_t none = -1; ///< no point: the chain ends, or is empty
 
     /// The points of one pair; the pair stores it.
     struct Chain {
@@ -104,7 +104,7 @@ public:
     double coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 otherPoint,
                     Vector3 otherNormal) const;
 
-    /// How easily a body turns; all 0 if it is not movable, or its moment of inertia is not known.
+    /// The body's inverse inertia; all 0 if it is not movable, or its moment of inertia is not known.
     InverseInertia inverseInertia(std::int32_t id) const;
     /// Lever of a force along `normal` at `point`, about the body's centre of mass, m.
     Vector3 lever(std::int32_t id, Vector3 point, Vector3 normal) const {
@@ -214,7 +214,7 @@ private:
             maxNewtonSeconds;
     };
     struct Point {
-        std::int32_t idA, idB, a, b; // as of a row
+        std::int32_t idA, idB, a, b; // engine's numbers; bodies as in Row
         Vector3 place;
         std::size_t across = 0; // the first of two rows of friction; 0: none
         bool isStruck = false;
@@ -252,9 +252,9 @@ struct ReportedSlide {
                                        ///< the slip
 };
 
-/// One point per pair: impulses of several points are summed, the last one's place is used. Positions along
-/// the surfaces are integrated from the speeds, starting at 0 with the contact. All methods: the world's
-/// thread (M).
+/// Follows reported slides, as one point per pair: impulses of several points are summed, the last one's
+/// place is used. Positions along the surfaces are integrated from the speeds, starting at 0 with the
+/// contact. World thread (M).
 class ReportedSlides {
 public:
     void report(const ReportedSlide& slide);
@@ -319,7 +319,7 @@ private:
     }
     void addMomentumCollision();
     FedContact withMomentumImpulse(const PendingContact& item) const;
-    using Push = std::pair<double, double>; // N s of a step, and an upper bound of its impact's
+    using Push = std::pair<double, double>; // N s: of a step, and at most of its impact
     static constexpr Push unboundedPush{0.0, HUGE_VAL};
     Push pushOf(const PendingContact& item) const;
     Vector3 dragOf(const FedContact& contact) const;

@@ -45,8 +45,8 @@ Place uprightAcross(const Place& unit) noexcept {
     return normalised(perpendicular(*best, unit));
 }
 
-/// Shares of a place, `out` from the centre, among three corners: the weights with which their vectors from
-/// the centre sum to `out` (Pulkki 1997, Eq. 9). All are 0 or more if the place is in their direction.
+/// The weights with which the vectors from the centre to three corners sum to `out`, the vector to a place
+/// (Pulkki 1997, Eq. 9). All are 0 or more if the place is in their direction.
 using Weights = std::array<double, 3>;
 Weights weightsOf(const ActuatorPlace& out, const std::array<ActuatorPlace, 3>& corner) noexcept {
     const double volume = scalarProduct(corner[0], vectorProduct(corner[1], corner[2]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells between actuators, to which the panning laws `neighbours` and `triangles` go: rows, grids and belts
+// Cells between actuators, for the panning laws `neighbours` and `triangles`: rows, grids and belts
 // in a plane, and triangles of a layout in space. Each shares an impact among the actuators around its place.
 #pragma once
 #include "Core/EnchanterLayout.h"
@@ -56,9 +56,9 @@ public:
     using Layout = ActuatorLayout;
     using Place = ActuatorPlace;
     using Shares = std::array<double, limits::maxActuators>; ///< One per actuator.
-    struct Axis {
+    struct Axis {                                            // a unit vector
         double x = 1.0, y = 0.0;
-    }; ///< Unit vector.
+    };
 
     NeighbourCells() = default;
 

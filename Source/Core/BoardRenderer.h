@@ -55,7 +55,7 @@ public:
     /// Adds the areas of a block that was sent, and decides whether to reduce the next one.
     void update(const Areas& areas) noexcept { acts_ = law_.update(areas); }
 
-    /// The next block is played unchanged; for a block that is not sent.
+    /// Plays the next block unchanged: for a block that is not sent to the actuators.
     void bypassNextBlock() noexcept { acts_ = false; }
 
     float gain() const noexcept { return law_.gain(); }                 ///< lowest gain of all channels

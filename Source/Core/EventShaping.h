@@ -113,9 +113,9 @@ inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
     return portable::sin(phase) * portable::exp(-decayPerSecond * phase / turn);
 }
 
-/// Impacts of one world, in time order. An impact from rest peaks at the fixed amplitude. A later one adds
-/// only what the sounding ones leave free, so that the sum never exceeds the level, on one actuator or on
-/// all. One thread at a time; never allocates.
+/// Sets the amplitudes of one world's impacts, in time order. An impact from rest peaks at the fixed
+/// amplitude. A later one adds only what the sounding ones leave free, so that the sum never exceeds the
+/// level, on one actuator or on all. One thread at a time; never allocates.
 class FixedLevel {
 public:
     /// Events without a causing fixture or without a frequency stay unchanged.

@@ -92,7 +92,7 @@ struct WaitingEvents {
     }
 };
 
-/// Memory depends on channels and modes and is allocated in prepare.
+/// Renders events to samples. Memory depends on channels and modes and is allocated in prepare.
 class HapticRenderer {
 public:
     /// Queue of events that were played, with their frames.

@@ -37,7 +37,7 @@ inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::logOuter, "log-outer", [](double u) noexcept { return portable::log2(2.0 - u); }},
     {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::neighbours, "neighbours", [](double u) noexcept { return std::sqrt(1.0 - u); }},
-    {PanningLaw::automatic, "auto", [](double u) noexcept { return 1.0 - u; }},
+    {PanningLaw::automatic, "auto", [](double u) noexcept { return 1.0 - u; }}, // replaced before use
     {PanningLaw::distance, "distance", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::triangles, "triangles", [](double u) noexcept { return std::sqrt(1.0 - u); }},
 });

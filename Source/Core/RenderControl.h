@@ -60,7 +60,7 @@ struct PlayedEvent {
     bool isLate = false;    ///< played after its time, at once
 };
 
-/// Result of all controls so far, also of later ones, to explain silence. One thread at a time.
+/// What all controls sent so far add up to, due or not, to explain silence. One thread at a time.
 struct LastChanges {
     PhantomPanner panner;           ///< of later events
     double level = 1.0;             ///< of all channels
@@ -70,7 +70,7 @@ struct LastChanges {
 
     std::uint64_t mutedChannels() const noexcept { return muted | zeroGains; } ///< those that play nothing
 
-    /// Notes one control, in the order of their sending.
+    /// Takes over one control; call it in the order in which they are sent.
     void apply(const RenderControl& control) noexcept {
         using Kind = RenderControl::Kind;
         const std::uint64_t bit = std::uint64_t{1} << (static_cast<unsigned>(control.channel) % 64U);

@@ -177,7 +177,7 @@ public:
         return voices_.prepare(sampleRateHz, 4 * channels_);
     }
 
-    /// From `onset` on, until `closeFrame`. False if too many sound at once.
+    /// Starts a tone at `onset`, which ends at `closeFrame`. False if too many sound at once.
     bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }

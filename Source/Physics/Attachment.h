@@ -42,10 +42,10 @@ public:
     /// Takes effect with the next step. Another timing drops contacts that have begun. Throws as the
     /// constructor does.
     void configure(const ImpactSettings& settings);
-    /// Any thread but while it steps.
+    /// Any thread, but not while the attachment steps.
     const ImpactSettings& settings() const noexcept;
 
-    static constexpr std::int32_t nextId = -1; ///< as the id for set(): the next one
+    static constexpr std::int32_t nextId = -1; ///< passed to set() as `id`: the next free one
 
     /// Gives a fixture its values, or changes them (it may become or stop being a haptic source). Its id in
     /// events is `id` (>= 0), a number of the game's own, or else 0, 1, 2... in order of first calls, never
@@ -54,8 +54,8 @@ public:
     SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = nextId);
 
     /// The sound of impacts between two kinds of surfaces (HapticFixture::surface), in any order. It replaces
-    /// what the haptic source's voice says. Returns what is wrong with it, and changes nothing then; empty:
-    /// it is set.
+    /// the sound that the haptic source's voice selects. Returns the error, in which case nothing has
+    /// changed, or an empty text.
     std::string_view setPair(int surface, int other, const PairSound& sound);
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of any method.
@@ -64,8 +64,8 @@ public:
     /// Removes a fixture's values, and its events that were not taken yet.
     void remove(const b2Fixture& fixture);
 
-    /// beginStep, b2World::Step, endStep. A step of 0 s finds contacts and moves nothing, as in Box2D; one
-    /// below 0 does nothing.
+    /// Calls beginStep, b2World::Step and endStep. A step of 0 s finds contacts and moves nothing, as in
+    /// Box2D; one below 0 does nothing.
     void step(float stepSeconds, int velocityIterations = 8, int positionIterations = 3);
 
     /// Call it before your own b2World::Step. Step lengths may differ; time is the sum of their
@@ -74,12 +74,12 @@ public:
     void beginStep(double stepSeconds);
     /// For worlds whose clock is a step count: the step ends at `endNs` (not before timeNs()).
     void beginStepUntil(std::int64_t endNs);
-    void endStep(); ///< After the world's own step.
+    void endStep(); ///< Call it after your own b2World::Step.
 
-    /// World time after the steps done, and the time before which all events are final: one step earlier,
-    /// since a contact is noticed up to one step after it was made.
+    /// World time after the steps so far, ns.
     std::int64_t timeNs() const noexcept;
-    /// Time before which all events are final, ns.
+    /// Time before which all events are final, ns: one step before timeNs(), since a contact is noticed up to
+    /// one step after it was made.
     std::int64_t settledNs() const noexcept;
 
     /// Appends the events that are final now, in time order.
@@ -104,7 +104,7 @@ public:
     /// unknown.
     std::string explain(const OutputFacts* output = nullptr);
 
-    /// The constants of Eq. 5.4 in the last step begun.
+    /// The constants of Eq. 5.4 in the current or last step.
     const ImpactModel& impactModel() const noexcept;
 
 private:
@@ -113,7 +113,7 @@ private:
 
     struct Parts;
     b2World* world_;               // nullptr: detached
-    std::unique_ptr<Parts> parts_; // the implementation, not installed
+    std::unique_ptr<Parts> parts_; // the implementation, whose headers are not installed
 };
 
 } // namespace physvib

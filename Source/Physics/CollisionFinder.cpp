@@ -161,7 +161,7 @@ void CollisionFinder::checkApproach(const b2Contact& contact, unsigned newMask, 
 
 void CollisionFinder::countBelowThreshold(const b2Contact& contact, double approachMetresPerSecond) {
     if (!events_.recorder().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    if (const CachedContact* const entry = entryOf(contact)) // collisions need two thirds of it
+    if (const CachedContact* const entry = entryOf(contact)) // two thirds of it make a collision
         events_.recorder().countBelowThreshold(entry->pair.a, entry->pair.b, 1.5 * approachMetresPerSecond);
 }
 
@@ -186,8 +186,8 @@ void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& 
     collision.fraction = touchFractionOf(contact, speed > 0.0 ? depth / speed : 0.0);
 }
 
-// When surfaces touched, in steps. Below 0 they touched in the step before, whose length counts then. Outside
-// a reported step the time is not known: 0.
+// The time of touch, in steps after the start of this one. Below 0 it lies in the step before, and counts in
+// lengths of that one. Outside a reported step the time is not known: 0.
 double CollisionFinder::touchFractionOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.recorder().isStepping()) return 0.0;
     const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
@@ -383,7 +383,7 @@ void CollisionFinder::recordNew(const b2Contact& contact, const b2ContactImpulse
         return;
     }
     const auto index = static_cast<std::uint32_t>(entry - cachedContacts_.data());
-    entry->after = std::exchange(cachedContacts_[last_].after, index); // inserts it between two others
+    entry->after = std::exchange(cachedContacts_[last_].after, index); // between two others
     next_ = entry->after;
     last_ = index;
     record(contact, impulse, *entry);
@@ -408,7 +408,7 @@ inline void CollisionFinder::recordCached(const b2Contact& contact, const b2Cont
     if (LastingContacts::isRelevant(traits)) reportSteadyPoints(contact, impulse, entry, touch);
 }
 
-// The same for two discs, or for a disc and a corner.
+// recordCached() for two discs, or for a disc and a corner.
 void CollisionFinder::recordDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
                                   const CachedContact& entry, TransmittedImpulses::Contact& steady) {
     const SolvedContact solved{contact};

@@ -24,7 +24,7 @@ class NewContactPoints {
 public:
     NewContactPoints() { entries_.reserve(expectedContacts); }
 
-    /// In PreSolve: true if all points are old, as usual; then update() need not be called.
+    /// In PreSolve: true if all points are old, as is usual. Then update() need not be called.
     bool areOld(const b2Contact& contact, const b2Manifold& before) const noexcept {
         return isSame(before, *contact.GetManifold()) && !mayContain(contact);
     }
@@ -228,7 +228,7 @@ private:
     std::vector<std::int32_t> free_;
     CachedContact* justBegun_ = nullptr;        // the contact that just began, until its PreSolve
     IntegerMap cacheIndexOf_{expectedContacts}; // by contact
-    std::uint32_t last_ = 0, next_ = 0;         // of the contact solved last, and of the one expected next
+    std::uint32_t last_ = 0, next_ = 0;         // contacts solved last, and expected next
 };
 
 } // namespace physvib

@@ -43,7 +43,7 @@ inline float advancedFractionOf(const b2Body& body) noexcept {
     return (body.*member(box2dPrivates::Sweep{})).alpha0;
 }
 
-/// nullptr if there is none. World thread (M).
+/// The world's destruction listener; nullptr if there is none. World thread (M).
 inline b2DestructionListener* destructionListenerOf(b2World& world) noexcept {
     return world.*member(box2dPrivates::Listener{});
 }
@@ -187,7 +187,7 @@ public:
         isListUnchanged_ = isIndexCurrent_ = false;
         existing_ = {a, b};
     }
-    /// invalidate() right after BodySweeps::beginStep(), which has noticed whether the list has changed.
+    /// Replaces invalidate() right after BodySweeps::beginStep(), which knows whether the list has changed.
     void beginStep() noexcept {
         invalidate();
         isListUnchanged_ = true;

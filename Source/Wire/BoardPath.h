@@ -19,11 +19,8 @@
 
 namespace physvib {
 
-// Computes the gains of a moving tone at any time exactly as the computer's renderer, for a board to use.
-//
-// That renderer evaluates the panning law at the ends of each tile and interpolates linearly (Core/Voices.h).
-
-/// Gains of one event, in a session rendered at one rate. One thread.
+/// Gains of one moving tone at any time, exactly as the computer's renderer has them: it evaluates the
+/// panning law at the ends of each tile and interpolates linearly (Core/Voices.h). One thread.
 class PathGains {
 public:
     using Gains = std::array<double, limits::board::channels>;
@@ -223,11 +220,9 @@ private:
     std::array<Gains, static_cast<std::size_t>(maxFrames)> samples_{};
 };
 
-// Splits a moving tone into a series of short stationary events for a board of protocol 1, whose events have
-// one amplitude per channel. Newer boards play segments (BoardPath).
-
-/// In time order. Each lasts whole milliseconds, as the link counts them, and nearly whole periods, because
-/// each begins at phase 0 on the board. Any thread.
+/// Splits a moving tone into short stationary events, in time order, for a board of protocol 1; newer boards
+/// play segments (BoardPath). Each event lasts whole milliseconds, as the link counts them, and nearly whole
+/// periods, because it begins at phase 0 on the board. Any thread.
 class BoardSteps {
 public:
     static constexpr int minMs = 20, maxMs = 60; ///< fewer than 50 per second, of 720 on the line

@@ -9,7 +9,7 @@
 #include <span>
 
 namespace physvib::wire {
-/// One reader of one line. No heap; stores at most maxFrame bytes.
+/// Decodes the bytes of one line, for one reader. No heap; stores at most maxFrame bytes.
 class FrameDecoder {
 public:
     /// Type and fields if `byte` completes a valid frame (valid until the next call), else empty.
@@ -47,19 +47,17 @@ private:
     std::uint32_t good_ = 0, bad_ = 0;
 };
 
-// Detects repeated event messages on the board link, so that an event is not played twice.
-
-/// For one connection, on the board. One thread.
+/// Detects repeated events of one connection, so that the board plays none twice. One thread.
 class DuplicateFilter {
 public:
-    /// A computer sends nothing later than 50 ms; the rest is margin.
+    /// A computer sends no event more than 50 ms after its onset; the rest is margin.
     static constexpr std::int32_t maxLateFrames = limits::board::sampleRateHz / 4;
 
     /// False if the event was received before. `frame`: its onset; `now`: the frame that is rendered next.
     bool isNew(std::uint8_t sequence, std::uint32_t frame, std::uint32_t now) noexcept {
         if (after(frame, now) < -maxLateFrames) return false; // sequence numbers may have wrapped
         const auto gap = static_cast<std::uint8_t>(sequence - last_);
-        const bool isBehind = gap == 0 || gap >= 128; // or that many were lost, but then its onset is later
+        const bool isBehind = gap == 0 || gap >= 128; // or over 127 were lost, but then its onset is later
                                                       // than all so far
         if (isBehind && hasNewest_ && after(frame, newest_) <= 0) return false;
         lost_ += static_cast<std::uint8_t>(gap - 1);

@@ -103,16 +103,16 @@ struct Segment {
     }
 };
 
-struct Gains {
+struct Gains { // of the channels
     static constexpr Type type = Type::gains;
-    /// 1/4096; negative: inverted polarity; 0: muted
+    /// in 1/4096; negative: inverted polarity; 0: muted
     std::array<std::int16_t, limits::board::channels> gains{};
     void visit(auto&& field) {
         for (auto& g : gains) field(g);
     }
 };
 
-struct Ping {
+struct Ping { // the board answers with a Pong
     static constexpr Type type = Type::ping;
     std::uint8_t id = 0;
     void visit(auto&& field) { field(id); }
@@ -127,7 +127,7 @@ struct Pong {
     void visit(auto&& field) { field(id), field(frame), field(fraction); }
 };
 
-struct TelemetryRequest {
+struct TelemetryRequest { // the board answers with its Telemetry
     static constexpr Type type = Type::telemetryRequest;
     void visit(auto&&) {}
 };
@@ -168,7 +168,7 @@ struct SelfTest {
     void visit(auto&&) {}
 };
 
-struct SelfTestReply {
+struct SelfTestReply { // what SelfTest has measured
     static constexpr Type type = Type::selfTestReply;
     std::uint16_t modes = 0;
     std::uint32_t blockCycles = 0;    ///< for one block of that many modes, by the processor's cycle counter

@@ -113,7 +113,7 @@ struct EqualisedActuator {
 };
 using EqualisedActuators = std::array<EqualisedActuator, limits::maxActuators>;
 
-/// One channel. Render thread (R) only; construction and figures: any thread.
+/// Equaliser of one channel. Render thread (R) only; construction and figures: any thread.
 class ActuatorEqualiser {
 public:
     ActuatorEqualiser() = default; ///< Passes everything unchanged.

@@ -44,7 +44,7 @@ struct GuardSums {
     float high = 0.0f, low = 0.0f, slow = 0.0f, speed = 0.0f, load = 0.0f, rest = 1.0f;
 };
 
-/// Render thread (R) only; prepare: message thread (M).
+/// The rule for at most `MaxChannels` channels. Render thread (R) only; prepare: message thread (M).
 template <int MaxChannels>
 class GuardLaw {
 public:

@@ -17,7 +17,7 @@
 #include <limits>
 
 namespace physvib {
-/// Render thread (R) only; prepare: message thread (M).
+/// The guard of a computer's output. Render thread (R) only; prepare: message thread (M).
 class OutputGuard {
 public:
     /// Resets the sums. The bits do not depend on the instruction set. M, not while rendering.
@@ -97,7 +97,7 @@ private:
     static constexpr int tilesTogether = static_cast<int>(GuardUnits::tiles);
     using Sums = std::array<std::int32_t, GuardUnits::stride * GuardUnits::tiles>;
 
-    // Frames of whole tiles up to the first that is to be turned down.
+    // Passes on whole tiles, up to the first that is to be attenuated. Returns how many frames they have.
     int passTiles(float* const* io, int first) noexcept {
         Sums sums;
         sumTiles(io, first, tile_, GuardUnits::tiles, sums);

@@ -15,7 +15,7 @@ public:
     /// channels[channel][0..frames), 1 = an actuator's full scale. False stops the render.
     virtual bool convert(const float* const* channels, int frames) = 0;
 
-    /// To be what renderFromStart (Core/HapticRenderer.h) passes its blocks to.
+    /// Makes a converter a consumer for renderFromStart (Core/HapticRenderer.h).
     bool operator()(const float* const* channels, int frames) { return convert(channels, frames); }
 };
 
@@ -43,7 +43,7 @@ public:
         ++step_;
     }
     bool isOn() const noexcept { return isOn_; }       ///< Render thread (R).
-    long long steps() const noexcept { return step_; } ///< complete ones
+    long long steps() const noexcept { return step_; } ///< number of complete steps
 
 private:
     long long endOf(long long step) const noexcept { return (step + 1) * rate_ / stepsPerSecond; }

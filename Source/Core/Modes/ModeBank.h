@@ -102,8 +102,8 @@ struct Strike {
     static constexpr std::int64_t never = INT64_MAX;
 };
 
-/// Memory depends on channels and modes and is allocated in prepare. Render thread (R) only; prepare: message
-/// thread (M).
+/// All sounding modes. Memory depends on channels and modes and is allocated in prepare. Render thread (R)
+/// only; prepare: message thread (M).
 class ModeBank {
 public:
     static constexpr int tile = limits::tileFrames;

@@ -27,7 +27,7 @@ struct TileMode {
     bool isGated = false;
 };
 
-/// Render thread (R) only; prepare: message thread (M). Off when there is no kernel.
+/// The bank's tiles; off when there is no kernel. Render thread (R) only; prepare: message thread (M).
 class ModeTiles {
 public:
     static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;

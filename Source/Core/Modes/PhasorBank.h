@@ -15,7 +15,7 @@
 
 namespace physvib {
 
-/// All memory is inside the object. Render thread (R) only.
+/// The board's sounding modes. All memory is inside the object. Render thread (R) only.
 class PhasorBank {
 public:
     static constexpr int channels = limits::board::channels;
