@@ -24,8 +24,8 @@ bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
     return format != Processor::wrapperType_VST3 || keepsItsOrder(set);
 }
 
-juce::String labelOf(int enchanter) {
-    return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).actuators.back().label};
+juce::String label(int actuator) {
+    return juce::String{describeLayout({}, {1.0, 1.0, actuator + 1, {}}).actuators.back().label};
 }
 
 bool isSideChain(const juce::Array<Set>& inputs) {
@@ -48,13 +48,13 @@ juce::AudioChannelSet channelsInOrder(int channels, Processor::WrapperType forma
     return set;
 }
 
-std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType format) {
+std::vector<OutputBus> newBuses(const BusPlan& plan, Processor::WrapperType format) {
     if (plan.kind == BusPlan::Kind::oneBus)
         return {{"Actuators", channelsInOrder(plan.channels, format), true}};
     std::vector<OutputBus> buses;
     for (int b = 0; b < BusPlan::busCount; ++b) {
         buses.push_back(
-            {labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::initialBusCount});
+            {label(2 * b) + ", " + label(2 * b + 1), Set::stereo(), b < BusPlan::initialBusCount});
     }
     return buses;
 }
@@ -72,23 +72,23 @@ bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Proces
 
 BusMap::BusMap(const Processor& processor)
     : BusMap{} {
-    std::size_t enchanter = 0;
+    std::size_t actuator = 0;
     for (int b = 0; b < processor.getBusCount(false); ++b) {
         const auto& bus = *processor.getBus(false, b);
         const int places = bus.getLastEnabledLayout().size();
-        for (int c = 0; c < places && enchanter < channelOf.size(); ++c, ++enchanter)
-            channelOf[enchanter] =
+        for (int c = 0; c < places && actuator < channels.size(); ++c, ++actuator)
+            channels[actuator] =
                 bus.isEnabled() ? processor.getChannelIndexInProcessBlockBuffer(false, b, c) : -1;
     }
 }
 
-int BusMap::connectedCount(int enchanters) const noexcept {
+int BusMap::connectedCount(int actuators) const noexcept {
     return static_cast<int>(
-        std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
+        std::count_if(channels.begin(), channels.begin() + actuators, [](int c) { return c >= 0; }));
 }
 
 int BusMap::leadingConnected() const noexcept {
-    return static_cast<int>(std::ranges::find(channelOf, -1) - channelOf.begin());
+    return static_cast<int>(std::ranges::find(channels, -1) - channels.begin());
 }
 
 } // namespace physvib

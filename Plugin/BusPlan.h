@@ -31,7 +31,7 @@ struct OutputBus {
 };
 
 /// The buses of a new instance. Any thread.
-std::vector<OutputBus> busesOf(const BusPlan& plan, juce::AudioProcessor::WrapperType format);
+std::vector<OutputBus> newBuses(const BusPlan& plan, juce::AudioProcessor::WrapperType format);
 
 /// True if music can come in: by a side chain, which is off until a host turns it on; in LV2, whose ports
 /// are never off, by a build with ports for it. Any thread.
@@ -44,13 +44,13 @@ bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format,
 /// For each actuator its channel in the process block; -1: not connected. A bus that is off still counts its
 /// channels, so that the actuators of later buses stay where they are.
 struct BusMap {
-    std::array<int, limits::maxActuators> channelOf{};
+    std::array<int, limits::maxActuators> channels{};
 
-    BusMap() { channelOf.fill(-1); }
+    BusMap() { channels.fill(-1); }
     /// Reads the present buses. M, while nothing is rendered.
     explicit BusMap(const juce::AudioProcessor& processor);
-    /// How many of the first `enchanters` are connected. Any thread.
-    int connectedCount(int enchanters) const noexcept;
+    /// How many of the first `actuators` are connected. Any thread.
+    int connectedCount(int actuators) const noexcept;
     /// The number of actuators before the first that is not connected. Any thread.
     int leadingConnected() const noexcept;
 };

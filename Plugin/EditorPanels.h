@@ -37,7 +37,7 @@ private:
     const EditorActions& actions_;
     const std::size_t index_;
     const juce::String label_;
-    ActuatorDescription enchanter_;
+    ActuatorDescription details_;
     bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
     float peakHold_ = 0.0f;
     double holdUntilMs_ = 0.0;
@@ -138,7 +138,7 @@ public:
     void mouseExit(const juce::MouseEvent&) override { showNote(-1); }
 
 private:
-    juce::Rectangle<float> boundsOf(int note) const;
+    juce::Rectangle<float> keyArea(int note) const;
     void press(juce::Point<int> place);
     void releaseKey();
     void showNote(int note);

@@ -149,13 +149,13 @@ public:
 
     void setBend(int channel, float bend) noexcept { bend_[index(channel)] = bend; }
     void setSlide(int channel, float slide) noexcept { slide_[index(channel)] = slide; }
-    double bendOf(int channel) const noexcept { return double{bend_[index(channel)]}; }
-    double masterBendOf(int channel) const noexcept { return double{bend_[index(masterOf(channel))]}; }
-    double slideOf(int channel) const noexcept {
-        return double{slide_[index(channel)]} + double{slide_[index(masterOf(channel))]};
+    double bend(int channel) const noexcept { return double{bend_[index(channel)]}; }
+    double masterBend(int channel) const noexcept { return double{bend_[index(findMaster(channel))]}; }
+    double slide(int channel) const noexcept {
+        return double{slide_[index(channel)]} + double{slide_[index(findMaster(channel))]};
     }
     /// The master channel (1 or 16) of the zone to which the channel belongs; 0: it belongs to none.
-    int masterOf(int channel) const noexcept {
+    int findMaster(int channel) const noexcept {
         if (channel > 1 && channel <= 1 + lowerMembers_) return 1;
         return channel < 16 && channel >= 16 - upperMembers_ ? 16 : 0;
     }

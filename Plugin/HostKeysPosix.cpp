@@ -12,36 +12,36 @@ namespace physvib {
 #ifdef __linux__
 /// Functions of libX11 and a connection of its own to the X server.
 class X11Connection {
-    struct Found {
-        void* at;
+    struct Symbol {
+        void* address;
         template <class Function>
         operator Function() const noexcept {
-            return reinterpret_cast<Function>(at);
+            return reinterpret_cast<Function>(address);
         }
     };
-    Found find(const char* name) const noexcept { return {library_ ? dlsym(library_, name) : nullptr}; }
+    Symbol find(const char* name) const noexcept { return {library_ ? dlsym(library_, name) : nullptr}; }
     void* const library_ = dlopen("libX11.so.6", RTLD_LAZY);
-    decltype(&XOpenDisplay) open_ = find("XOpenDisplay");
-    decltype(&XCloseDisplay) close_ = find("XCloseDisplay");
-    decltype(&XSetErrorHandler) onError_ = find("XSetErrorHandler");
-    decltype(&XQueryTree) tree_ = find("XQueryTree");
-    decltype(&XFree) free_ = find("XFree");
-    decltype(&XInternAtom) atom_ = find("XInternAtom");
-    decltype(&XGetWindowProperty) property_ = find("XGetWindowProperty");
+    decltype(&XOpenDisplay) openDisplay_ = find("XOpenDisplay");
+    decltype(&XCloseDisplay) closeDisplay_ = find("XCloseDisplay");
+    decltype(&XSetErrorHandler) setErrorHandler_ = find("XSetErrorHandler");
+    decltype(&XQueryTree) queryTree_ = find("XQueryTree");
+    decltype(&XFree) freeData_ = find("XFree");
+    decltype(&XInternAtom) internAtom_ = find("XInternAtom");
+    decltype(&XGetWindowProperty) getProperty_ = find("XGetWindowProperty");
 
 public:
     decltype(&XSync) sync = find("XSync");
-    decltype(&XSelectInput) select = find("XSelectInput");
-    decltype(&XCheckTypedEvent) next = find("XCheckTypedEvent");
-    decltype(&XKeysymToKeycode) code = find("XKeysymToKeycode");
-    decltype(&XSendEvent) send = find("XSendEvent");
-    decltype(&XSetInputFocus) focus = find("XSetInputFocus");
-    Display* const display = library_ ? open_(nullptr) : nullptr;
+    decltype(&XSelectInput) selectInput = find("XSelectInput");
+    decltype(&XCheckTypedEvent) checkEvent = find("XCheckTypedEvent");
+    decltype(&XKeysymToKeycode) toKeycode = find("XKeysymToKeycode");
+    decltype(&XSendEvent) sendEvent = find("XSendEvent");
+    decltype(&XSetInputFocus) setFocus = find("XSetInputFocus");
+    Display* const display = library_ ? openDisplay_(nullptr) : nullptr;
     Window pluginWindow = None;
 
     X11Connection() = default;
     ~X11Connection() {
-        if (display) close_(display);
+        if (display) closeDisplay_(display);
         if (library_ != nullptr) dlclose(library_);
     }
     X11Connection(const X11Connection&) = delete;
@@ -49,33 +49,33 @@ public:
     /// Runs `call` while X11 errors are ignored: a window may have been closed meanwhile.
     template <class Call>
     void ignoringErrors(const Call& call) const noexcept {
-        const auto before = onError_([](Display*, XErrorEvent*) { return 0; });
+        const auto previousHandler = setErrorHandler_([](Display*, XErrorEvent*) { return 0; });
         call();
         sync(display, False);
-        onError_(before);
+        setErrorHandler_(previousHandler);
     }
     bool isManaged(Window window) const noexcept {
-        const Atom state = atom_(display, "WM_STATE", True);
+        const Atom state = internAtom_(display, "WM_STATE", True);
         Atom type = None;
         int format = 0;
         unsigned long count = 0, bytesAfter = 0;
         unsigned char* data = nullptr;
         if (state != None)
-            property_(display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count,
-                      &bytesAfter, &data);
-        if (data) free_(data);
+            getProperty_(display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count,
+                         &bytesAfter, &data);
+        if (data) freeData_(data);
         return type != None;
     }
     /// The managed window above `pluginWindow`, or the last below the root; None if the plug-in's is managed.
     Window host() const noexcept {
-        for (Window at = pluginWindow; !isManaged(pluginWindow);) {
+        for (Window window = pluginWindow; !isManaged(pluginWindow);) {
             Window root = None, parent = None, *children = nullptr;
             unsigned int count = 0;
-            if (!tree_(display, at, &root, &parent, &children, &count)) break;
-            if (children) free_(children);
-            if (parent == root || parent == None) return at == pluginWindow ? None : at;
+            if (!queryTree_(display, window, &root, &parent, &children, &count)) break;
+            if (children) freeData_(children);
+            if (parent == root || parent == None) return window == pluginWindow ? None : window;
             if (isManaged(parent)) return parent;
-            at = parent;
+            window = parent;
         }
         return None;
     }
@@ -87,7 +87,7 @@ void HostKeys::setWindow(void* nativeWindow) {
     auto& x = *connection_;
     if (x.pluginWindow == newWindow || !x.display) return;
     x.pluginWindow = newWindow;
-    x.ignoringErrors([&] { x.select(x.display, newWindow, KeyPressMask); });
+    x.ignoringErrors([&] { x.selectInput(x.display, newWindow, KeyPressMask); });
 }
 
 bool HostKeys::forward(unsigned long symbol) noexcept {
@@ -95,16 +95,16 @@ bool HostKeys::forward(unsigned long symbol) noexcept {
     const auto& x = *connection_;
     XEvent typed{};
     x.ignoringErrors([&] {
-        const KeyCode code = x.code(x.display, symbol);
+        const KeyCode code = x.toKeycode(x.display, symbol);
         x.sync(x.display, False);
-        for (XEvent event; x.next(x.display, KeyPress, &event);)
+        for (XEvent event; x.checkEvent(x.display, KeyPress, &event);)
             if (event.xkey.keycode == code && event.xkey.window == x.pluginWindow && !event.xkey.send_event)
                 typed = event;
         typed.xkey.window = typed.type == KeyPress ? x.host() : None;
         if (typed.xkey.window == None) return;
-        x.send(x.display, typed.xkey.window, True, KeyPressMask, &typed);
+        x.sendEvent(x.display, typed.xkey.window, True, KeyPressMask, &typed);
         typed.type = KeyRelease;
-        x.send(x.display, typed.xkey.window, True, KeyReleaseMask, &typed);
+        x.sendEvent(x.display, typed.xkey.window, True, KeyReleaseMask, &typed);
     });
     return typed.type == KeyRelease;
 }
@@ -113,7 +113,7 @@ bool HostKeys::forward(unsigned long symbol) noexcept {
 void HostKeys::grabKeyboard() noexcept {
     if (connection_ == nullptr || connection_->pluginWindow == None) return;
     const auto& x = *connection_;
-    x.ignoringErrors([&] { x.focus(x.display, x.pluginWindow, RevertToParent, CurrentTime); });
+    x.ignoringErrors([&] { x.setFocus(x.display, x.pluginWindow, RevertToParent, CurrentTime); });
 }
 #else
 void HostKeys::setWindow(void*) {}

@@ -19,7 +19,7 @@ public:
         : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name)}
         // no label, which hosts would append, because texts have the unit
         , row_{row}
-        , range_{rangeOf(row)}
+        , range_{makeRange(row)}
         , normal_{static_cast<float>(normalised(row, row.initial))} {}
 
     const ParameterRow& row() const noexcept { return row_; }
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    static juce::NormalisableRange<float> rangeOf(const ParameterRow& row) {
+    static juce::NormalisableRange<float> makeRange(const ParameterRow& row) {
         if (!row.choices.empty()) return {0.0f, 1.0f}; // the LV2 wrapper numbers choices from 0 to 1
         const auto from = [&row](float, float, float normal) {
             return static_cast<float>(denormalised(row, normal));
@@ -120,7 +120,7 @@ public:
 
     /// The frame of the next point of one parameter or of any; noFrame if there is none. A point beyond the
     /// block counts at the next block's first frame: Ardour sends the end of a line so.
-    int nextOf(Parameter which) const noexcept { return lines_[static_cast<std::size_t>(which)].next(); }
+    int nextFrame(Parameter which) const noexcept { return lines_[static_cast<std::size_t>(which)].next(); }
     int next() const noexcept {
         int first = noFrame;
         for (const Line& line : lines_) first = std::min(first, line.next());

@@ -126,13 +126,13 @@ public:
         : events_{events}
         , uris_{uris}
         , processor_{processor} {
-        at_.fill(lv2_atom_sequence_begin(&events.body));
+        cursor_.fill(lv2_atom_sequence_begin(&events.body));
         processor.setPointSource(*this);
         processor.setNoteSource(*this);
     }
     bool next(NoteEvent& note) noexcept override {
-        while (!lv2_atom_sequence_is_end(&events_.body, events_.atom.size, midiAt_)) {
-            const auto* const event = std::exchange(midiAt_, lv2_atom_sequence_next(midiAt_));
+        while (!lv2_atom_sequence_is_end(&events_.body, events_.atom.size, midiCursor_)) {
+            const auto* const event = std::exchange(midiCursor_, lv2_atom_sequence_next(midiCursor_));
             if (event->body.type != uris_.midi || event->body.size < 1 || event->body.size > 3) continue;
             note = {};
             note.frame = static_cast<int>(event->time.frames);
@@ -143,7 +143,8 @@ public:
         return false;
     }
     bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
-        for (auto*& at = at_[parameter]; !lv2_atom_sequence_is_end(&events_.body, events_.atom.size, at);) {
+        for (auto*& at = cursor_[parameter];
+             !lv2_atom_sequence_is_end(&events_.body, events_.atom.size, at);) {
             const auto* const event = std::exchange(at, lv2_atom_sequence_next(at));
             if (readPoint(*event, parameter, point)) return true;
         }
@@ -175,8 +176,8 @@ private:
     const LV2_Atom_Sequence& events_;
     const Lv2Uris& uris_;
     PluginProcessor& processor_;
-    std::array<const LV2_Atom_Event*, parameterCount> at_{};
-    const LV2_Atom_Event* midiAt_ = lv2_atom_sequence_begin(&events_.body);
+    std::array<const LV2_Atom_Event*, parameterCount> cursor_{};
+    const LV2_Atom_Event* midiCursor_ = lv2_atom_sequence_begin(&events_.body);
 };
 
 // Ports in order: music, channels; JUCE's for events in and out, latency, free-wheeling and enabled; then one
@@ -252,7 +253,7 @@ Instances& instances() {
     return all;
 }
 
-int nominalBlockFramesOf(const LV2_Feature* const* features) {
+int readNominalFrames(const LV2_Feature* const* features) {
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
     const auto* option = static_cast<const LV2_Options_Option*>(feature(features, LV2_OPTIONS__options));
     if (!map || !option) return 0;
@@ -267,7 +268,7 @@ int nominalBlockFramesOf(const LV2_Feature* const* features) {
 LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle,
                        const LV2_Feature* const* hostFeatures) {
     const Lv2Features features{hostFeatures};
-    instanceCreation() = {nominalBlockFramesOf(features.all()), nullptr};
+    instanceCreation() = {readNominalFrames(features.all()), nullptr};
     const auto* const juceDescriptor = juceLv2Descriptor(0);
     const LV2_Handle handle = juceDescriptor->instantiate(juceDescriptor, rate, bundle, features.all());
     const auto uris = mapUris(*static_cast<const LV2_URID_Map*>(feature(features.all(), LV2_URID__map)));
@@ -369,7 +370,7 @@ LV2_Descriptor completed(LV2_Descriptor juceDescriptor) {
 
 } // namespace
 
-Lv2Parts lv2PartsOf(void* instance) noexcept {
+Lv2Parts findLv2Parts(void* instance) noexcept {
     const auto& found = instances()[instance];
     return {found.processor, found.controls, firstControl};
 }

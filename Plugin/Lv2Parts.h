@@ -25,7 +25,7 @@ struct Lv2Parts {
 };
 
 /// Parts of the live instance that the host knows by this handle. Any thread.
-Lv2Parts lv2PartsOf(void* instance) noexcept;
+Lv2Parts findLv2Parts(void* instance) noexcept;
 
 /// The control ports. A port sets its parameter only if its value differs from that in the block before or,
 /// after a state was restored, from that saved with it. So the last change counts, whether by the port, the
@@ -52,7 +52,7 @@ public:
             if (!ports_[p] || !std::isfinite(*ports_[p])) continue;
             const float now = normalOf(p, *ports_[p]);
             if (isSame(now, lastRead_[p])) continue;
-            auto& parameter = processor.parameter(parameterOf(p));
+            auto& parameter = processor.parameter(portParameter(p));
             const bool isUndone = isRestored && isSame(now, saved_[p]);
             if (!isUndone && !isSame(now, parameter.getValue())) parameter.setByController(now);
             lastRead_[p] = now; // last, because valueToWrite() compares with it
@@ -65,7 +65,7 @@ public:
     std::optional<float> valueToWrite(std::size_t p, PluginProcessor& processor) const noexcept {
         if (!wasRead_.load(std::memory_order_acquire)) return std::nullopt;
         const float lastRead = lastRead_[p]; // before the value: read() may change both meanwhile
-        const float now = processor.parameter(parameterOf(p)).getValue();
+        const float now = processor.parameter(portParameter(p)).getValue();
         if (isSame(now, lastRead)) return std::nullopt;
         return p == enabled ? (now > 0.5f ? 0.0f : 1.0f)
                             : static_cast<float>(denormalised(allParameters()[p], now));
@@ -83,12 +83,12 @@ public:
         return all;
     }
     void restore(std::string_view text) noexcept {
-        const char* at = text.data();
-        const char* const end = at + text.size();
+        const char* start = text.data();
+        const char* const end = start + text.size();
         for (float& saved : saved_) {
             saved = noValue;
-            const auto [next, error] = std::from_chars(at, end, saved);
-            at = next == end ? end : next + 1;
+            const auto [next, error] = std::from_chars(start, end, saved);
+            start = next == end ? end : next + 1;
         }
         isRestored_.store(true, std::memory_order_release);
     }
@@ -97,7 +97,7 @@ private:
     static constexpr float noValue = std::numeric_limits<float>::quiet_NaN();
     static constexpr float tolerance = 1e-6f; // hosts keep values with six digits
     static bool isSame(float a, float b) noexcept { return std::abs(a - b) < tolerance; }
-    static Parameter parameterOf(std::size_t port) noexcept {
+    static Parameter portParameter(std::size_t port) noexcept {
         return port == enabled ? Parameter::bypass : static_cast<Parameter>(port);
     }
     static float initialOf(std::size_t port) noexcept {

@@ -33,7 +33,7 @@ std::string unitOf(const ParameterRow& row) {
 }
 
 // Hosts show `lv2:enabled` instead of bypass; its port remains for sessions that have automated it.
-std::string propertiesOf(const ParameterRow& row) {
+std::string portProperties(const ParameterRow& row) {
     if (row.parameter == Parameter::bypass) return "lv2:toggled , lv2:integer , pprop:notOnGUI";
     if (row.scale == ParameterScale::toggle) return "lv2:toggled , lv2:integer";
     if (row.scale == ParameterScale::choice) return "lv2:enumeration";
@@ -67,7 +67,7 @@ void print(const ParameterRow& row, int index) {
     line("lv2:maximum " + number(row.maximum));
     line("rdfs:comment \"" + std::string{row.help} + "\"");
     if (const auto unit = unitOf(row); !unit.empty()) line("units:unit " + unit);
-    if (const auto all = propertiesOf(row); !all.empty()) line("lv2:portProperty " + all);
+    if (const auto all = portProperties(row); !all.empty()) line("lv2:portProperty " + all);
     const std::string group{groupOf(row.parameter)};
     if (!group.empty()) line("pg:group plug:paramgroup_" + group);
     if (const auto points = scaleOf(row); !points.empty()) line("lv2:scalePoint" + points);

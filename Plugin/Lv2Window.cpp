@@ -56,7 +56,7 @@ LV2UI_Handle openWindow(const LV2UI_Descriptor*, const char* plugin, const char*
     if (!window || !write) return window;
     for (; *features; ++features)
         if (std::strcmp((*features)->URI, LV2_INSTANCE_ACCESS_URI) == 0)
-            writers().try_emplace(window, lv2PartsOf((*features)->data), write, host);
+            writers().try_emplace(window, findLv2Parts((*features)->data), write, host);
     return window;
 }
 

@@ -54,7 +54,7 @@ CollisionEvent strikeFor(const NoteRule& rule, const Scene& scene) {
 
 // The strike of a note without a rule; frequency 0: it strikes nothing.
 CollisionEvent strikeFor(int note, const PluginState& state, const std::vector<int>& materials) {
-    const Vector place = placeOf(note, state.voice.places, state.layout.geometry);
+    const Vector place = placeOf(note, state.voice.placement, state.layout.geometry);
     const auto octave = static_cast<std::size_t>(note / notesPerOctave);
     const NoteRule rule{.material = materials.empty() ? -1 : materials[octave % materials.size()],
                         .x = place.x,
@@ -130,7 +130,7 @@ MidiTable::MidiTable(const PluginState& state)
     }
     parameters_.fill(-1);
     for (const auto& rule : state.controllers)
-        parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
+        parameters_[static_cast<std::size_t>(rule.controller & 127)] = findParameter(rule.parameter);
 }
 
 CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
@@ -144,7 +144,7 @@ CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
         }
         if (knobs.placement > 0 || strikeOf(note).frequencyHz <= 0.0) {
             const auto places =
-                knobs.placement > 0 ? static_cast<NotePlacement>(knobs.placement - 1) : voice_.places;
+                knobs.placement > 0 ? static_cast<NotePlacement>(knobs.placement - 1) : voice_.placement;
             const Vector place = placeOf(note, places, layout);
             strike.x = place.x * fieldWidthMetres_;
             strike.y = place.y * fieldHeightMetres_;
@@ -157,7 +157,7 @@ CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
 
 NoteVoice adjustedVoice(NoteVoice voice, const NoteKnobs& knobs) noexcept {
     voice.isHeld = knobs.hold == 0 ? voice.isHeld && voice.pitch == NotePitch::note : knobs.hold == 2;
-    if (knobs.placement > 0) voice.places = static_cast<NotePlacement>(knobs.placement - 1);
+    if (knobs.placement > 0) voice.placement = static_cast<NotePlacement>(knobs.placement - 1);
     if (knobs.bend > 0)
         voice.bendSemitones = parameterTable::bendSemitones[static_cast<std::size_t>(knobs.bend)];
     voice.decayPerSecond = std::min(voice.decayPerSecond / knobs.decay, limits::maxDecayPerSecond);
@@ -170,7 +170,7 @@ double MidiTable::releasePerSecond(const NoteKnobs& knobs) const noexcept {
     return portable::log(1000.0) / (voice_.releaseSeconds * knobs.release);
 }
 
-double MidiTable::loudnessOf(int velocity, const NoteKnobs& knobs) const noexcept {
+double MidiTable::velocityAmplitude(int velocity, const NoteKnobs& knobs) const noexcept {
     const double exponent = voice_.velocityExponent * knobs.velocityCurve, share = velocity / 127.0;
     return exponent == 1.0 ? share : portable::pow(share, exponent);
 }

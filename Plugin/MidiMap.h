@@ -58,14 +58,14 @@ public:
                                : parameterTable::bendSemitones[static_cast<std::size_t>(knobs.bend)];
     }
     /// Amplitude, 0 to 1, of a velocity of 1 to 127.
-    double loudnessOf(int velocity, const NoteKnobs& knobs) const noexcept;
+    double velocityAmplitude(int velocity, const NoteKnobs& knobs) const noexcept;
     const NoteVoice& voice() const noexcept { return voice_; }
     /// The action group that a note performs; -1: none, because it strikes.
-    int actionGroupOf(int note) const noexcept { return actionGroups_[static_cast<std::size_t>(note & 127)]; }
+    int noteGroup(int note) const noexcept { return actionGroups_[static_cast<std::size_t>(note & 127)]; }
     /// The action group of a choice of the material parameter (0: the scene's own); -1: none.
-    int actionGroupOfMaterial(int choice) const noexcept { return choice <= materialCount_ ? choice : -1; }
+    int materialGroup(int choice) const noexcept { return choice <= materialCount_ ? choice : -1; }
     /// Index of the parameter that a controller moves; -1: none.
-    int parameterOf(int controller) const noexcept {
+    int controllerParameter(int controller) const noexcept {
         return parameters_[static_cast<std::size_t>(controller & 127)];
     }
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }

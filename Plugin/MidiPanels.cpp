@@ -13,7 +13,7 @@ juce::String percent(double share) { return number(100.0 * share, 0) + " %"; }
 juce::String noteName(int note) { return juce::MidiMessage::getMidiNoteName(note, true, true, 4); }
 
 template <class List, class Name>
-juce::StringArray namesOf(const List& list, Name name) {
+juce::StringArray namesIn(const List& list, Name name) {
     juce::StringArray names;
     for (const auto& item : list) names.add(fromUtf8(item.*name));
     return names;
@@ -25,7 +25,7 @@ void addChoice(juce::AlertWindow& form, const juce::String& id, const juce::Stri
     form.getComboBoxComponent(id)->setSelectedItemIndex(std::max(0, chosen), juce::dontSendNotification);
 }
 
-double numberIn(juce::AlertWindow& form, const juce::String& id) {
+double readNumber(juce::AlertWindow& form, const juce::String& id) {
     return form.getTextEditorContents(id).getDoubleValue();
 }
 
@@ -42,7 +42,7 @@ juce::String describe(const NoteRule& rule, const Scene& scene) {
 }
 
 juce::String describe(const ControllerRule& rule) {
-    const int which = parameterOfId(rule.parameter);
+    const int which = findParameter(rule.parameter);
     return "moves " +
            (which < 0 ? fromUtf8(rule.parameter) : fromUtf8(rowOf(static_cast<Parameter>(which)).name)) +
            " over its whole range";
@@ -70,8 +70,8 @@ void MidiPanel::showState(const PluginState& state) {
     const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material"
                                : state.voice.isHeld ? "each its own pitch, as long as its key is held"
                                                     : "each its own pitch";
-    const juce::String place = state.voice.places == NotePlacement::octave ? "from left (C) to right (B)"
-                               : state.voice.places == NotePlacement::actuators
+    const juce::String place = state.voice.placement == NotePlacement::octave ? "from left (C) to right (B)"
+                               : state.voice.placement == NotePlacement::actuators
                                    ? "at one actuator after the other"
                                    : "in the middle";
     hint_.setText("Other notes strike: " + sound + ", " + place + ".", juce::dontSendNotification);
@@ -157,12 +157,12 @@ void MidiPanel::showForm(std::function<void(juce::AlertWindow&)> onAccept) {
 }
 
 void MidiPanel::showNoteForm(int row, NoteRule rule) {
-    const auto bodies = namesOf(state_.scene.bodies, &BodyDescription::name);
+    const auto bodies = namesIn(state_.scene.bodies, &BodyDescription::name);
     auto& form = newForm("A note");
     form.addTextEditor("note", juce::String{rule.note}, "Note, 0 to 127 (60 is C4)");
     addChoice(form, "do", {"strikes a material at a place", "pushes a body", "spawns a disc at a place"},
               static_cast<int>(rule.kind), "What it does");
-    addChoice(form, "material", namesOf(state_.scene.materials, &Material::name), rule.material,
+    addChoice(form, "material", namesIn(state_.scene.materials, &Material::name), rule.material,
               "Material (strikes, spawns)");
     addChoice(form, "object", bodies, bodies.indexOf(fromUtf8(rule.object)), "Body (pushes)");
     form.addTextEditor("x", juce::String{100.0 * rule.x}, "Place from the left, % (strikes, spawns)");
@@ -171,17 +171,17 @@ void MidiPanel::showNoteForm(int row, NoteRule rule) {
                        "At full velocity to the right: N s (pushes), m/s (spawns)");
     form.addTextEditor("vy", juce::String{rule.atFullVelocity.y}, "At full velocity upwards");
     form.addTextEditor("radius", juce::String{rule.radiusMetres}, "Radius in m (spawns)");
-    showForm([this, row, rule](juce::AlertWindow& filled) mutable {
-        rule.note = filled.getTextEditorContents("note").getIntValue();
-        rule.kind = static_cast<NoteKind>(filled.getComboBoxComponent("do")->getSelectedItemIndex());
-        rule.material = std::max(0, filled.getComboBoxComponent("material")->getSelectedItemIndex());
+    showForm([this, row, rule](juce::AlertWindow& answers) mutable {
+        rule.note = answers.getTextEditorContents("note").getIntValue();
+        rule.kind = static_cast<NoteKind>(answers.getComboBoxComponent("do")->getSelectedItemIndex());
+        rule.material = std::max(0, answers.getComboBoxComponent("material")->getSelectedItemIndex());
         if (rule.kind != NoteKind::push && state_.scene.materials.empty())
             return actions_.report("The scene has no material to strike");
-        rule.object = filled.getComboBoxComponent("object")->getText().toStdString();
-        rule.x = 0.01 * numberIn(filled, "x");
-        rule.y = 0.01 * numberIn(filled, "y");
-        rule.atFullVelocity = {numberIn(filled, "vx"), numberIn(filled, "vy")};
-        rule.radiusMetres = numberIn(filled, "radius");
+        rule.object = answers.getComboBoxComponent("object")->getText().toStdString();
+        rule.x = 0.01 * readNumber(answers, "x");
+        rule.y = 0.01 * readNumber(answers, "y");
+        rule.atFullVelocity = {readNumber(answers, "vx"), readNumber(answers, "vy")};
+        rule.radiusMetres = readNumber(answers, "radius");
         storeRule(row, rule);
     });
 }
@@ -189,11 +189,11 @@ void MidiPanel::showNoteForm(int row, NoteRule rule) {
 void MidiPanel::showControllerForm(int row, ControllerRule rule) {
     auto& form = newForm("A controller");
     form.addTextEditor("controller", juce::String{rule.controller}, "Controller, 0 to 119");
-    addChoice(form, "parameter", namesOf(allParameters(), &ParameterRow::name), parameterOfId(rule.parameter),
+    addChoice(form, "parameter", namesIn(allParameters(), &ParameterRow::name), findParameter(rule.parameter),
               "Parameter that it moves");
-    showForm([this, row, rule](juce::AlertWindow& filled) mutable {
-        rule.controller = filled.getTextEditorContents("controller").getIntValue();
-        const int chosen = filled.getComboBoxComponent("parameter")->getSelectedItemIndex();
+    showForm([this, row, rule](juce::AlertWindow& answers) mutable {
+        rule.controller = answers.getTextEditorContents("controller").getIntValue();
+        const int chosen = answers.getComboBoxComponent("parameter")->getSelectedItemIndex();
         rule.parameter = rowOf(static_cast<Parameter>(chosen)).id;
         storeRule(row, rule);
     });
@@ -247,22 +247,21 @@ int whiteKeysBelow(int note) {
     return count;
 }
 
-const NoteRule* ruleOf(int note, const PluginState& state) {
+const NoteRule* findRule(int note, const PluginState& state) {
     const auto found = std::ranges::find(state.notes, note, &NoteRule::note);
     return found == state.notes.end() ? nullptr : &*found;
 }
 
 bool doesNothing(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
-    return table.actionGroupOf(note) < 0 &&
-           table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
+    return table.noteGroup(note) < 0 && table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
 }
 
 } // namespace
 
 juce::String describeKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
     const juce::String name = noteName(note) + ": ";
-    const NoteRule* const rule = ruleOf(note, state);
-    if (rule && table.actionGroupOf(note) >= 0) return name + describe(*rule, state.scene);
+    const NoteRule* const rule = findRule(note, state);
+    if (rule && table.noteGroup(note) >= 0) return name + describe(*rule, state.scene);
     if (doesNothing(note, table, state, knobs))
         return name + "silent, as the scene has no material that vibrates";
     const CollisionEvent sound = table.strikeOf(note, knobs, state.layout.geometry);
@@ -286,7 +285,7 @@ void KeyboardPanel::showState(const PluginState& state, const NoteKnobs& knobs) 
     repaint();
 }
 
-juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
+juce::Rectangle<float> KeyboardPanel::keyArea(int note) const {
     const auto keys = getLocalBounds().reduced(panelInset, 6).withTrimmedTop(captionPixels).toFloat();
     const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highestNote + 1)),
                 left = keys.getX() + width * static_cast<float>(whiteKeysBelow(note));
@@ -297,7 +296,7 @@ juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
 int KeyboardPanel::noteAt(juce::Point<int> place) const {
     int found = -1;
     for (int note = lowestNote; note <= highestNote; ++note)
-        if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && boundsOf(note).contains(place.toFloat()))
+        if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && keyArea(note).contains(place.toFloat()))
             found = note;
     return found;
 }
@@ -305,7 +304,7 @@ int KeyboardPanel::noteAt(juce::Point<int> place) const {
 int KeyboardPanel::velocityAt(juce::Point<int> place) const {
     const int note = noteAt(place);
     if (note < 0) return 0;
-    const auto key = boundsOf(note);
+    const auto key = keyArea(note);
     return juce::jlimit(
         1, 127,
         juce::roundToInt(30.0f + 97.0f * (static_cast<float>(place.y) - key.getY()) / key.getHeight()));
@@ -336,7 +335,7 @@ void KeyboardPanel::showNote(int note) {
 }
 
 void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
-    const auto key = boundsOf(note);
+    const auto key = keyArea(note);
     const bool isBlack = isBlackKey(note);
     auto colour = isBlack ? juce::Colour{0xff24262b} : juce::Colour{0xffe9e9ea};
     if (note == pressedNote_) colour = shade(*this, Shade::accent);
@@ -344,7 +343,7 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     g.fillRoundedRectangle(key, 2.0f);
     g.setColour(shade(*this, Shade::line)); // white keys on a light ground
     g.drawRoundedRectangle(key, 2.0f, 1.0f);
-    if (ruleOf(note, state_)) {
+    if (findRule(note, state_)) {
         g.setColour(shade(*this, Shade::accent));
         g.fillRoundedRectangle(key.withTop(key.getBottom() - 5.0f).reduced(2.0f, 0.0f), 1.5f);
     }

@@ -21,7 +21,7 @@ MixStrip::MixStrip(const EditorActions& actions, int strip, const juce::String& 
     , label_{label} {
     fader_.onValueChange = [this] { change({}, [this](Strip& s) { s.gainDb = fader_.getValue(); }); };
     ceiling_.textFromValueFunction = [this](double db) {
-        return "ceiling " + number(db, 1) + " dB, " + gText(fromDecibels(db) * enchanter_.fullScaleG) + " g";
+        return "ceiling " + number(db, 1) + " dB, " + gText(fromDecibels(db) * details_.fullScaleG) + " g";
     };
     ceiling_.onValueChange = [this] { change({}, [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     actuator_.setTitle("Actuator of " + label);
@@ -39,12 +39,12 @@ void MixStrip::change(const juce::String&, const std::function<void(Strip&)>& ed
 
 void MixStrip::showState(const PluginState& state) {
     const auto& strip = state.strips[index_];
-    enchanter_ = state.layout.actuators[index_];
+    details_ = state.layout.actuators[index_];
     isSilent_ = isSilent(state.strips, index_);
     isEqualised_ = state.equalised[index_].isKnown();
-    show(strip, ceilingOf(strip) * enchanter_.fullScaleG);
+    show(strip, channelCeiling(strip) * details_.fullScaleG);
     actuator_.setButtonText(
-        (enchanter_.actuator == "none" ? juce::String{"no profile"} : fromUtf8(enchanter_.actuator)) +
+        (details_.actuator == "none" ? juce::String{"no profile"} : fromUtf8(details_.actuator)) +
         (isEqualised_ ? " EQ" : ""));
 }
 
@@ -52,7 +52,7 @@ void MixStrip::update(float peak, bool isConnected) {
     const double now = juce::Time::getMillisecondCounterHiRes();
     if (peak >= peakHold_ || now > holdUntilMs_) peakHold_ = peak, holdUntilMs_ = now + peakHoldMs;
     meter_.set(peak, peakHold_);
-    level_.setText(isConnected ? gText(peakHold_ * enchanter_.fullScaleG)
+    level_.setText(isConnected ? gText(peakHold_ * details_.fullScaleG)
                                : juce::String{juce::CharPointer_UTF8{"\xe2\x80\x93"}},
                    juce::dontSendNotification);
     if (isConnected == isConnected_) return;
@@ -64,16 +64,16 @@ void MixStrip::update(float peak, bool isConnected) {
 void MixStrip::showActuatorMenu() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Actuator of " + label_);
-    menu.addItem("no profile", true, enchanter_.actuator == "none", [this] { chooseActuator("none"); });
+    menu.addItem("no profile", true, details_.actuator == "none", [this] { chooseActuator("none"); });
     for (const auto& profile : builtInActuators())
-        menu.addItem(fromUtf8(profile.name), true, enchanter_.actuator == profile.name,
+        menu.addItem(fromUtf8(profile.name), true, details_.actuator == profile.name,
                      [this, name = profile.name] { chooseActuator(name); });
     menu.addItem(fromUtf8("Open a profile\xe2\x80\xa6"), [this] {
         chooseFile(chooser_, "An actuator's profile", openFlags,
                    [this](const juce::File& file) { chooseActuator(file.getFullPathName().toStdString()); });
     });
     menu.addSeparator();
-    const auto profile = findActuator(enchanter_.actuator);
+    const auto profile = findActuator(details_.actuator);
     const bool canEqualise = isEqualised_ || (profile && equaliserError(profile.value).empty());
     menu.addItem("Equalised: flat in its band", canEqualise, isEqualised_,
                  [this] { equalise(!isEqualised_); });
@@ -89,9 +89,9 @@ void MixStrip::chooseActuator(const std::string& nameOrPath) {
     const auto& p = profile.value;
     const bool canEqualise = !p.name.empty() && equaliserError(p).empty();
     actions_.edit([&, j = index_](PluginState& state) {
-        auto& enchanter = state.layout.actuators[j];
-        enchanter.actuator = p.name.empty() ? "none" : p.name;
-        if (p.fullScaleG) enchanter.fullScaleG = *p.fullScaleG;
+        auto& details = state.layout.actuators[j];
+        details.actuator = p.name.empty() ? "none" : p.name;
+        if (p.fullScaleG) details.fullScaleG = *p.fullScaleG;
         if (state.equalised[j].isKnown())
             state.equalised[j] =
                 canEqualise ? EqualisedActuator{p.resonator(), *p.band} : EqualisedActuator{};
@@ -99,7 +99,7 @@ void MixStrip::chooseActuator(const std::string& nameOrPath) {
 }
 
 void MixStrip::equalise(bool on) {
-    const auto profile = findActuator(enchanter_.actuator);
+    const auto profile = findActuator(details_.actuator);
     if (on && (!profile || !equaliserError(profile.value).empty())) return;
     actions_.edit([&, j = index_](PluginState& state) {
         state.equalised[j] =
@@ -160,7 +160,7 @@ void MixPanel::showState(const PluginState& state) {
 
 void MixPanel::update(const ChannelMeters& meters) {
     for (std::size_t j = 0; j < strips_.size(); ++j)
-        strips_[j]->update(meters.peaks[j], meters.isConnected[j] || meters.enchanters == 0);
+        strips_[j]->update(meters.peaks[j], meters.isConnected[j] || meters.actuatorCount == 0);
     limiterBar_.set(meters.limiterGain, meters.guardGain);
     repaint(levelName_.getUnion(limiterValue_));
 }

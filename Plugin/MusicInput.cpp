@@ -55,7 +55,7 @@ bool MusicDelay::read(std::int64_t frame, int frames) noexcept {
     return isAudible;
 }
 
-const float* const* MusicDelay::at(std::int64_t frame, int frames) noexcept {
+const float* const* MusicDelay::samplesFrom(std::int64_t frame, int frames) noexcept {
     if (!read(frame, frames)) return nullptr;
     for (std::size_t j = 0; j < rightShare_.size(); ++j) {
         float* const out = samples_.data() + j * static_cast<std::size_t>(limits::tileFrames);

@@ -37,7 +37,7 @@ public:
     static constexpr double minPauseSeconds = 0.05; // longer than both ramps, so that the pause is felt
 
     /// The samples of `frames` frames from `frame` on for each channel; null if all are 0. R, wait-free.
-    const float* const* at(std::int64_t frame, int frames) noexcept override;
+    const float* const* samplesFrom(std::int64_t frame, int frames) noexcept override;
 
 private:
     struct StereoSample {

@@ -28,7 +28,7 @@ const ParameterRow& rowOf(Parameter parameter) noexcept {
     return parameterTable::rows[static_cast<std::size_t>(parameter)];
 }
 
-int parameterOfId(std::string_view id) noexcept {
+int findParameter(std::string_view id) noexcept {
     const auto& rows = parameterTable::rows;
     const auto found = std::ranges::find(rows, id, &ParameterRow::id);
     return found == rows.end() ? -1 : static_cast<int>(found - rows.begin());

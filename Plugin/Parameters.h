@@ -189,7 +189,7 @@ const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 std::span<const ParameterGroup> parameterGroups() noexcept; ///< any thread
 
 /// Index of the parameter with that id in the table; -1 if there is none. Any thread.
-int parameterOfId(std::string_view id) noexcept;
+int findParameter(std::string_view id) noexcept;
 
 /// Convert a value in the parameter's unit to a host's value, 0 to 1, and back; both clamp. Any thread.
 double normalised(const ParameterRow& row, double value) noexcept;

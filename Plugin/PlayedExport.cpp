@@ -24,16 +24,16 @@ struct WrittenNote {
     double amplitude = 0.0;
 };
 
-int midiNoteOf(double frequencyHz) {
+int nearestMidiNote(double frequencyHz) {
     return std::clamp(static_cast<int>(std::lround(69.0 + 12.0 * std::log2(frequencyHz / 440.0))), 0, 127);
 }
 
-std::int64_t endNsOf(const CollisionEvent& e) {
+std::int64_t computeEndNs(const CollisionEvent& e) {
     if (e.durationNs > 0) return e.timeNs + e.durationNs;
     return e.timeNs + std::llround(1e9 * -std::log(silenceRatio) / e.decayPerSecond);
 }
 
-int midiChannelOf(const PlayedExport& source, const CollisionEvent& e) {
+int loudestChannel(const PlayedExport& source, const CollisionEvent& e) {
     PhantomPanner::Gains gains{};
     source.panner.gainsAt(e, gains);
     const auto loudest =
@@ -43,16 +43,16 @@ int midiChannelOf(const PlayedExport& source, const CollisionEvent& e) {
 
 // Turns strikes into MIDI notes. A strike that begins where one of the same note ends prolongs it. One within
 // the same note of its channel ends that one, as MIDI cannot overlap them, and lasts until the later end.
-std::vector<WrittenNote> notesOf(const PlayedExport& source) {
+std::vector<WrittenNote> makeNotes(const PlayedExport& source) {
     constexpr std::int64_t roundingNs = 2;
     std::vector<WrittenNote> notes;
-    std::array<std::size_t, 128> last{};                   // by MIDI note: index in `notes` plus 1; 0: none
-    std::array<std::array<std::size_t, 128>, 17> lastOf{}; // the same by channel
+    std::array<std::size_t, 128> last{}; // by MIDI note: index in `notes` plus 1; 0: none
+    std::array<std::array<std::size_t, 128>, 17> byChannel{}; // the same by channel
     for (const CollisionEvent& e : source.events) {
-        WrittenNote note{midiNoteOf(e.frequencyHz), midiChannelOf(source, e), e.timeNs, endNsOf(e),
+        WrittenNote note{nearestMidiNote(e.frequencyHz), loudestChannel(source, e), e.timeNs, computeEndNs(e),
                          std::abs(e.amplitude)};
         auto& place = last[static_cast<std::size_t>(note.number)];
-        auto& same = lastOf[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.number)];
+        auto& same = byChannel[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.number)];
         if (place > 0 && std::abs(notes[place - 1].endNs - note.onsetNs) <= roundingNs) {
             WrittenNote& before = notes[place - 1];
             before.endNs = note.endNs;
@@ -76,18 +76,18 @@ std::vector<WrittenNote> notesOf(const PlayedExport& source) {
     return notes;
 }
 
-std::string nameOf(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
+std::string fileName(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
 Result<std::string> writeClipFiles(const PlayedExport& source, const std::string& path, ClipFormat format) {
-    const HitExport hits{"what was felt", nameOf(path), source.events, source.state.layout,
+    const HitExport hits{"what was felt", fileName(path), source.events, source.state.layout,
                          source.state.layout.name};
     const auto gains = [&source](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
         source.panner.gainsAt(e, to);
     };
-    const auto clip = clipOfHits(hits, {0.004, static_cast<std::size_t>(source.panner.channels()), gains});
+    const auto clip = makeHitClip(hits, {0.004, static_cast<std::size_t>(source.panner.channels()), gains});
     if (!clip) return Failure{clip.error};
-    return writeParts(partsOf(clip.value, path, format), format);
+    return writeParts(splitClip(clip.value, path, format), format);
 }
 
 } // namespace
@@ -116,7 +116,7 @@ std::vector<CollisionEvent> PlayedEvents::events(bool fromFirst) const {
 }
 
 std::string midiFileBytes(const PlayedExport& source) {
-    const auto notes = notesOf(source);
+    const auto notes = makeNotes(source);
     double maxAmplitude = 1e-9; // above 0, if all are silent
     for (const auto& note : notes) maxAmplitude = std::max(maxAmplitude, note.amplitude);
     juce::MidiMessageSequence track;
@@ -148,12 +148,12 @@ Result<std::string> exportPlayed(const PlayedExport& source, const std::string& 
     if (source.events.empty())
         return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats "
                        "and contacts"};
-    if (const auto format = clipFormatOf(path)) return writeClipFiles(source, path, *format);
+    if (const auto format = findClipFormat(path)) return writeClipFiles(source, path, *format);
     std::string ending = std::filesystem::path{path}.extension().string();
     std::ranges::transform(ending, ending.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (ending != ".mid" && ending != ".midi" && ending != ".csv")
-        return Failure{path + ": expected a name that ends in " + listed(playedEndings(), " or ")};
+        return Failure{path + ": expected a name that ends in " + nameList(playedEndings(), " or ")};
     const std::string bytes = ending == ".csv"
                                   ? eventsCsv(source.events, fieldOf(source.panner),
                                               {PHYSVIB_VERSION, {{"scene", source.state.scene.name}}})

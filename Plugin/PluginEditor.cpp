@@ -365,7 +365,7 @@ void PluginEditor::stateChanged() {
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
     world_.show(state_.layout,
-                pannerOf(state_, lawFromValue(value(Parameter::law)), value(Parameter::exponent)));
+                makePanner(state_, lawFromValue(value(Parameter::law)), value(Parameter::exponent)));
     mix_.showState(state_);
     updateMaterialNames();
     refreshControls(); // places all anew: there may be more or fewer strips
@@ -399,7 +399,7 @@ void PluginEditor::refresh() {
     silence_.setToggleState(isSilent, juce::dontSendNotification);
     hintLabel_.setColour(juce::Label::backgroundColourId,
                          shade(*this, Shade::panel).withAlpha(state_.scene.bodies.empty() ? 0.0f : 0.9f));
-    const bool isWaiting = state_.transport != TransportMode::free && meters.enchanters == 0;
+    const bool isWaiting = state_.transport != TransportMode::free && meters.actuatorCount == 0;
     hintLabel_.setVisible(
         world_.isVisible() &&
         (isSilent || isWaiting || (state_.scene.bodies.empty() && status.session.render.played == 0)));
@@ -416,7 +416,7 @@ void PluginEditor::refresh() {
     status_.setColour(juce::Label::textColourId,
                       errorText.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
     if (errorText.isEmpty()) {
-        errorText = helpOf(juce::Desktop::getInstance().getMainMouseSource().getComponentUnderMouse());
+        errorText = findHelp(juce::Desktop::getInstance().getMainMouseSource().getComponentUnderMouse());
         if (errorText.isEmpty()) errorText = statusLine(status, meters);
     }
     status_.setText(errorText, juce::dontSendNotification);
@@ -441,7 +441,7 @@ void PluginEditor::showHint(const juce::String& text) {
     tryToPlace(first, 0, true);
 }
 
-juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
+juce::String PluginEditor::findHelp(juce::Component* underMouse) const {
     if (!isParentOf(underMouse)) return {};
     for (; underMouse != this; underMouse = underMouse->getParentComponent())
         if (auto* const client = dynamic_cast<juce::TooltipClient*>(underMouse))
@@ -474,12 +474,12 @@ juce::String PluginEditor::latencyText() const {
 
 juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
     const int actuators = actuatorCount(state_);
-    if (meters.enchanters == 0 || meters.connected >= actuators) return {}; // 0: no run yet
+    if (meters.actuatorCount == 0 || meters.connectedCount >= actuators) return {}; // 0: no run yet
     juce::StringArray unconnected;
     for (int j = 0; j < actuators; ++j)
         if (const auto index = static_cast<std::size_t>(j); !meters.isConnected[index])
             unconnected.add(fromUtf8(state_.layout.actuators[index].label));
-    return "   |   " + juce::String{meters.connected} + " outputs for " + juce::String{actuators} +
+    return "   |   " + juce::String{meters.connectedCount} + " outputs for " + juce::String{actuators} +
            " actuators: not felt " + unconnected.joinIntoString(", ");
 }
 

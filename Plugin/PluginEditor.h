@@ -50,7 +50,7 @@ public:
 
     /// Makes the next controller received move that parameter.
     void learn(Parameter which);
-    void go(PluginProcessor::Direction direction); ///< undo, redo, or exchange of A and B
+    void stepHistory(PluginProcessor::Direction direction); ///< undo, redo, or exchange of A and B
     /// Save the state as a preset, and the played events in the format that the file's name ends with.
     void savePresetAs(const juce::File& file);
     void exportPlayedAs(const juce::File& file);
@@ -69,7 +69,7 @@ public:
     juce::String statusText() const { return status_.getText(); }
     /// Help for the status line: that of the component under the mouse, or of its nearest parent that has
     /// one.
-    juce::String helpOf(juce::Component* underMouse) const;
+    juce::String findHelp(juce::Component* underMouse) const;
 
 private:
     static constexpr int firstUserPreset = 10'000; // id in the list of presets

@@ -42,12 +42,12 @@ std::string loweredNote(const std::filesystem::path& path, const std::string& lo
     return lowered.empty() ? lowered : path.filename().string() + ": lowered to this instance: " + lowered;
 }
 
-PluginState stateOfSession(const SavedSession& session, Mix mix, PluginState state) {
+PluginState toPluginState(const SavedSession& session, Mix mix, PluginState state) {
     setScene(state, *mix.scene);
     state.seed = mix.seed;
     state.stepsPerSecond = session.run.stepsPerSecond;
     state.layout = mix.layout;
-    state.strips = MixerLimits::of(mix).strips; // with groups and automation at their loudest
+    state.strips = MixerLimits::fromMix(mix).strips; // with groups and automation at their loudest
     state.equalised = session.equalised;
     state.limiterEnabled |= session.limiterEnabled;
     setParameter(state, Parameter::law, valueFromText(rowOf(Parameter::law), nameOf(mix.law)));
@@ -128,7 +128,7 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
     case FileKind::session: {
         const auto session = loadSession(path);
         if (!session) return Failure{session.error};
-        Mix mix = mixOf(session.value);
+        Mix mix = mixAtEnd(session.value);
         std::string lowered = lowerByChannel(loudnessLimitsOf(state), mix);
         if (state.limiterEnabled && !session.value.limiterEnabled)
             lowered += lowered.empty() ? "the limiter stays on" : "; the limiter stays on";
@@ -138,7 +138,7 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
                 : std::string{};
         if (!note.empty() && !lowered.empty()) note += "; ";
         note += loweredNote(path, lowered);
-        return OpenedFile{stateOfSession(session.value, std::move(mix), std::move(state)), note};
+        return OpenedFile{toPluginState(session.value, std::move(mix), std::move(state)), note};
     }
     case FileKind::pluginState: return openPreset(path, state);
     case FileKind::unknown: break;
@@ -205,15 +205,15 @@ void PluginEditor::showFiles() {
     menu.addItem(
         fromUtf8("Export what was felt\xe2\x80\xa6"), plugin_.playedEvents().hasEvents(), false, [this] {
             chooseFile(
-                chooser_, "MIDI, a list of events or a haptic file: " + fromUtf8(listed(playedEndings())),
+                chooser_, "MIDI, a list of events or a haptic file: " + fromUtf8(nameList(playedEndings())),
                 saveFlags, [this](const juce::File& file) { exportPlayedAs(file); },
                 juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
-                "*" + fromUtf8(joined(playedEndings(), ";*")));
+                "*" + fromUtf8(joinNames(playedEndings(), ";*")));
         });
     menu.addSeparator();
     using Direction = PluginProcessor::Direction;
     const auto addStep = [&](const juce::String& words, Direction direction) {
-        menu.addItem(words, plugin_.canGo(direction), false, [this, direction] { go(direction); });
+        menu.addItem(words, plugin_.canStep(direction), false, [this, direction] { stepHistory(direction); });
     };
     addStep("Undo", Direction::undo);
     addStep("Redo", Direction::redo);
@@ -232,9 +232,9 @@ void PluginEditor::showFiles() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
 }
 
-void PluginEditor::go(PluginProcessor::Direction direction) {
+void PluginEditor::stepHistory(PluginProcessor::Direction direction) {
     message_.clear();
-    plugin_.go(direction);
+    plugin_.stepHistory(direction);
 }
 
 void PluginEditor::savePresetAs(const juce::File& file) {
@@ -250,7 +250,7 @@ void PluginEditor::exportPlayedAs(const juce::File& file) {
     const auto events = plugin_.playedEvents().events(state.transport == TransportMode::free);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     const auto written = exportPlayed(
-        {events, state, pannerOf(state, lawFromValue(value(Parameter::law)), value(Parameter::exponent))},
+        {events, state, makePanner(state, lawFromValue(value(Parameter::law)), value(Parameter::exponent))},
         file.getFullPathName().toStdString());
     const auto dropped = plugin_.playedEvents().droppedCount();
     const juce::String droppedNote =

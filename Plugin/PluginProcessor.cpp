@@ -20,7 +20,7 @@ juce::String asString(std::string text) {
 } // namespace
 
 PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
-    : AudioProcessor{propertiesOf(plan)}
+    : AudioProcessor{makeBusProperties(plan)}
     , name_{std::move(name)}
     , plan_{plan} {
     addParameters();
@@ -31,10 +31,10 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     startTimer(idleTimerMs);
 }
 
-juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPlan& plan) {
+juce::AudioProcessor::BusesProperties PluginProcessor::makeBusProperties(const BusPlan& plan) {
     const auto format = juce::PluginHostType::getPluginLoadedAs();
     BusesProperties properties;
-    for (const auto& bus : busesOf(plan, format)) properties.addBus(false, bus.name, bus.channels, bus.isOn);
+    for (const auto& bus : newBuses(plan, format)) properties.addBus(false, bus.name, bus.channels, bus.isOn);
     if (hasSideChain(plan, format))
         properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), plan.hasMusicPorts);
     return properties;
@@ -80,14 +80,14 @@ bool PluginProcessor::apply(PluginState state) {
 bool PluginProcessor::replaceState(PluginState state, bool followsOutputs) {
     fitToLayout(state);
     try {
-        runs_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}},
+        runs_.set(makeSessionSetup(state), {state.transport, state.layout.geometry, MidiTable{state}},
                   state.strips);
     } catch (const std::invalid_argument& error) {
         return refuse(asString(error.what()));
     }
     followsOutputs_ = followsOutputs;
     tailSeconds_ = tailSeconds(state, noteKnobs());
-    program_ = presetIndexOf(state);
+    program_ = findPresetIndex(state);
     storeState(std::move(state));
     return true;
 }
@@ -133,12 +133,12 @@ void PluginProcessor::recordEdit(PluginState before) {
     history_.add(std::move(before), touched, EditHistory::Edit::separate);
 }
 
-void PluginProcessor::go(Direction direction) {
+void PluginProcessor::stepHistory(Direction direction) {
     std::optional<EditHistory::Step> target;
     {
         auto now = state();
         const std::lock_guard lock{mutex_};
-        target = history_.go(direction, std::move(now));
+        target = history_.step(direction, std::move(now));
     }
     if (!target) return;
     // SILENCE is no edit: only its button lifts it
@@ -146,9 +146,9 @@ void PluginProcessor::go(Direction direction) {
     if (applyEdit(target->state)) setParameters(target->state, target->touched);
 }
 
-bool PluginProcessor::canGo(Direction direction) const {
+bool PluginProcessor::canStep(Direction direction) const {
     const std::lock_guard lock{mutex_};
-    return history_.canGo(direction);
+    return history_.canStep(direction);
 }
 
 bool PluginProcessor::isAtB() const {
@@ -389,7 +389,7 @@ void PluginProcessor::setParameters(const PluginState& state, TouchedParameters 
     std::array<float, parameterCount> normals;
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {
-        const auto index = static_cast<std::size_t>(parameterOfId(id));
+        const auto index = static_cast<std::size_t>(findParameter(id));
         normals[index] = static_cast<float>(
             normalised(parameters_[index]->row(), *fromStateValue(parameters_[index]->row(), value)));
     }

@@ -61,7 +61,7 @@ public:
         if (side_.undo.size() > maxSteps) side_.undo.erase(side_.undo.begin());
     }
 
-    bool canGo(Direction direction) const noexcept {
+    bool canStep(Direction direction) const noexcept {
         return direction == Direction::exchange ||
                !(direction == Direction::undo ? side_.undo : side_.redo).empty();
     }
@@ -69,7 +69,7 @@ public:
 
     /// Returns the state one step back or forth from `now`, if there is one, or the other one of A and B,
     /// which are equal at first. `touched` of the result has the parameters to be set.
-    std::optional<Step> go(Direction direction, PluginState now) {
+    std::optional<Step> step(Direction direction, PluginState now) {
         if (direction == Direction::undo) return move(side_.undo, side_.redo, std::move(now));
         if (direction == Direction::redo) return move(side_.redo, side_.undo, std::move(now));
         isAtB_ = !isAtB_;
@@ -124,8 +124,8 @@ public:
     }
     /// Undoes or redoes an edit, or exchanges A and B, with the parameters that the user changed. M.
     using Direction = EditHistory::Direction;
-    void go(Direction direction);
-    bool canGo(Direction direction) const;
+    void stepHistory(Direction direction);
+    bool canStep(Direction direction) const;
     bool isAtB() const;
     /// Sets the window's size in pixels, which is saved with the state but is no edit. M.
     void setEditorSize(int width, int height);
@@ -219,7 +219,7 @@ public:
     juce::AudioProcessorEditor* createEditor() override;
 
 private:
-    static BusesProperties propertiesOf(const BusPlan& plan);
+    static BusesProperties makeBusProperties(const BusPlan& plan);
     void addParameters();
     void prepareGuard(int rate);
     static constexpr int activeTimerMs = 50, idleTimerMs = 2000; ///< while blocks are rendered, or not
@@ -269,7 +269,7 @@ private:
                     const NoteExpression& expression = {}) noexcept;
     void applyPressure(int channel, int note, double pressure) noexcept;
     void strike(int channel, int note, int velocity, int frame, const NoteExpression& expression) noexcept;
-    NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
+    NoteSound heldNoteSound(const HeldNotes::Note& note) const noexcept;
     CollisionEvent strikeAtPlace(CollisionEvent strike, int channel,
                                  const NoteExpression& expression) const noexcept;
     void playHeldNotes(int first, int end) noexcept;

@@ -54,7 +54,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
 // Reads the parameters that have no points in this block: their values hold from its first frame on.
 void PluginProcessor::readParameters() noexcept {
     for (std::size_t p = 0; p < parameterCount; ++p)
-        if (parameterPoints_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::noFrame)
+        if (parameterPoints_.nextFrame(static_cast<Parameter>(p)) == ParameterPoints::noFrame)
             normalisedValues_[p] = parameters_[p]->getValue();
 }
 
@@ -81,7 +81,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     for (int frame = first; frame < end;) {
         applyPoints(frame);
         if (frame == first) isMuted_ = isStopped() || value(Parameter::bypass) > 0.5, playWindowKeys(0);
-        end = std::min(end, parameterPoints_.nextOf(Parameter::bypass));
+        end = std::min(end, parameterPoints_.nextFrame(Parameter::bypass));
         sendControls(frame - first);
         for (; message != midi.end() && frameOf(*message) <= frame; ++message) {
             if ((*message).samplePosition >= frames) ++displacedMessages_;
@@ -103,7 +103,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     runs_.setTiming(timing());
     runs_.render(end - first, mode);
     for (int j = 0; j < runs_.channels(); ++j)
-        if (const int channel = outputMap_.channelOf[static_cast<std::size_t>(j)];
+        if (const int channel = outputMap_.channels[static_cast<std::size_t>(j)];
             channel >= 0 && channel < buffer.getNumChannels())
             runs_.addTo(buffer.getWritePointer(channel) + first, j, end - first);
     return end;
@@ -210,8 +210,7 @@ void PluginProcessor::sendPacedControls(int first, int end) noexcept {
     });
     sendIfChanged({Parameter::material}, [&] {
         RenderInput input;
-        input.group =
-            run->settings().midi.actionGroupOfMaterial(juce::roundToInt(value(Parameter::material)));
+        input.group = run->settings().midi.materialGroup(juce::roundToInt(value(Parameter::material)));
         return sendWhenAllowed(materialPace_, first, end, [&](int frame) {
             return input.group < 0 || run->session.callback().postInput(input, frame);
         });
@@ -298,7 +297,7 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
 void PluginProcessor::applyPressure(int channel, int note, double pressure) noexcept {
     heldNotes_.forEachNote([&](HeldNotes::Note& held) {
         if (held.channel == channel && (note < 0 || note == held.number)) held.pressure = pressure;
-        if (note < 0 && expression_.masterOf(held.channel) == channel) held.masterPressure = pressure;
+        if (note < 0 && expression_.findMaster(held.channel) == channel) held.masterPressure = pressure;
     });
 }
 
@@ -307,7 +306,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame,
     Session* const session = runs_.session();
     if (!session) return;
     const auto& midi = runs_.settings().midi;
-    if (RenderInput input; (input.group = midi.actionGroupOf(note)) >= 0) {
+    if (RenderInput input; (input.group = midi.noteGroup(note)) >= 0) {
         input.scale = velocity / 127.0;
         session->callback().postInput(input, frame);
         return;
@@ -315,7 +314,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame,
     const NoteKnobs now = knobs();
     CollisionEvent event = midi.strikeOf(note, now, runs_.settings().layout);
     if (event.frequencyHz <= 0.0) return;
-    const double loudness = midi.loudnessOf(velocity, now);
+    const double loudness = midi.velocityAmplitude(velocity, now);
     if (midi.isHeld(note, now))
         return heldNotes_.start(
             {channel, note, loudness, session->timeline().framesRendered() + frame, expression});
@@ -333,12 +332,12 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
                                               const NoteExpression& expression) const noexcept {
     const auto& settings = runs_.settings();
     const auto& midi = settings.midi;
-    const double bend = expression_.bendOf(channel), master = expression_.masterBendOf(channel),
+    const double bend = expression_.bend(channel), master = expression_.masterBend(channel),
                  semitones = midi.bendSemitones(knobs());
     double shift = expression.semitones;
     if (semitones > 0.0) shift += 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
-    const auto shifted = [](double at, double by, double size) {
-        return std::clamp(at + by * size, 0.0, size);
+    const auto shifted = [](double place, double offset, double size) {
+        return std::clamp(place + offset * size, 0.0, size);
     };
     if (shift != 0.0)
         strike.frequencyHz = std::clamp(strike.frequencyHz * portable::pow(2.0, shift / 12.0),
@@ -347,9 +346,9 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
                        value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master) +
                            0.5 * expression.pan,
                        midi.fieldWidthMetres());
-    strike.y = shifted(
-        strike.y, value(Parameter::strikeY) * 0.01 + expression_.slideOf(channel) + expression.brightness,
-        midi.fieldHeightMetres());
+    strike.y = shifted(strike.y,
+                       value(Parameter::strikeY) * 0.01 + expression_.slide(channel) + expression.brightness,
+                       midi.fieldHeightMetres());
     if (!midi.voice().levelsPeak) return strike;
     PhantomPanner::Gains gains{};
     PhantomPanner{settings.layout, lawFromValue(value(Parameter::law)), value(Parameter::exponent),
@@ -361,7 +360,7 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
 }
 
 // The present sound of a held note; its amplitude is that of velocity or pressure, whichever is larger.
-NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
+NoteSound PluginProcessor::heldNoteSound(const HeldNotes::Note& note) const noexcept {
     const auto& settings = runs_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
     event.amplitude = gainFromLevelDb(value(Parameter::strikeLevel)) * note.expression.gain *
@@ -378,7 +377,7 @@ void PluginProcessor::playHeldNotes(int first, int end) noexcept {
     const double release = runs_.settings().midi.releasePerSecond(knobs());
     heldNotes_.advance(
         now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)),
-        [this](const HeldNotes::Note& note) { return soundOf(note); },
+        [this](const HeldNotes::Note& note) { return heldNoteSound(note); },
         [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs,
             std::int64_t durationNs) {
             CollisionEvent event;
@@ -432,7 +431,7 @@ void PluginProcessor::handleController(int channel, int controller, int value, i
         lastController_.store(((lastController_.load(std::memory_order_relaxed) >> 8) + 1) << 8 |
                                   static_cast<std::uint32_t>(controller),
                               std::memory_order_relaxed);
-    const int which = runs_.settings().midi.parameterOf(controller);
+    const int which = runs_.settings().midi.controllerParameter(controller);
     if (which < 0) return;
     normalisedValues_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;
     parameters_[static_cast<std::size_t>(which)]->setByController(
@@ -444,8 +443,8 @@ void PluginProcessor::updateMeters(const juce::AudioBuffer<float>& buffer) noexc
     const int frames = buffer.getNumSamples();
     const float fallGain = juce::Decibels::decibelsToGain(
         -peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_.load(std::memory_order_relaxed)));
-    channelMeters_.enchanters = runs_.channels();
-    channelMeters_.connected = outputMap_.connectedCount(channelMeters_.enchanters);
+    channelMeters_.actuatorCount = runs_.channels();
+    channelMeters_.connectedCount = outputMap_.connectedCount(channelMeters_.actuatorCount);
     if (auto* session = runs_.session()) {
         const auto& render = session->status().render;
         channelMeters_.limiterGain = render.limiterGain;
@@ -453,7 +452,7 @@ void PluginProcessor::updateMeters(const juce::AudioBuffer<float>& buffer) noexc
     }
     channelMeters_.guardGain = std::min(channelMeters_.guardGain, guard_.gain());
     for (std::size_t j = 0; j < channelMeters_.peaks.size(); ++j) {
-        const int channel = outputMap_.channelOf[j];
+        const int channel = outputMap_.channels[j];
         channelMeters_.isConnected[j] = channel >= 0;
         const float peak = channel >= 0 && channel < buffer.getNumChannels()
                                ? buffer.getMagnitude(channel, 0, frames)

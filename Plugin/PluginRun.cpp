@@ -11,8 +11,8 @@ PluginRun::PluginRun(std::shared_ptr<const RunSpec> spec, int sampleRateHz, int 
     , spec_{std::move(spec)}
     , sampleRateHz_{sampleRateHz}
     , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {
-    out.assign(static_cast<std::size_t>(session.channels()),
-               std::vector<float>(static_cast<std::size_t>(blockFrames)));
+    samples.assign(static_cast<std::size_t>(session.channels()),
+                   std::vector<float>(static_cast<std::size_t>(blockFrames)));
     rewind(timing);
     if (!hasMusic) return;
     // L, the block that is written before it is rendered, and a block by which L may be changing
@@ -23,7 +23,7 @@ PluginRun::PluginRun(std::shared_ptr<const RunSpec> spec, int sampleRateHz, int 
 }
 
 void PluginRun::rewind(StepTiming timing) {
-    const int block = static_cast<int>(out.front().size());
+    const int block = static_cast<int>(samples.front().size());
     session.prepare(sampleRateHz_, block);
     session.advance(); // steps what the first block needs
     const auto& setup = spec_->setup;
@@ -54,7 +54,7 @@ void PluginRun::rewind(StepTiming timing) {
 void PluginRun::PendingControls::clear() noexcept {
     for (QueuedControl unplayed; queue.pop(unplayed);) {
     }
-    hasFirst = false;
+    hasNext = false;
 }
 
 bool PluginRun::queueLevel(double gain, int frame) noexcept {
@@ -70,11 +70,11 @@ bool PluginRun::queueLaw(PanningLaw law, double exponent, int frame) noexcept {
 template <class Make>
 void PluginRun::forwardControls(PendingControls& pending, std::int64_t until, Make make) noexcept {
     const std::int64_t now = session.timeline().framesRendered();
-    while (pending.hasFirst || (pending.hasFirst = pending.queue.pop(pending.first))) {
-        if (pending.first.frame >= until ||
-            !session.callback().control(make(pending.first), static_cast<int>(pending.first.frame - now)))
+    while (pending.hasNext || (pending.hasNext = pending.queue.pop(pending.next))) {
+        if (pending.next.frame >= until ||
+            !session.callback().control(make(pending.next), static_cast<int>(pending.next.frame - now)))
             return;
-        pending.hasFirst = false;
+        pending.hasNext = false;
     }
 }
 
@@ -126,14 +126,14 @@ void PluginRun::render(int frames, StepTiming timing, RenderMode mode) noexcept 
 
 std::array<float*, limits::maxActuators> PluginRun::outputsFrom(int frame) noexcept {
     std::array<float*, limits::maxActuators> outputs{};
-    for (std::size_t j = 0; j < out.size(); ++j) outputs[j] = out[j].data() + frame;
+    for (std::size_t j = 0; j < samples.size(); ++j) outputs[j] = samples[j].data() + frame;
     return outputs;
 }
 
 // Repeats the last samples and fades them to silence, because a step to zero could be felt.
 void PluginRun::renderPause(int frames) noexcept {
     session.lengthenLatency(frames);
-    for (std::size_t j = 0; j < out.size(); ++j) std::fill_n(out[j].data(), frames, lastSamples_[j]);
+    for (std::size_t j = 0; j < samples.size(); ++j) std::fill_n(samples[j].data(), frames, lastSamples_[j]);
     latencyGate_.moveTo(0.0f);
     latencyGate_.apply(outputsFrom(0).data(), session.channels(), frames);
 }
@@ -153,7 +153,7 @@ void PluginRun::play(int first, int frames, RenderMode mode, float gateTarget) n
         done += part;
     }
     fadeAtEnd(first, frames);
-    for (std::size_t j = 0; j < out.size(); ++j) lastSamples_[j] = outputs[j][frames - 1];
+    for (std::size_t j = 0; j < samples.size(); ++j) lastSamples_[j] = outputs[j][frames - 1];
     latencyGate_.moveTo(gateTarget);
     latencyGate_.apply(outputs.data(), session.channels(), frames);
 }

@@ -57,7 +57,7 @@ public:
         return timing == StepTiming::tight ? tightFrames_ : safeFrames_;
     }
 
-    /// Renders the next frames of every channel into `out`, at most a block. If L is shorter than that of
+    /// Renders the next frames of every channel into `samples`, at most a block. If L is shorter than that of
     /// `timing`, a silent pause lengthens it, and pending events come later by that pause. If L is longer,
     /// the surplus is skipped in silence, and the events in it are lost. R.
     void render(int frames, StepTiming timing, RenderMode mode) noexcept;
@@ -84,7 +84,7 @@ public:
     std::uint64_t loggedEventCount = 0;  ///< events that were moved to the log; guarded like the log
     std::atomic<bool> isReleased{false}; ///< true once R no longer uses the run
     bool hasWorldFailed = false; ///< its world failed and is not stepped again; for the stepping thread
-    std::vector<std::vector<float>> out; ///< samples of the last render(), [channel][frame]
+    std::vector<std::vector<float>> samples; ///< samples of the last render(), [channel][frame]
 
 private:
     std::array<float*, limits::maxActuators> outputsFrom(int frame) noexcept;
@@ -100,8 +100,8 @@ private:
     static constexpr int slicesPerSecond = 128;
     struct PendingControls {
         QueuedControls queue;
-        QueuedControl first;
-        bool hasFirst = false;
+        QueuedControl next;
+        bool hasNext = false;
         void clear() noexcept;
     };
     template <class Make>

@@ -97,7 +97,7 @@ void PluginRuns::installRun(std::shared_ptr<const RunSpec> spec, std::unique_ptr
     tightFrames_ = run->latencyFrames(StepTiming::tight);
     directFrames_ = setup.direct == Direct::fromStart ? run->session.timeline().inputLatencyFrames() : 0;
     runs_.push_back(std::move(run));
-    PluginRun* const unused = spare_.exchange(runs_.back().get(), std::memory_order_acq_rel);
+    PluginRun* const unused = spareRun_.exchange(runs_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isReleased = true;
     newestGeneration_.store(spec_->generation, std::memory_order_release);
 }
@@ -155,9 +155,9 @@ void PluginRuns::release() {
     if (builder_.joinable()) builder_.join();
     const std::lock_guard lock{mutex_};
     for (auto& run : runs_) logPlayed(*run);
-    playing_ = nextRun_ = nullptr;
+    current_ = nextRun_ = nullptr;
     endingCount_ = 0;
-    spare_ = nullptr;
+    spareRun_ = nullptr;
     hasNextRun_ = false;
     runs_.clear();
     sampleRateHz_ = blockFrames_ = 0;
@@ -214,16 +214,16 @@ void PluginRuns::prepareSpare(std::unique_lock<std::mutex>& lock) {
     const bool isNeeded = isSpareNeeded();
     auto ended = collectUnused();
     lock.unlock();
-    auto ready = isNeeded ? reuseOrBuild(ended, spec) : nullptr;
+    auto spare = isNeeded ? reuseOrBuild(ended, spec) : nullptr;
     ended.clear();
     lock.lock();
-    if (!ready) return;
-    ready->send(strips_);
-    runs_.push_back(std::move(ready));
+    if (!spare) return;
+    spare->send(strips_);
+    runs_.push_back(std::move(spare));
     PluginRun* const added = runs_.back().get();
     PluginRun* expected = nullptr;
     if (added->generation() != spec_->generation ||
-        !spare_.compare_exchange_strong(expected, added, std::memory_order_acq_rel))
+        !spareRun_.compare_exchange_strong(expected, added, std::memory_order_acq_rel))
         added->isReleased = true;
 }
 
@@ -247,7 +247,7 @@ bool PluginRuns::isDisposable(const PluginRun& run) const {
 
 // True if no run is ready and either an ended one can be reused or there is room for another.
 bool PluginRuns::isSpareNeeded() const {
-    if (!followsHost(*spec_) || spare_.load() != nullptr || !canBuild_) return false;
+    if (!followsHost(*spec_) || spareRun_.load() != nullptr || !canBuild_) return false;
     const bool hasEnded = std::ranges::any_of(
         runs_, [](const auto& run) { return run->isReleased.load(std::memory_order_acquire); });
     return hasEnded || !hasNextRun_ || runs_.size() < maxRuns;
@@ -260,17 +260,17 @@ bool PluginRuns::hasWork() const {
 
 // Removes and returns runs to be freed and, if one is needed, a run to be reused. mutex_ must be locked.
 std::vector<std::unique_ptr<PluginRun>> PluginRuns::collectUnused() {
-    std::vector<std::unique_ptr<PluginRun>> out;
+    std::vector<std::unique_ptr<PluginRun>> unused;
     bool isNeeded = isSpareNeeded();
     for (auto& run : runs_) {
         const bool isNext = isNeeded && run->isReleased && run->generation() == spec_->generation;
         if (!isNext && !isDisposable(*run)) continue;
         isNeeded = isNeeded && !isNext;
         logPlayed(*run);
-        out.push_back(std::move(run));
+        unused.push_back(std::move(run));
     }
     std::erase(runs_, nullptr);
-    return out;
+    return unused;
 }
 
 void PluginRuns::logPlayed(PluginRun& run) {
@@ -307,20 +307,20 @@ std::int64_t PluginRuns::readPoses(std::vector<BodyPose>& poses) {
 
 template <class Visit>
 void PluginRuns::forEachAudible(Visit visit) const noexcept {
-    if (playing_) visit(*playing_);
+    if (current_) visit(*current_);
     for (std::size_t i = endingCount_; i-- > 0;) visit(*ending_[i]);
 }
 
 TransportMode PluginRuns::adoptNewSettings() noexcept {
     if (nextRun_ && nextRun_->generation() == newestGeneration_.load(std::memory_order_acquire))
         return newSettings_.transport;
-    PluginRun* const newRun = spare_.exchange(nullptr, std::memory_order_acq_rel);
+    PluginRun* const newRun = spareRun_.exchange(nullptr, std::memory_order_acq_rel);
     if (!newRun) return newSettings_.transport;
     retire(nextRun_);
     nextRun_ = newRun;
     hasNextRun_ = true;
     newSettings_ = nextRun_->settings();
-    if (playing_ && playing_->generation() != nextRun_->generation()) isStartRequested_ = true;
+    if (current_ && current_->generation() != nextRun_->generation()) isStartRequested_ = true;
     return newSettings_.transport;
 }
 
@@ -334,30 +334,30 @@ bool PluginRuns::begin(RenderMode mode) noexcept {
         adoptNewSettings();
     }
     if (nextRun_) stop();
-    if (!nextRun_ || playing_) {
+    if (!nextRun_ || current_) {
         isStartRequested_ = true;
         ++delayedBlocks_;
         return false;
     }
-    playing_ = std::exchange(nextRun_, nullptr);
+    current_ = std::exchange(nextRun_, nullptr);
     hasNextRun_ = false;
-    playing_->number = ++startedRuns_;
+    current_->number = ++startedRuns_;
     return true;
 }
 
 void PluginRuns::stop() noexcept {
     isStartRequested_ = false;
-    if (!playing_ || endingCount_ == ending_.size()) return;
-    endedLateEvents_ += playing_->session.status().render.late;
-    endedStalledNs_ += playing_->session.world().stalledNs();
-    playing_->end();
-    ending_[endingCount_++] = std::exchange(playing_, nullptr);
+    if (!current_ || endingCount_ == ending_.size()) return;
+    endedLateEvents_ += current_->session.status().render.late;
+    endedStalledNs_ += current_->session.world().stalledNs();
+    current_->end();
+    ending_[endingCount_++] = std::exchange(current_, nullptr);
 }
 
 bool PluginRuns::silence(int frame) noexcept {
-    bool all = true;
-    forEachAudible([&](PluginRun& run) { all = run.silence(frame) && all; });
-    return all;
+    bool isDone = true;
+    forEachAudible([&](PluginRun& run) { isDone = run.silence(frame) && isDone; });
+    return isDone;
 }
 
 void PluginRuns::retire(PluginRun*& run) noexcept {
@@ -377,7 +377,7 @@ void PluginRuns::retireFinished() noexcept {
 void PluginRuns::render(int frames, RenderMode mode) noexcept {
     blocks_.fetch_add(1, std::memory_order_relaxed);
     forEachAudible([&](PluginRun& run) { run.render(frames, timing(), renderModeFor(run, frames, mode)); });
-    if (playing_) writeStatus();
+    if (current_) writeStatus();
 }
 
 // The render call steps the world if timing is tight or the host asks for frames that the stepping thread has
@@ -391,9 +391,9 @@ RenderMode PluginRuns::renderModeFor(const PluginRun& run, int frames, RenderMod
 }
 
 void PluginRuns::writeStatus() noexcept {
-    const auto& now = playing_->session.status();
-    status_.write({now, playing_->number, endedLateEvents_ + now.render.late,
-                   endedStalledNs_ + playing_->session.world().stalledNs(), delayedBlocks_, steppedBlocks_});
+    const auto& now = current_->session.status();
+    status_.write({now, current_->number, endedLateEvents_ + now.render.late,
+                   endedStalledNs_ + current_->session.world().stalledNs(), delayedBlocks_, steppedBlocks_});
 }
 
 int PluginRuns::channels() const noexcept {
@@ -405,7 +405,7 @@ int PluginRuns::channels() const noexcept {
 void PluginRuns::addTo(float* out, int channel, int frames) const noexcept {
     forEachAudible([=](const PluginRun& run) {
         if (channel >= run.session.channels()) return;
-        const float* const in = run.out[static_cast<std::size_t>(channel)].data();
+        const float* const in = run.samples[static_cast<std::size_t>(channel)].data();
         std::transform(in, in + frames, out, out, [](float a, float b) { return a + b; });
     });
 }
@@ -430,7 +430,7 @@ Stepper::~Stepper() {
 
 void Stepper::wake() {
     { const std::lock_guard lock{mutex_}; } // otherwise the thread could miss the notification
-    changed_.notify_all();
+    wakeCondition_.notify_all();
 }
 
 void Stepper::add(StepClient& client) {
@@ -438,7 +438,7 @@ void Stepper::add(StepClient& client) {
         const std::lock_guard lock{mutex_};
         members_.push_back({&client, client.blocks(), Clock::now(), {}});
     }
-    changed_.notify_all();
+    wakeCondition_.notify_all();
 }
 
 void Stepper::remove(StepClient& client) {
@@ -449,7 +449,7 @@ void Stepper::remove(StepClient& client) {
 // Ticks a member whose time has come. The next tick is at a multiple of its period: members of equal period
 // then share one waking, and none catches up by a burst of ticks after a stall.
 void Stepper::tick(Member& member, Clock::time_point now) {
-    if (now < member.next) return;
+    if (now < member.nextTick) return;
     member.client->tick();
     if (const auto blocks = member.client->blocks(); blocks != member.blocks) {
         member.blocks = blocks;
@@ -458,7 +458,7 @@ void Stepper::tick(Member& member, Clock::time_point now) {
     const double seconds = now - member.lastBlock > idleAfter ? member.client->idleSeconds()
                                                               : 1.0 / member.client->ticksPerSecond();
     const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{seconds});
-    member.next = Clock::time_point{(now.time_since_epoch() / period + 1) * period};
+    member.nextTick = Clock::time_point{(now.time_since_epoch() / period + 1) * period};
 }
 
 void Stepper::run() {
@@ -468,12 +468,12 @@ void Stepper::run() {
         auto next = Clock::time_point::max();
         for (Member& member : members_) {
             tick(member, now);
-            next = std::min(next, member.next);
+            next = std::min(next, member.nextTick);
         }
         if (members_.empty())
-            changed_.wait(lock);
+            wakeCondition_.wait(lock);
         else
-            changed_.wait_until(lock, next);
+            wakeCondition_.wait_until(lock, next);
         wakeUps_.fetch_add(1, std::memory_order_relaxed);
     }
 }

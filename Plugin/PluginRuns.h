@@ -6,9 +6,9 @@
 // the worlds of all instances of the process; a builder thread per instance prepares the next run, from an
 // ended one where it can, and frees runs that are no longer needed.
 // Ownership: `mutex_` guards `runs_` (the two threads and M; R only in non-realtime blocks). R has pointers
-// to the playing run, the next one and those that are ending. It takes a run by an exchange of `spare_`, and
-// returns it by one atomic store to `isReleased`. A run that is being built or freed is in no list, so that
-// no mutex is held meanwhile.
+// to the playing run, the next one and those that are ending. It takes a run by an exchange of `spareRun_`,
+// and returns it by one atomic store to `isReleased`. A run that is being built or freed is in no list, so
+// that no mutex is held meanwhile.
 //
 // L covers one block. A host may ask for more at once: a bounce that it does not announce as one, or a block
 // larger than announced. Then the thread has not stepped the world that far: R notices it
@@ -63,14 +63,14 @@ private:
     struct Member {
         StepClient* client;
         std::uint64_t blocks;
-        Clock::time_point lastBlock, next;
+        Clock::time_point lastBlock, nextTick;
     };
     void run() override;
     void wake();
     static void tick(Member& member, Clock::time_point now);
 
     std::mutex mutex_; // held while anybody is stepped
-    std::condition_variable changed_;
+    std::condition_variable wakeCondition_;
     std::vector<Member> members_;
     std::atomic<std::uint64_t> wakeUps_{0};
 };
@@ -156,11 +156,11 @@ public:
     void start() noexcept { isStartRequested_ = true; }
     /// Ends the playing run; not yet if too many are ending. R.
     void stop() noexcept;
-    bool isPlaying() const noexcept { return playing_ != nullptr; }                 ///< R
-    Session* session() noexcept { return playing_ ? &playing_->session : nullptr; } ///< R: the playing run's
-    PluginRun* currentRun() noexcept { return playing_; }                           ///< R: the playing one
+    bool isPlaying() const noexcept { return current_ != nullptr; }                 ///< R
+    Session* session() noexcept { return current_ ? &current_->session : nullptr; } ///< R: the playing run's
+    PluginRun* currentRun() noexcept { return current_; }                           ///< R: the playing one
     /// R: those of the playing run; the newest if none plays
-    const RenderSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; }
+    const RenderSettings& settings() const noexcept { return current_ ? current_->settings() : newSettings_; }
 
     /// Called before each part of a block. True if a run begins, without controls. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
@@ -228,8 +228,8 @@ private:
     std::atomic<bool> hasMusic_{false};      // likewise
     std::condition_variable workCondition_;
 
-    std::atomic<PluginRun*> spare_{nullptr};
-    std::atomic<std::uint64_t> newestGeneration_{0}; // of the last settings that came into spare_
+    std::atomic<PluginRun*> spareRun_{nullptr};
+    std::atomic<std::uint64_t> newestGeneration_{0}; // of the last settings that came into spareRun_
     std::atomic<bool> hasNextRun_{false}, isStopping_{false};
     std::atomic<std::int64_t> safeFrames_{0}, tightFrames_{0}, directFrames_{0}; // of the last settings
     std::atomic<StepTiming> timing_{StepTiming::safe};
@@ -240,7 +240,7 @@ private:
     bool isManuallyStepped_ = false;
 
     // R
-    PluginRun* playing_ = nullptr;
+    PluginRun* current_ = nullptr;
     PluginRun* nextRun_ = nullptr;
     std::array<PluginRun*, maxEnding> ending_{}; // the oldest first
     std::size_t endingCount_ = 0;

@@ -54,12 +54,12 @@ bool canKeepPlaying(const PluginState& a, const PluginState& b) {
            a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
 }
 
-PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept {
+PhantomPanner makePanner(const PluginState& state, PanningLaw law, double exponent) noexcept {
     return {state.layout.geometry, law, exponent, state.scene.fieldWidthMetres,
             state.scene.fieldHeightMetres};
 }
 
-SessionSetup sessionSetupOf(const PluginState& state) {
+SessionSetup makeSessionSetup(const PluginState& state) {
     SessionSetup setup;
     setup.scene = state.scene;
     setup.seed = state.seed;
@@ -67,7 +67,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.hasWorld = hasWorld(state);
     setup.channels = actuatorCount(state);
     setup.modes = 256; // fewer than a mixer's, because a host may have many instances
-    setup.panner = pannerOf(state, PanningLaw::linear, 1.0);
+    setup.panner = makePanner(state, PanningLaw::linear, 1.0);
     setup.limiterEnabled = state.limiterEnabled;
     setup.equalised = state.equalised;
     setup.groups = actionGroups(state);
@@ -145,15 +145,15 @@ void setParameter(PluginState& state, Parameter which, double value) {
 std::string parameterError(const PluginState& state) {
     const auto unknownId = [](const std::string& id) { return "no parameter \"" + id + "\""; };
     for (const auto& [id, value] : state.parameters) {
-        const int which = parameterOfId(id);
+        const int which = findParameter(id);
         if (which < 0) return unknownId(id);
         if (const auto& row = rowOf(static_cast<Parameter>(which)); !fromStateValue(row, value))
             return "parameters." + id + ": expected " +
-                   (row.choices.empty() ? "a number" : "one of " + listed(row.choices)) + ", found \"" +
+                   (row.choices.empty() ? "a number" : "one of " + nameList(row.choices)) + ", found \"" +
                    std::get<std::string>(value) + "\"";
     }
     for (const auto& rule : state.controllers)
-        if (parameterOfId(rule.parameter) < 0) return unknownId(rule.parameter);
+        if (findParameter(rule.parameter) < 0) return unknownId(rule.parameter);
     return {};
 }
 
@@ -197,12 +197,13 @@ struct Instrument {
 };
 
 NoteVoice struckVoice(NotePlacement places, double decayPerSecond) {
-    return {.pitch = NotePitch::note, .places = places, .levelsPeak = true, .decayPerSecond = decayPerSecond};
+    return {
+        .pitch = NotePitch::note, .placement = places, .levelsPeak = true, .decayPerSecond = decayPerSecond};
 }
 
 NoteVoice heldVoice(NotePlacement places, double releaseSeconds, double bendSemitones) {
     return {.pitch = NotePitch::note,
-            .places = places,
+            .placement = places,
             .isHeld = true,
             .levelsPeak = true,
             .decayPerSecond = 10.0,
@@ -304,7 +305,7 @@ LayoutDescription arrangedLayout(Arrangement arrangement, int count) {
 }
 
 /// The instrument that a state plays; null: a scene.
-const Instrument* instrumentOf(const PluginState& state) {
+const Instrument* findInstrument(const PluginState& state) {
     const auto found = std::ranges::find(instruments(), state.scene.name, &Instrument::name);
     return found == instruments().end() ? nullptr : &*found;
 }
@@ -369,14 +370,14 @@ std::string displayName(std::string name) {
 }
 
 // By the name alone: a built-in scene may have changed since a session was saved.
-int presetIndexOf(const PluginState& state) {
+int findPresetIndex(const PluginState& state) {
     const auto& names = presetNames();
     const auto found = std::ranges::find(names, state.scene.name);
     return found == names.end() ? 0 : static_cast<int>(found - names.begin());
 }
 
 void rearrange(PluginState& state, int outputs) {
-    const auto* const instrument = instrumentOf(state);
+    const auto* const instrument = findInstrument(state);
     const auto before = std::exchange(
         state.layout, arrangedLayout(instrument ? instrument->arrangement : Arrangement::grid, outputs));
     copyActuatorProperties(state.layout, before.actuators);
@@ -391,7 +392,7 @@ void applyBuiltInPreset(PluginState& state, int index, int outputs) {
 }
 
 double presetStrikeDb(const PluginState& state) {
-    const auto* const instrument = instrumentOf(state);
+    const auto* const instrument = findInstrument(state);
     return std::max(rowOf(Parameter::strikeLevel).initial, instrument ? instrument->strikeDb : 0.0);
 }
 

@@ -25,8 +25,8 @@ void setScene(PluginState& state, Scene scene);
 bool canKeepPlaying(const PluginState& a, const PluginState& b);
 
 /// The panner and the session settings of a state. Any thread.
-PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
-SessionSetup sessionSetupOf(const PluginState& state);
+PhantomPanner makePanner(const PluginState& state, PanningLaw law, double exponent) noexcept;
+SessionSetup makeSessionSetup(const PluginState& state);
 
 /// True if anything can ever move: the scene has bodies, a script or inputs, or a note spawns bodies. If not,
 /// no world is stepped, and L has no steps. Any thread.
@@ -60,7 +60,7 @@ const std::vector<std::string>& presetNames();
 std::string displayName(std::string name);
 
 /// Index of the preset whose scene a state has; 0 if it is none of them. Any thread.
-int presetIndexOf(const PluginState& state);
+int findPresetIndex(const PluginState& state);
 
 /// Sets scene, voice, notes and note parameters to those of preset `index`, on `outputs` actuators (0: as
 /// many as it is made for). A scene keeps a custom layout if there are outputs for it. M only.

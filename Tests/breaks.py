@@ -99,9 +99,9 @@ class Overlay:
         return found
 
     def moved(self, text: str) -> str:
-        """The sources' paths in a command or a file that is compiled, those of the copy."""
+        """The sources' paths in a command or a file that is compiled, those of the copy; what was unpacked in build/, as JUCE, stays there."""
         text = text.replace(f"{self.build}/Tests/Places", f"{self.tree}/Places")
-        return re.sub(rf"{re.escape(str(self.source))}(?!{re.escape(str(self.build)[len(str(self.source)) :])})(?=[/\"]|$)", str(self.tree), text)
+        return re.sub(rf"{re.escape(str(self.source))}(?!/build/|{re.escape(str(self.build)[len(str(self.source)) :])})(?=[/\"]|$)", str(self.tree), text)
 
     def compile(self, words: list[str]) -> None:
         at = words.index("-o")

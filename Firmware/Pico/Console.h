@@ -16,7 +16,7 @@ public:
         const char* serialNumber;
         bool isPlaying;
         std::int32_t ceiling;
-        std::uint32_t underruns, overruns, missingPackets, wrongSizes, restarts, limitedTiles, levelFrames,
+        std::uint32_t underruns, overruns, missingPackets, sizeErrors, restarts, limitedTiles, levelFrames,
             worstTileCycles;
     };
 
@@ -64,7 +64,7 @@ private:
         addCounter(" underruns ", status.underruns);
         addCounter(" overruns ", status.overruns);
         addCounter(" missing_packets ", status.missingPackets);
-        addCounter(" wrong_sizes ", status.wrongSizes);
+        addCounter(" wrong_sizes ", status.sizeErrors);
         addCounter(" restarts ", status.restarts);
         addCounter(" limited_tiles ", status.limitedTiles);
         addCounter(" level_frames ", status.levelFrames);
@@ -77,10 +77,10 @@ private:
     }
     void add(std::uint32_t number) noexcept {
         std::array<char, 10> digits{};
-        std::size_t at = digits.size();
-        do digits[--at] = static_cast<char>('0' + number % 10);
+        std::size_t start = digits.size();
+        do digits[--start] = static_cast<char>('0' + number % 10);
         while ((number /= 10) > 0);
-        add(std::string_view(digits.data() + at, digits.size() - at));
+        add(std::string_view(digits.data() + start, digits.size() - start));
     }
 
     std::array<char, 24> line_{};

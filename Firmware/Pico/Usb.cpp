@@ -26,10 +26,10 @@ static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
 
 Player<boardChannels>* player = nullptr;
 AudioControls<boardChannels> controls;
-Feedback feedback;
+Feedback usbFeedback;
 MissingPackets missingPackets;
-Console console;
-std::uint32_t wrongSizes = 0, restarts = 0;
+Console usbConsole;
+std::uint32_t sizeErrors = 0, restarts = 0;
 bool isStreaming = false;      // alternate setting 1 is selected
 FeedbackFormat feedbackFormat; // also read by the interrupt of USB
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
@@ -44,7 +44,7 @@ constexpr int savedWords = 3;
 static_assert(sizeof(SavedSettings) <= savedWords * sizeof(std::uint32_t));
 
 void saveSettings() noexcept {
-    const SavedSettings saved{controls.toBytes(), console.isSilenced()};
+    const SavedSettings saved{controls.toBytes(), usbConsole.isSilenced()};
     std::uint32_t words[savedWords]{};
     std::memcpy(words, &saved, sizeof saved);
     for (int k = 0; k < savedWords; ++k) watchdog_hw->scratch[k + 1] = words[k];
@@ -55,7 +55,7 @@ void restoreSettings() noexcept {
     SavedSettings saved;
     std::memcpy(&saved, words, sizeof saved);
     controls.setFromBytes(saved.volumes);
-    if (saved.isSilenced != 0) console.silence();
+    if (saved.isSilenced != 0) usbConsole.silence();
 }
 
 void applyVolume() noexcept {
@@ -83,7 +83,7 @@ void disarmStream() noexcept {
 void answerConsole() noexcept {
     while (tud_cdc_available() > 0) {
         const auto c = static_cast<char>(tud_cdc_read_char());
-        if (!console.receive(c)) continue;
+        if (!usbConsole.receive(c)) continue;
         const Console::Status status{boardChannels,
                                      serialNumber,
                                      player->isPlaying(),
@@ -91,12 +91,12 @@ void answerConsole() noexcept {
                                      player->underruns(),
                                      player->buffer.overruns(),
                                      missingPackets.count(),
-                                     wrongSizes,
+                                     sizeErrors,
                                      restarts,
                                      player->limitedTiles(),
                                      player->buffer.level(),
                                      worstTileCycles()};
-        const auto answer = console.answer(status);
+        const auto answer = usbConsole.answer(status);
         saveSettings();
         tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // the rest is dropped
         tud_cdc_write_flush();
@@ -120,13 +120,13 @@ void startUsb(Player<boardChannels>& output, std::uint32_t watchdogRestarts) noe
 void pollUsb() noexcept {
     tud_task();
     answerConsole();
-    const bool isStopped = !tud_ready() || console.isSilenced();
+    const bool isStopped = !tud_ready() || usbConsole.isSilenced();
     if (isStopped) player->requestSoftStart();
     player->setAllowed(isStreaming && !isStopped);
 }
 
 std::uint32_t errorCount() noexcept {
-    return player->underruns() + player->buffer.overruns() + missingPackets.count() + wrongSizes + restarts;
+    return player->underruns() + player->buffer.overruns() + missingPackets.count() + sizeErrors + restarts;
 }
 
 } // namespace physvib::pico
@@ -198,9 +198,9 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
     if (tud_audio_available() > 0) tud_audio_clear_ep_out_ff();
     if (missingPackets.update(usb_hw->sof_rd, player->isPlaying())) player->buffer.markGap();
     player->buffer.write(frames, readBytes / frameBytes);
-    if (readBytes % frameBytes != 0) ++wrongSizes, player->buffer.markGap();
-    tud_audio_n_fb_set(0, feedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
-                                        player->isPlaying()));
+    if (readBytes % frameBytes != 0) ++sizeErrors, player->buffer.markGap();
+    tud_audio_n_fb_set(0, usbFeedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
+                                           player->isPlaying()));
     return true;
 }
 

@@ -233,8 +233,8 @@ void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
 
 std::uint64_t VirtualBoard::storeCycle() const {
     if (currentBlock_ == nullptr || storesInBlock_ == 0) return cycle_;
-    const auto& at = currentBlock_->storeCycles;
-    return cycle_ + (at.empty() ? 0 : at[std::min<std::size_t>(storesInBlock_, at.size()) - 1]);
+    const auto& cycles = currentBlock_->storeCycles;
+    return cycle_ + (cycles.empty() ? 0 : cycles[std::min<std::size_t>(storesInBlock_, cycles.size()) - 1]);
 }
 
 void VirtualBoard::onBlock(uc_engine*, std::uint64_t address, std::uint32_t size, void* self) {
@@ -341,7 +341,7 @@ void VirtualBoard::runUntil(double seconds) {
 namespace {
 
 template <class T>
-T at(const std::vector<std::uint8_t>& file, std::size_t offset) {
+T readAt(const std::vector<std::uint8_t>& file, std::size_t offset) {
     if (offset + sizeof(T) > file.size()) throw std::runtime_error("ends too early");
     T value;
     std::memcpy(&value, file.data() + offset, sizeof value);
@@ -350,7 +350,7 @@ T at(const std::vector<std::uint8_t>& file, std::size_t offset) {
 
 void readSegments(const std::vector<std::uint8_t>& file, const Elf32_Ehdr& head, ElfImage& image) {
     for (unsigned i = 0; i < head.e_phnum; ++i) {
-        const auto part = at<Elf32_Phdr>(file, head.e_phoff + i * sizeof(Elf32_Phdr));
+        const auto part = readAt<Elf32_Phdr>(file, head.e_phoff + i * sizeof(Elf32_Phdr));
         if (part.p_type != PT_LOAD || part.p_filesz == 0) continue;
         if (part.p_offset + static_cast<std::size_t>(part.p_filesz) > file.size())
             throw std::runtime_error("ends too early");
@@ -361,11 +361,11 @@ void readSegments(const std::vector<std::uint8_t>& file, const Elf32_Ehdr& head,
 
 void readSymbols(const std::vector<std::uint8_t>& file, const Elf32_Ehdr& head, ElfImage& image) {
     for (unsigned i = 0; i < head.e_shnum; ++i) {
-        const auto section = at<Elf32_Shdr>(file, head.e_shoff + i * sizeof(Elf32_Shdr));
+        const auto section = readAt<Elf32_Shdr>(file, head.e_shoff + i * sizeof(Elf32_Shdr));
         if (section.sh_type != SHT_SYMTAB) continue;
-        const auto names = at<Elf32_Shdr>(file, head.e_shoff + section.sh_link * sizeof(Elf32_Shdr));
+        const auto names = readAt<Elf32_Shdr>(file, head.e_shoff + section.sh_link * sizeof(Elf32_Shdr));
         for (std::size_t k = 0; k < section.sh_size / sizeof(Elf32_Sym); ++k) {
-            const auto symbol = at<Elf32_Sym>(file, section.sh_offset + k * sizeof(Elf32_Sym));
+            const auto symbol = readAt<Elf32_Sym>(file, section.sh_offset + k * sizeof(Elf32_Sym));
             std::string name;
             for (std::size_t c = names.sh_offset + symbol.st_name; c < file.size() && file[c] != 0; ++c)
                 name += static_cast<char>(file[c]);
@@ -382,7 +382,7 @@ ElfImage readElf(const std::string& path) {
     const std::vector<std::uint8_t> file((std::istreambuf_iterator<char>(in)), {});
     ElfImage image;
     try {
-        const auto head = at<Elf32_Ehdr>(file, 0);
+        const auto head = readAt<Elf32_Ehdr>(file, 0);
         if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_machine != EM_ARM)
             throw std::runtime_error("expected an Arm ELF file");
         readSegments(file, head, image);

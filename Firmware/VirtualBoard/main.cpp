@@ -96,17 +96,17 @@ public:
         for (; evaluatedFrames_ < io.frames.size(); ++evaluatedFrames_) {
             const bool isSilent =
                 std::ranges::all_of(io.frames[evaluatedFrames_], [](int code) { return code == midScale; });
-            if (!isSilent && silentFrames_ >= silenceFrames) write("sound", secondsOf(io, evaluatedFrames_));
+            if (!isSilent && silentFrames_ >= silenceFrames) write("sound", secondsAt(io, evaluatedFrames_));
             silentFrames_ = isSilent ? silentFrames_ + 1 : 0;
             if (silentFrames_ == silenceFrames)
-                write("silence", secondsOf(io, evaluatedFrames_ + 1 - silenceFrames));
+                write("silence", secondsAt(io, evaluatedFrames_ + 1 - silenceFrames));
         }
     }
 
 private:
     static constexpr std::size_t silenceFrames = 160;
     static constexpr int midScale = 128;
-    static double secondsOf(const Peripherals& io, std::size_t frame) {
+    static double secondsAt(const Peripherals& io, std::size_t frame) {
         return static_cast<double>(io.frameCycles[frame]) / io.hz();
     }
 

@@ -15,7 +15,7 @@ CollisionRecorder::CollisionRecorder(const FixtureTable& table, ContactGraph& gr
     collisions_.reserve(expectedCollisions);
     ends_.reserve(expectedCollisions);
     aftermaths_.reserve(expectedCollisions);
-    struck_.reserve(2 * expectedCollisions);
+    struckIds_.reserve(2 * expectedCollisions);
 }
 
 void CollisionRecorder::beginStep(const StepSpan& span) noexcept {
@@ -26,28 +26,28 @@ void CollisionRecorder::beginStep(const StepSpan& span) noexcept {
 void CollisionRecorder::endReports() {
     isStepping_ = false;
     if (!collisions_.empty() || !aftermaths_.empty())
-        loads_.endReports(); // without a collision no impulse is transmitted
+        impulses_.endReports(); // without a collision no impulse is transmitted
 }
 
 void CollisionRecorder::endStep() {
-    for (const Aftermath& last : aftermaths_) {
-        pairs_[last.pair].lastIndex = TouchingPairs::none;
-        loads_.updateLast(last.pair);
+    for (const Aftermath& aftermath : aftermaths_) {
+        pairs_[aftermath.pair].lastIndex = TouchingPairs::none;
+        impulses_.updateLast(aftermath.pair);
     }
     aftermaths_.clear();
-    for (const std::uint64_t fixture : struck_) struckFilter_.remove(fixture);
-    struck_.clear();
+    for (const std::uint64_t fixture : struckIds_) struckFilter_.remove(fixture);
+    struckIds_.clear();
     for (const Collision& collision : collisions_) {
         pairs_[collision.pair].collisionIndex = TouchingPairs::none;
         pairs_[collision.pair].lastIndex = static_cast<std::int32_t>(aftermaths_.size());
-        loads_.updateLast(collision.pair);
+        impulses_.updateLast(collision.pair);
         aftermaths_.push_back({collision.pair, {}});
         for (const std::int32_t slot : {collision.a, collision.b}) {
-            struck_.push_back(table_[slot].fixture);
-            struckFilter_.add(struck_.back());
+            struckIds_.push_back(table_[slot].fixture);
+            struckFilter_.add(struckIds_.back());
         }
     }
-    loads_.endStep();
+    impulses_.endStep();
     pairs_.endStep();
     hasReports_ = false;
     collisions_.clear();
@@ -57,23 +57,23 @@ void CollisionRecorder::endStep() {
 }
 
 void CollisionRecorder::forget(std::int32_t slot) noexcept {
-    const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
+    const auto involves = [slot](const auto& record) { return record.a == slot || record.b == slot; };
     for (const Collision& collision : collisions_)
         pairs_[collision.pair].collisionIndex = TouchingPairs::none;
-    std::erase_if(collisions_, isOf);
+    std::erase_if(collisions_, involves);
     directCollisions_ = 0;
     for (std::size_t i = 0; i < collisions_.size(); ++i) {
         pairs_[collisions_[i].pair].collisionIndex = static_cast<std::int32_t>(i);
         directCollisions_ += touchesSource(collisions_[i].a, collisions_[i].b) ? 1 : 0;
     }
-    std::erase_if(ends_, isOf);
-    loads_.forget(slot);
+    std::erase_if(ends_, involves);
+    impulses_.forget(slot);
 }
 
 std::int32_t CollisionRecorder::begin(std::int32_t a, std::int32_t b) {
     const std::int32_t number = graph_.insert(a, b);
     countContact(a, b);
-    if (isStepping_ && touchesSource(a, b)) loads_.begin({a, b, number});
+    if (isStepping_ && touchesSource(a, b)) impulses_.begin({a, b, number});
     return number;
 }
 
@@ -99,14 +99,14 @@ void CollisionRecorder::countBelowThreshold(std::int32_t a, std::int32_t b, doub
 
 bool CollisionRecorder::collidedInLastStep(std::int32_t slot) const noexcept {
     const std::uint64_t fixture = table_[slot].fixture;
-    return struckFilter_.mayContain(fixture) && std::ranges::find(struck_, fixture) != struck_.end();
+    return struckFilter_.mayContain(fixture) && std::ranges::find(struckIds_, fixture) != struckIds_.end();
 }
 
 double CollisionRecorder::aftermathNewtonSeconds(std::int32_t pair) const noexcept {
-    const std::int32_t last = pairs_[pair].lastIndex;
-    return last == TouchingPairs::none
+    const std::int32_t index = pairs_[pair].lastIndex;
+    return index == TouchingPairs::none
                ? 0.0
-               : static_cast<double>(aftermaths_[static_cast<std::size_t>(last)].newtonSeconds.length());
+               : static_cast<double>(aftermaths_[static_cast<std::size_t>(index)].newtonSeconds.length());
 }
 
 Collision* CollisionRecorder::addCollision(const TouchingPairs::Handle& pair,
@@ -117,8 +117,8 @@ Collision* CollisionRecorder::addCollision(const TouchingPairs::Handle& pair,
         std::max(tally_.fastestApproachMetresPerSecond, approachMetresPerSecond);
     const bool isDirect = touchesSource(a, b);
     const std::size_t count = isDirect ? directCollisions_ : collisions_.size() - directCollisions_;
-    const FixtureTable::Mobility &ofA = table_.mobility(a), &ofB = table_.mobility(b);
-    const double lighterMassKg = std::min(ofA.movableMassKg, ofB.movableMassKg);
+    const FixtureTable::Mobility &mobilityA = table_.mobility(a), &mobilityB = table_.mobility(b);
+    const double lighterMassKg = std::min(mobilityA.movableMassKg, mobilityB.movableMassKg);
     const double expected = lighterMassKg * approachMetresPerSecond;
     Collision* collision = nullptr;
     if (count < (isDirect ? maxDirectCollisions : maxDistantCollisions)) {
@@ -126,7 +126,7 @@ Collision* CollisionRecorder::addCollision(const TouchingPairs::Handle& pair,
         directCollisions_ += isDirect ? 1 : 0;
     } else {
         ++drops_;
-        collision = weakest(isDirect);
+        collision = findWeakest(isDirect);
         if (collision->expectedNewtonSeconds >= expected) return nullptr;
         pairs_[collision->pair].collisionIndex = TouchingPairs::none;
         *collision = {};
@@ -136,14 +136,14 @@ Collision* CollisionRecorder::addCollision(const TouchingPairs::Handle& pair,
     collision->a = a;
     collision->b = b;
     collision->order = order_++;
-    collision->gravityScale = std::max(ofA.gravityScale, ofB.gravityScale);
+    collision->gravityScale = std::max(mobilityA.gravityScale, mobilityB.gravityScale);
     collision->lighterMassKg = lighterMassKg;
     collision->expectedNewtonSeconds = expected;
     return collision;
 }
 
 // Linear search, because the list is full only when hundreds of pairs collide at once.
-Collision* CollisionRecorder::weakest(bool isDirect) noexcept {
+Collision* CollisionRecorder::findWeakest(bool isDirect) noexcept {
     Collision* found = nullptr;
     for (Collision& collision : collisions_)
         if (touchesSource(collision.a, collision.b) == isDirect &&
@@ -159,7 +159,7 @@ TransmittedImpulses::TransmittedImpulses(const FixtureTable& table, TouchingPair
     contacts_.reserve(expectedLoads);
     transmitted_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
-    ended_.reserve(expectedContacts);
+    endedLoads_.reserve(expectedContacts);
 }
 
 TransmittedImpulses::Place& TransmittedImpulses::add(const TouchingPairs::Handle& pair, std::int32_t load,
@@ -188,15 +188,15 @@ void TransmittedImpulses::endReports() {
         const Contact& contact = contacts[i];
         if (contact.step != step || contact.isUnknown) continue;
         const std::array<float, 4> squares = contact.squares();
-        const auto before = [&](unsigned steps) { return (contact.newest - steps) % 4; };
-        const unsigned oneAgo = before(1), twoAgo = before(2), threeAgo = before(3),
+        const auto indexAgo = [&](unsigned steps) { return (contact.newest - steps) % 4; };
+        const unsigned oneAgo = indexAgo(1), twoAgo = indexAgo(2), threeAgo = indexAgo(3),
                        newer = squares[twoAgo] < squares[oneAgo] ? twoAgo : oneAgo,
                        load = squares[threeAgo] < squares[newer] ? threeAgo : newer;
         if (squares[contact.newest] <= squares[load]) continue;
-        const Vector3 beyond = contact.impulse(contact.newest) - contact.impulse(load);
-        const float magnitude = beyond.length();
-        addReceived(contact.pair.a, contact.pair.b, -beyond, magnitude, i);
-        addReceived(contact.pair.b, contact.pair.a, beyond, magnitude, i);
+        const Vector3 excess = contact.impulse(contact.newest) - contact.impulse(load);
+        const float magnitude = excess.length();
+        addReceived(contact.pair.a, contact.pair.b, -excess, magnitude, i);
+        addReceived(contact.pair.b, contact.pair.a, excess, magnitude, i);
     }
 }
 
@@ -221,15 +221,15 @@ void TransmittedImpulses::endStep() {
     for (const std::int32_t slot : receivers_)
         transmitted_[static_cast<std::size_t>(slot)].other = FixtureTable::none;
     receivers_.clear();
-    ended_.clear();
+    endedLoads_.clear();
     pairs_.forEachReleaseCandidate([&](const TouchingPairs::Pair& pair) {
         if (pair.loadIndex != TouchingPairs::none &&
             contacts_[static_cast<std::size_t>(pair.loadIndex)].step != step_ && !pair.isTouching())
-            ended_.push_back(pair.loadIndex);
+            endedLoads_.push_back(pair.loadIndex);
     });
-    std::sort(ended_.begin(), ended_.end(), std::greater<>{});
-    ended_.erase(std::unique(ended_.begin(), ended_.end()), ended_.end());
-    for (const std::int32_t contact : ended_) drop(static_cast<std::size_t>(contact));
+    std::sort(endedLoads_.begin(), endedLoads_.end(), std::greater<>{});
+    endedLoads_.erase(std::unique(endedLoads_.begin(), endedLoads_.end()), endedLoads_.end());
+    for (const std::int32_t contact : endedLoads_) drop(static_cast<std::size_t>(contact));
     if (++step_ == 0) step_ = 1;
 }
 

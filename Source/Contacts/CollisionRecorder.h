@@ -133,7 +133,7 @@ private:
     TouchingPairs& pairs_; // stores the index of each pair's load
     std::vector<Contact> contacts_;
     std::vector<Transmitted> transmitted_; // by slot
-    std::vector<std::int32_t> receivers_, ended_;
+    std::vector<std::int32_t> receivers_, endedLoads_;
     std::uint32_t step_ = 1; // the step's number, never 0
 };
 
@@ -240,24 +240,24 @@ public:
     /// Adds the impulse, N s in the world, by which parts that do not collide have pushed b, and a by the
     /// opposite.
     void push(const TouchingPairs::Handle& pair, Vector3 newtonSeconds, Vector3 point) {
-        const bool isOfSource = touchesSource(pair.a, pair.b);
+        const bool hasSource = touchesSource(pair.a, pair.b);
         if (TransmittedImpulses::Place* const place =
-                push(pair, pairs_[pair.number], isOfSource, newtonSeconds))
+                push(pair, pairs_[pair.number], hasSource, newtonSeconds))
             place->set(point);
     }
     /// push() for a caller that has the stored pair and knows whether it touches a source. Returns the
     /// place, which the caller sets, or null.
     TransmittedImpulses::Place* push(const TouchingPairs::Handle& pair, const TouchingPairs::Pair& stored,
-                                     bool isOfSource, Vector3 newtonSeconds) {
+                                     bool hasSource, Vector3 newtonSeconds) {
         hasReports_ = true;
         if (stored.lastIndex != TouchingPairs::none) [[unlikely]]
             aftermaths_[static_cast<std::size_t>(stored.lastIndex)].newtonSeconds += newtonSeconds;
-        return isOfSource ? &loads_.add(pair, stored.loadIndex, newtonSeconds) : nullptr;
+        return hasSource ? &impulses_.add(pair, stored.loadIndex, newtonSeconds) : nullptr;
     }
-    /// The faster path for an entry that loads().findSteady() has returned.
+    /// The faster path for an entry that impulses().findSteady() has returned.
     TransmittedImpulses::Place& push(TransmittedImpulses::Contact& steady, Vector3 newtonSeconds) {
         hasReports_ = true;
-        return loads_.push(steady, newtonSeconds);
+        return impulses_.push(steady, newtonSeconds);
     }
 
     const std::vector<Collision>& collisions() const noexcept { return collisions_; }
@@ -268,8 +268,8 @@ public:
     const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
     /// True if the fixture collided in the last step.
     bool collidedInLastStep(std::int32_t slot) const noexcept;
-    const TransmittedImpulses& loads() const noexcept { return loads_; }
-    TransmittedImpulses& loads() noexcept { return loads_; }
+    const TransmittedImpulses& impulses() const noexcept { return impulses_; }
+    TransmittedImpulses& impulses() noexcept { return impulses_; }
 
     /// Collisions dropped so far because the arrays were full.
     std::uint64_t drops() const noexcept { return drops_; }
@@ -279,17 +279,17 @@ private:
         std::int32_t pair;
         Vector3 newtonSeconds;
     };
-    Collision* weakest(bool isDirect) noexcept;
+    Collision* findWeakest(bool isDirect) noexcept;
 
     const FixtureTable& table_;
     ContactGraph& graph_;
     TouchingPairs& pairs_; // the graph's
-    TransmittedImpulses loads_{table_, pairs_};
+    TransmittedImpulses impulses_{table_, pairs_};
     StepSpan span_;
     std::vector<Collision> collisions_; // of this step
     std::vector<ContactEnd> ends_;
     std::vector<Aftermath> aftermaths_;
-    std::vector<std::uint64_t> struck_; // engine's numbers of the fixtures that collided in the last step
+    std::vector<std::uint64_t> struckIds_; // engine's numbers of the fixtures that collided in the last step
     CountingFilter struckFilter_;
     std::size_t directCollisions_ = 0;
     std::int32_t order_ = 0;

@@ -72,8 +72,8 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     return *this;
 }
 
-void ContactCounts::note(EngineNote what, std::int32_t body) noexcept {
-    NoteCount& noted = notes[static_cast<std::size_t>(what)];
+void ContactCounts::note(EngineNote kind, std::int32_t body) noexcept {
+    NoteCount& noted = notes[static_cast<std::size_t>(kind)];
     ++noted.count;
     noted.body = body;
 }
@@ -99,20 +99,20 @@ std::string formatThreeDigits(double value) {
     return number;
 }
 
-std::string countWithNoun(std::uint64_t count, std::string_view what) {
-    return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+std::string countWithNoun(std::uint64_t count, std::string_view noun) {
+    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }
 
-std::string replaceNames(std::string sentence, Names wanted) {
+std::string replaceNames(std::string sentence, Names vocabulary) {
     std::string replaced;
     for (std::string_view text = sentence; !text.empty();) {
         const auto match =
             std::ranges::find_if(names, [&](const Name& name) { return text.starts_with(name.inC); });
         const bool isWord = match != names.end();
         if (isWord)
-            replaced += wanted == Names::cpp     ? match->inCpp
-                        : wanted == Names::scene ? match->inScene
-                                                 : match->inMixer;
+            replaced += vocabulary == Names::cpp     ? match->inCpp
+                        : vocabulary == Names::scene ? match->inScene
+                                                     : match->inMixer;
         else
             replaced += text.front();
         text.remove_prefix(isWord ? match->inC.size() : 1);

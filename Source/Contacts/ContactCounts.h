@@ -20,8 +20,8 @@ struct EventBounds {
     std::uint64_t count = 0;
     double minX = std::numeric_limits<double>::infinity(), minY = minX, maxX = -minX, maxY = -minX;
 
-    void add(std::size_t added, std::array<double, 2> min, std::array<double, 2> max) noexcept {
-        count += added - 2; // the two corners below add 2
+    void add(std::size_t eventCount, std::array<double, 2> min, std::array<double, 2> max) noexcept {
+        count += eventCount - 2; // the two corners below add 2
         add(min[0], min[1]);
         add(max[0], max[1]);
     }
@@ -90,7 +90,7 @@ struct ContactCounts {
     }
 
     /// Notes what the engine says of a haptic source.
-    void note(EngineNote what, std::int32_t body) noexcept;
+    void note(EngineNote kind, std::int32_t body) noexcept;
 
     /// True if the world was stepped, or a contact was reported.
     bool hasActivity() const noexcept { return steps + contacts + outsideSteps + unknownBodies > 0; }
@@ -136,13 +136,13 @@ std::string outputReason(const ContactCounts& counts, const OutputFacts& output)
 std::string formatThreeDigits(double value);
 
 /// The number with its noun in singular or plural: `1 event`, `2 events`. Any thread.
-std::string countWithNoun(std::uint64_t count, std::string_view what);
+std::string countWithNoun(std::uint64_t count, std::string_view noun);
 
 /// Whose names an explanation uses: those of the C++ classes, of scene files, or of the mixer's controls.
 enum class Names { cpp, scene, mixer };
 
 /// Replaces the names of physvib.h in an explanation. Languages with bindings do so themselves, by the names
 /// of their bindings. Any thread.
-std::string replaceNames(std::string sentence, Names names);
+std::string replaceNames(std::string sentence, Names vocabulary);
 
 } // namespace physvib

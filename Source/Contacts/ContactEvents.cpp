@@ -19,7 +19,7 @@ bool isAutomatic(const ImpactSettings& settings) noexcept {
     return settings.fullScaleNewtonSeconds == ImpactSettings::automatic;
 }
 
-const ImpactSettings& checked(const ImpactSettings& settings) {
+const ImpactSettings& requireValid(const ImpactSettings& settings) {
     if (const std::string_view error = errorOf(settings); !error.empty())
         throw std::invalid_argument(std::string(error));
     return settings;
@@ -44,7 +44,7 @@ std::string_view errorOf(const ImpactSettings& settings) noexcept {
 
 ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& settings)
     : bodies_(bodies)
-    , settings_(checked(settings))
+    , settings_(requireValid(settings))
     , recorder_(table_, graph_)
     , onset_(recorder_, table_, graph_)
     , release_(recorder_, table_, graph_, bodies)
@@ -54,7 +54,7 @@ ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& set
 }
 
 void ContactEvents::configure(const ImpactSettings& settings) {
-    settings_ = checked(settings);
+    settings_ = requireValid(settings);
     if (settings_.timing == ImpactTiming::onset)
         release_.reset();
     else
@@ -172,7 +172,7 @@ void ContactEvents::processStep() {
     }
     addImpacts();
     if (!lasting_.hasReports()) return;
-    EventMaker maker = makeEvents();
+    EventMaker maker = makeEventMaker();
     lasting_.collectInto(span_, maker);
 }
 
@@ -196,15 +196,15 @@ void ContactEvents::addImpacts() {
         fullScale_.learn(impacts_, span_, table_);
         model_.fullScaleNewtonSeconds = fullScale_.newtonSeconds();
     }
-    EventMaker maker = makeEvents();
+    EventMaker maker = makeEventMaker();
     for (const Impact& impact : impacts_) maker.add(impact);
 }
 
-EventMaker ContactEvents::makeEvents() noexcept {
-    return {table_, pairs_, bodies_, model_, settings_, pendingEvents_, recorder_.tally()};
+EventMaker ContactEvents::makeEventMaker() noexcept {
+    return {table_, pairSounds_, bodies_, model_, settings_, pendingEvents_, recorder_.tally()};
 }
 
-ContactCounts ContactEvents::recent() const noexcept {
+ContactCounts ContactEvents::recentCounts() const noexcept {
     ContactCounts counts = recorder_.tally();
     counts.dropped = drops() + overBudget_ - earlierCounts_.dropped;
     counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
@@ -219,21 +219,21 @@ ContactCounts ContactEvents::recent() const noexcept {
 }
 
 ContactCounts ContactEvents::counts() const noexcept {
-    ContactCounts all = earlierCounts_;
-    return all += recent();
+    ContactCounts total = earlierCounts_;
+    return total += recentCounts();
 }
 
 ContactCounts ContactEvents::takeRecent() noexcept {
-    const ContactCounts now = recent();
-    earlierCounts_ += now;
+    const ContactCounts counts = recentCounts();
+    earlierCounts_ += counts;
     recorder_.tally() = {};
-    return now;
+    return counts;
 }
 
-void ContactEvents::shift(Vector2 by) noexcept {
-    settings_.fieldOrigin += by;
-    onset_.shift(by);
-    release_.shift(by);
+void ContactEvents::shift(Vector2 offset) noexcept {
+    settings_.fieldOrigin += offset;
+    onset_.shift(offset);
+    release_.shift(offset);
 }
 
 } // namespace physvib

@@ -42,7 +42,7 @@ public:
 
     /// Sets the common sound of two kinds of surfaces (HapticFixture::surface). Returns the error, or empty.
     std::string_view setPair(int surface, int other, const PairSound& sound) {
-        return pairs_.set(surface, other, sound);
+        return pairSounds_.set(surface, other, sound);
     }
 
     const FixtureTable& fixtures() const noexcept { return table_; }
@@ -90,7 +90,7 @@ public:
 
     /// The engine has shifted all coordinates (a new origin): shifts pending impacts, and the field, so that
     /// events keep their places in it.
-    void shift(Vector2 by) noexcept;
+    void shift(Vector2 offset) noexcept;
 
     /// Contacts and events lost so far because buffers were full.
     std::uint64_t drops() const noexcept {
@@ -112,10 +112,10 @@ public:
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
-    ContactCounts recent() const noexcept;
+    ContactCounts recentCounts() const noexcept;
     void processStep();
     void addImpacts();
-    EventMaker makeEvents() noexcept;
+    EventMaker makeEventMaker() noexcept;
     void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool dropsEvents, bool dropsCaused);
 
@@ -132,7 +132,7 @@ private:
     StepSpan span_;
     std::vector<Impact> impacts_;
     FullScale fullScale_;
-    PairSounds pairs_;
+    PairSounds pairSounds_;
     std::uint64_t overBudget_ = 0;
     ContactCounts earlierCounts_; // until the last takeRecent(); later counts are in the recorder's tally
     bool isProcessed_ = true;

@@ -19,7 +19,7 @@ bool isFinite(const SpaceMotion& motion) noexcept {
     return isFinite(motion.metresPerSecond) && isFinite(motion.radiansPerSecond);
 }
 
-SpaceMotion inSpace(const BodyMotion& motion) noexcept {
+SpaceMotion toSpaceMotion(const BodyMotion& motion) noexcept {
     return {motion.metresPerSecond, {0.0F, 0.0F, motion.radiansPerSecond}};
 }
 
@@ -53,8 +53,8 @@ std::string_view errorOf(const FedContact& contact) noexcept {
         return "fraction: expected -1 to 2";
     if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
-    for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
-        if (!isWithin(along.value_or(0.0), -bound, bound))
+    for (const auto& speed : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
+        if (!isWithin(speed.value_or(0.0), -bound, bound))
             return "speed along a surface: expected a number of m/s";
     if (contact.pointId < FedContact::byPlace)
         return "point: expected a number from 0 on, -1 (none) or -2 (by place)";
@@ -128,7 +128,7 @@ std::string_view ContactFeed::setMass(std::int32_t id, double massKg) {
 }
 
 std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
-    return moveInSpace(id, centre, inSpace(motion));
+    return moveInSpace(id, centre, toSpaceMotion(motion));
 }
 
 std::string_view ContactFeed::moveInSpace(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
@@ -143,7 +143,7 @@ std::string_view ContactFeed::moveInSpace(std::int32_t id, Vector3 centre, const
 }
 
 std::string_view ContactFeed::moved(std::int32_t id, const BodyMotion& motion) {
-    return movedInSpace(id, inSpace(motion));
+    return movedInSpace(id, toSpaceMotion(motion));
 }
 
 std::string_view ContactFeed::movedInSpace(std::int32_t id, const SpaceMotion& motion) {
@@ -205,11 +205,11 @@ std::uint64_t ContactFeed::thinned() const noexcept { return contacts_->events()
 ContactCounts ContactFeed::counts() const noexcept { return contacts_->events().counts(); }
 ContactCounts ContactFeed::takeRecent() noexcept { return contacts_->events().takeRecent(); }
 
-std::string_view ContactFeed::note(std::int32_t id, EngineNote what) {
+std::string_view ContactFeed::note(std::int32_t id, EngineNote kind) {
     if (!contacts_->bodies().has(id)) return unknownBody;
     ContactEvents& events = contacts_->events();
     if (events.fixtures().isSource(events.fixtures().find(ReportedBodies::idOf(id))))
-        events.recorder().tally().note(what, id);
+        events.recorder().tally().note(kind, id);
     return {};
 }
 

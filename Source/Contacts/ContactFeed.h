@@ -162,7 +162,7 @@ public:
     /// Counts since the last call of this, or since the beginning: explain(takeRecent(), counts()).
     ContactCounts takeRecent() noexcept;
     /// Notes why the engine lets a body touch nothing, for the next explanation if it is a haptic source.
-    std::string_view note(std::int32_t id, EngineNote what);
+    std::string_view note(std::int32_t id, EngineNote kind);
     /// From an impulse to an amplitude: the constants of Eq. 5.4.
     const ImpactModel& impactModel() const noexcept;
 

@@ -23,12 +23,12 @@ struct Problem {
     std::array<double, maxPoints> targetMetresPerSecond, impulse;  // m/s, N s
     std::array<std::array<double, maxPoints>, maxPoints> coupling; // 1/kg
 
-    double sumOf(std::size_t point) const noexcept {
+    double couplingSum(std::size_t point) const noexcept {
         double sum = 0.0;
         for (std::size_t other = 0; other < count; ++other) sum += coupling[point][other];
         return sum;
     }
-    double missingSpeedOf(std::size_t point) const noexcept {
+    double missingSpeed(std::size_t point) const noexcept {
         double missing = targetMetresPerSecond[point];
         for (std::size_t other = 0; other < count; ++other)
             missing -= coupling[point][other] * impulse[other];
@@ -38,7 +38,7 @@ struct Problem {
         double change = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
             const double before = impulse[i];
-            impulse[i] = std::max(0.0, before + missingSpeedOf(i) / coupling[i][i]);
+            impulse[i] = std::max(0.0, before + missingSpeed(i) / coupling[i][i]);
             change = std::max(change, std::abs(impulse[i] - before));
         }
         return change;
@@ -49,7 +49,7 @@ struct Problem {
         double missing = 0.0, perNewtonSecond = 0.0, smallest = 1.0e300;
         for (std::size_t i = 0; i < count; ++i) {
             if (!(impulse[i] > 0.0)) continue;
-            missing += missingSpeedOf(i);
+            missing += missingSpeed(i);
             smallest = std::min(smallest, impulse[i]);
             for (std::size_t j = 0; j < count; ++j)
                 perNewtonSecond += impulse[j] > 0.0 ? coupling[i][j] : 0.0;
@@ -73,14 +73,14 @@ bool solveNormals(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, 
     for (std::size_t i = 0; i < problem.count; ++i) {
         problem.targetMetresPerSecond[i] = targetSpeedOf(points[i]);
         for (std::size_t j = 0; j < problem.count; ++j) {
-            const Vector3 push = isDragged ? points[j].normal + points[j].drag : points[j].normal;
+            const Vector3 pushDirection = isDragged ? points[j].normal + points[j].drag : points[j].normal;
             problem.coupling[i][j] =
-                bodies.coupling(a, b, points[j].point, push, points[i].point, points[i].normal);
+                bodies.coupling(a, b, points[j].point, pushDirection, points[i].point, points[i].normal);
         }
         if (!(problem.coupling[i][i] > 0.0)) return false;
     }
     for (std::size_t i = 0; i < problem.count; ++i) // this start is exact if all points behave alike
-        if (const double sum = problem.sumOf(i); sum > 0.0)
+        if (const double sum = problem.couplingSum(i); sum > 0.0)
             problem.impulse[i] = std::max(0.0, problem.targetMetresPerSecond[i] / sum);
     double change = 0.0, total = 0.0;
     for (int sweep = 0; sweep < maxImpactSweeps; ++sweep) {
@@ -121,8 +121,8 @@ std::int32_t MomentumImpulses::findOrAdd(const ReportedBodies& bodies, std::int3
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, const Point& point,
-                                              Vector3 direction) const {
+MomentumImpulses::Row MomentumImpulses::makeRow(const ReportedBodies& bodies, const Point& point,
+                                                Vector3 direction) const {
     Row row{.a = point.a,
             .b = point.b,
             .direction = direction,
@@ -131,7 +131,7 @@ MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, cons
     const auto inverseMassAt = [&](std::int32_t body, Vector3 lever) {
         if (body == none) return 0.0;
         const Body& known = bodies_[static_cast<std::size_t>(body)];
-        return known.perKg + known.inverseInertia.between(lever, lever);
+        return known.perKg + known.inverseInertia.coupling(lever, lever);
     };
     const double perKg = inverseMassAt(row.a, row.leverA) + inverseMassAt(row.b, row.leverB);
     row.effectiveKg = perKg > 0.0 ? 1.0 / perKg : 0.0;
@@ -142,7 +142,7 @@ MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, cons
 
 MomentumImpulses::Row& MomentumImpulses::addRow(const ReportedBodies& bodies, const Point& point,
                                                 Vector3 direction) {
-    rows_.push_back(rowOf(bodies, point, direction));
+    rows_.push_back(makeRow(bodies, point, direction));
     return rows_.back();
 }
 
@@ -176,7 +176,7 @@ bool MomentumImpulses::isInPlane(const Row& row) const {
     return speedOf(row.b, row.leverB) - speedOf(row.a, row.leverA);
 }
 
-[[gnu::always_inline]] inline void MomentumImpulses::push(const Row& row, double newtonSeconds) {
+[[gnu::always_inline]] inline void MomentumImpulses::applyImpulse(const Row& row, double newtonSeconds) {
     const auto addTo = [&](std::int32_t index, double impulse, Vector3 lever) __attribute__((always_inline)) {
         if (index == none) return;
         Body& body = bodies_[static_cast<std::size_t>(index)];
@@ -219,9 +219,9 @@ void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
     rowOrder_.clear();
     for (const bool isStruck : {true, false})
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            const std::size_t across = points_[i].across;
-            if (across == 0 || points_[i].isStruck != isStruck) continue;
-            for (const std::size_t row : {i, across, across + 1})
+            const std::size_t frictionRow = points_[i].frictionRow;
+            if (frictionRow == 0 || points_[i].isStruck != isStruck) continue;
+            for (const std::size_t row : {i, frictionRow, frictionRow + 1})
                 rowOrder_.push_back(static_cast<std::int32_t>(row));
         }
     sweep();
@@ -231,14 +231,14 @@ void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
 void MomentumImpulses::addFriction(const ReportedBodies& bodies, std::size_t point) {
     Vector3 unexplained;
     for (const Vector3 axis : {Vector3{1.0F}, Vector3{0.0F, 1.0F}, Vector3{0.0F, 0.0F, 1.0F}}) {
-        const Row row = rowOf(bodies, points_[point], axis);
+        const Row row = makeRow(bodies, points_[point], axis);
         unexplained += static_cast<float>(row.targetChange - explainedChange(row)) * axis;
     }
     const Vector3 normal = rows_[point].direction;
     const Vector3 slide = unexplained - static_cast<float>(dot(unexplained, normal)) * normal;
     const float length = slide.length();
     const Vector3 along = length > 0.0F ? 1.0F / length * slide : Vector3{};
-    points_[point].across = rows_.size();
+    points_[point].frictionRow = rows_.size();
     for (const Vector3 direction : {along, cross(normal, along)}) {
         Row& row = addRow(bodies, points_[point], direction);
         row.maxNewtonSeconds = maxFrictionRatio * rows_[point].newtonSeconds;
@@ -248,8 +248,8 @@ void MomentumImpulses::addFriction(const ReportedBodies& bodies, std::size_t poi
 
 Vector3 MomentumImpulses::friction(std::size_t point) const {
     Vector3 sum;
-    if (const std::size_t across = points_[point].across; across > 0)
-        for (const Row& row : std::span{rows_}.subspan(across, 2))
+    if (const std::size_t frictionRow = points_[point].frictionRow; frictionRow > 0)
+        for (const Row& row : std::span{rows_}.subspan(frictionRow, 2))
             sum += static_cast<float>(row.newtonSeconds) * row.direction;
     return sum;
 }
@@ -259,10 +259,10 @@ Vector3 MomentumImpulses::friction(std::size_t point) const {
 void MomentumImpulses::sortByBatch() {
     batchEnds_.assign(1, 0);
     for (Body& body : bodies_) body.nextBatch = 0;
-    std::erase_if(rowOrder_, [this](std::int32_t at) {
-        Row& row = rows_[static_cast<std::size_t>(at)];
-        const bool isAcross = row.direction.x == 0.0F && row.direction.y == 0.0F && row.targetChange == 0.0;
-        if (!(row.effectiveKg > 0.0) || isAcross) return true;
+    std::erase_if(rowOrder_, [this](std::int32_t index) {
+        Row& row = rows_[static_cast<std::size_t>(index)];
+        const bool isOffPlane = row.direction.x == 0.0F && row.direction.y == 0.0F && row.targetChange == 0.0;
+        if (!(row.effectiveKg > 0.0) || isOffPlane) return true;
         row.batch = 0;
         for (const std::int32_t body : {row.a, row.b})
             if (body != none)
@@ -276,8 +276,8 @@ void MomentumImpulses::sortByBatch() {
     for (std::size_t i = 1; i < batchEnds_.size(); ++i) batchEnds_[i] += batchEnds_[i - 1];
     unsorted_.swap(rowOrder_);
     rowOrder_.resize(unsorted_.size());
-    for (const std::int32_t at : unsorted_)
-        rowOrder_[batchEnds_[rows_[static_cast<std::size_t>(at)].batch]++] = at;
+    for (const std::int32_t index : unsorted_)
+        rowOrder_[batchEnds_[rows_[static_cast<std::size_t>(index)].batch]++] = index;
 }
 
 void MomentumImpulses::sweep() {
@@ -285,13 +285,13 @@ void MomentumImpulses::sweep() {
     double change = 1.0, strongest = 0.0;
     for (int sweep = 0; sweep < maxMomentumSweeps && !(change <= relativeTolerance * strongest); ++sweep) {
         change = strongest = 0.0;
-        for (const std::int32_t at : rowOrder_) {
-            Row& row = rows_[static_cast<std::size_t>(at)];
+        for (const std::int32_t index : rowOrder_) {
+            Row& row = rows_[static_cast<std::size_t>(index)];
             const double before = row.newtonSeconds;
             row.newtonSeconds =
                 std::clamp(before + (row.targetChange - explainedChange(row)) * row.effectiveKg,
                            row.minNewtonSeconds, row.maxNewtonSeconds);
-            if (row.newtonSeconds != before) push(row, row.newtonSeconds - before);
+            if (row.newtonSeconds != before) applyImpulse(row, row.newtonSeconds - before);
             change = std::max(change, std::abs(row.newtonSeconds - before));
             strongest = std::max(strongest, std::abs(row.newtonSeconds));
         }
@@ -310,8 +310,8 @@ void MomentumImpulses::sweepInPlane() {
     const auto bodyOf = [this](std::int32_t body) {
         return planeBodies_.data() + (body == none ? bodies_.size() : static_cast<std::size_t>(body));
     };
-    for (const std::int32_t at : rowOrder_) {
-        const Row& row = rows_[static_cast<std::size_t>(at)];
+    for (const std::int32_t index : rowOrder_) {
+        const Row& row = rows_[static_cast<std::size_t>(index)];
         planeRows_.push_back({bodyOf(row.a), bodyOf(row.b), static_cast<double>(row.direction.x),
                               static_cast<double>(row.direction.y), static_cast<double>(row.leverA.z),
                               static_cast<double>(row.leverB.z), row.targetChange, row.effectiveKg,

@@ -42,7 +42,7 @@ EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const
                        const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
                        ContactCounts& counts) noexcept
     : table_(table)
-    , pairs_(pairs)
+    , pairSounds_(pairs)
     , bodies_(bodies)
     , settings_(settings)
     , events_(events)
@@ -62,7 +62,7 @@ void EventMaker::addModesOf(const Impact& impact) {
 }
 
 void EventMaker::addGrains(const GrainRuns& runs) {
-    other_ = FixtureTable::none - 1; // the current pair is not that of event_
+    partner_ = FixtureTable::none - 1; // the current pair is not that of event_
     // the sign of a bound of 0 depends on the order of the grains
     const bool hasZero = runs.minPlace[0] * runs.minPlace[1] * runs.maxPlace[0] * runs.maxPlace[1] == 0.0;
     if (runs.isPlayable && !hasZero && events_.push(runs, event_)) [[likely]]
@@ -95,13 +95,13 @@ void EventMaker::setSource(std::int32_t source) {
         isScaled ? model_.fullScaleNewtonSeconds : event_.source.massKg + handMassOf(fixture.values, model_);
     event_.source.part = fixture.values.part;
     if (settings_.location == ImpactLocation::fixture)
-        place(bodies_.toWorld(fixture.body.body, fixture.centre));
+        setPlace(bodies_.toWorld(fixture.body.body, fixture.centre));
 }
 
 void EventMaker::setPartner(std::int32_t other) {
     const bool isSameSound = hasPartner_ && hasOwnSound_; // as of many that roll on one floor
     hasPartner_ = true;
-    other_ = other;
+    partner_ = other;
     const HapticFixture& source = table_[source_].values;
     event_.source.other = other == FixtureTable::none ? -1 : table_[other].id;
     hasOwnSound_ = other == FixtureTable::none || (source.voice == Voice::own && source.surface == 0);
@@ -110,7 +110,7 @@ void EventMaker::setPartner(std::int32_t other) {
     modeCount_ = 0;
     if (hasOwnSound_) return addModes(source);
     const HapticFixture& partner = table_[other].values;
-    if (const PairSound* const pair = pairs_.find(source.surface, partner.surface)) {
+    if (const PairSound* const pair = pairSounds_.find(source.surface, partner.surface)) {
         pairGain_ = pair->gain;
         return addModes(*pair);
     }
@@ -150,17 +150,17 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
     if (!hasUnmuted) return;
     const double seconds = static_cast<double>(step.endNs - learnedNs_) * 1.0e-9;
     learnedNs_ = step.endNs;
-    sounding_ = strengthOf(powerOf(sounding_ * portable::exp(-fadePerSecond * seconds)) + power);
+    strength_ = strengthOf(powerOf(strength_ * portable::exp(-fadePerSecond * seconds)) + power);
     const double decayedLevel = level_ * portable::exp(-std::min(seconds, longestPauseSeconds) / fallSeconds);
     const double thresholds = level_ > 0.0 ? minThresholds : firstThresholds;
-    level_ = std::max({decayedLevel, sounding_, thresholds * step.minThresholdMetresPerSecond * heaviestKg});
+    level_ = std::max({decayedLevel, strength_, thresholds * step.minThresholdMetresPerSecond * heaviestKg});
 }
 
 // Doubles the memory, so that later events of the same step need none.
 bool EventSorter::grow() noexcept {
     constexpr std::size_t minCount = 64;
     if (slotCount_ == capacity_) return false;
-    const std::size_t count = std::max(minCount, 2 * held_.size());
+    const std::size_t count = std::max(minCount, 2 * heldEvents_.size());
     try {
         for (auto* const list : {&order_, &sorted_}) list->resize(count);
         buckets_.resize(count);
@@ -168,10 +168,10 @@ bool EventSorter::grow() noexcept {
         std::vector<CollisionEvent> held(count);
         std::vector<HeldKey> keys(count);
         for (std::size_t i = 0; i < count_; ++i) {
-            held[i] = held_[place(i)];
-            keys[i] = keys_[place(i)];
+            held[i] = heldEvents_[ringIndex(i)];
+            keys[i] = keys_[ringIndex(i)];
         }
-        held_.swap(held);
+        heldEvents_.swap(held);
         keys_.swap(keys);
     } catch (const std::bad_alloc&) {
         return false;
@@ -187,11 +187,11 @@ bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noe
         if (!grow()) return false;
     earliestNewNs_ = std::min(earliestNewNs_, grains.startNs);
     for (std::size_t i = 0; i < grains.count;) { // first to the end of the ring, then from its beginning
-        const std::size_t at = place(count_), end = i + std::min(grains.count - i, mask_ + 1 - at);
-        grains.write(i, end, model, held_.data() + at);
+        const std::size_t slot = ringIndex(count_), end = i + std::min(grains.count - i, mask_ + 1 - slot);
+        grains.write(i, end, model, heldEvents_.data() + slot);
         count_ += end - i;
-        for (HeldKey* to = keys_.data() + at; i < end; ++i, ++to)
-            *to = {grains.timeNs[i], model.source.fixture, grains.runOf(i).otherId};
+        for (HeldKey* key = keys_.data() + slot; i < end; ++i, ++key)
+            *key = {grains.timeNs[i], model.source.fixture, grains.runOf(i).otherId};
     }
     return true;
 }
@@ -200,26 +200,26 @@ bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noe
 template <class IsRemoved>
 void EventSorter::removeIf(std::size_t count, IsRemoved isRemoved) noexcept {
     earliestNewNs_ = std::numeric_limits<std::int64_t>::min(); // it is no longer known which events are new
-    std::size_t to = count;
+    std::size_t target = count;
     for (std::size_t i = count; i-- > 0;) {
-        if (isRemoved(keys_[place(i)])) continue;
-        --to;
-        held_[place(to)] = held_[place(i)];
-        keys_[place(to)] = keys_[place(i)];
+        if (isRemoved(keys_[ringIndex(i)])) continue;
+        --target;
+        heldEvents_[ringIndex(target)] = heldEvents_[ringIndex(i)];
+        keys_[ringIndex(target)] = keys_[ringIndex(i)];
     }
-    first_ = place(to);
-    count_ -= to;
+    first_ = ringIndex(target);
+    count_ -= target;
 }
 
 bool EventSorter::dropWeakest(double amplitude) noexcept {
     ++drops_;
-    const auto amplitudeAt = [this](std::size_t i) { return std::abs(held_[place(i)].amplitude); };
+    const auto amplitudeAt = [this](std::size_t i) { return std::abs(heldEvents_[ringIndex(i)].amplitude); };
     std::size_t weakest = 0;
     for (std::size_t i = 1; i < count_; ++i)
         if (amplitudeAt(i) < amplitudeAt(weakest)) weakest = i;
     if (count_ == 0 || !(amplitudeAt(weakest) < std::abs(amplitude))) return false;
-    const HeldKey* const dropped = &keys_[place(weakest)];
-    removeIf(weakest + 1, [dropped](const HeldKey& each) { return &each == dropped; });
+    const HeldKey* const dropped = &keys_[ringIndex(weakest)];
+    removeIf(weakest + 1, [dropped](const HeldKey& key) { return &key == dropped; });
     return true;
 }
 
@@ -231,7 +231,7 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     std::int64_t toNs = beforeNs;
     if (beforeNs == std::numeric_limits<std::int64_t>::max()) { // all
         toNs = releasedNs_;
-        for (std::size_t i = 0; i < total; ++i) toNs = std::max(toNs, keys_[place(i)].timeNs);
+        for (std::size_t i = 0; i < total; ++i) toNs = std::max(toNs, keys_[ringIndex(i)].timeNs);
     }
     const std::int64_t fromNs = std::exchange(releasedNs_, toNs);
     const double bucketsPerNs =
@@ -242,12 +242,12 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     std::uint32_t *const bucketOf = buckets_.data(), *const ends = bucketEnds_.data(), *nextBucket = bucketOf;
     const HeldKey* const keys = keys_.data();
     for (std::size_t i = 0, mask = mask_, first = first_; i < total; ++i) {
-        const HeldKey& each = keys[(first + i) & mask];
-        if (each.timeNs >= beforeNs) continue;
-        const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
-        *nextOrder++ = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        const HeldKey& key = keys[(first + i) & mask];
+        if (key.timeNs >= beforeNs) continue;
+        const auto fixture = static_cast<std::uint32_t>(key.fixture) ^ 0x80000000U; // in order as unsigned
+        *nextOrder++ = {key.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
         const auto bucket =
-            static_cast<std::int64_t>(static_cast<double>(each.timeNs - fromNs) * bucketsPerNs);
+            static_cast<std::int64_t>(static_cast<double>(key.timeNs - fromNs) * bucketsPerNs);
         *nextBucket++ = static_cast<std::uint32_t>(std::max<std::int64_t>(0, bucket));
         ++ends[nextBucket[-1] + 1];
         end = i + 1;
@@ -262,14 +262,14 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
         sort(count);
         if (finished.capacity() - finished.size() < count)
             finished.reserve(std::max(finished.size() + count, 2 * finished.capacity()));
-        const CollisionEvent* const held = held_.data();
+        const CollisionEvent* const held = heldEvents_.data();
         const std::size_t first = first_, mask = mask_;
-        for (const ReleaseOrder& each : std::span{order_.data(), count})
-            finished.push_back(held[(first + (each.rank & 0xFFFFFFFFU)) & mask]);
+        for (const ReleaseOrder& entry : std::span{order_.data(), count})
+            finished.push_back(held[(first + (entry.rank & 0xFFFFFFFFU)) & mask]);
         if (count < end) {
-            removeIf(end, [beforeNs](const HeldKey& each) { return each.timeNs < beforeNs; });
+            removeIf(end, [beforeNs](const HeldKey& key) { return key.timeNs < beforeNs; });
         } else {
-            first_ = place(count);
+            first_ = ringIndex(count);
             count_ -= count;
         }
     }
@@ -297,8 +297,8 @@ void EventSorter::sort(std::size_t count) noexcept {
 }
 
 void EventSorter::removeEventsOf(std::int32_t fixture, bool dropsCaused) noexcept {
-    removeIf(count_, [=](const HeldKey& each) {
-        return each.fixture == fixture || (dropsCaused && each.other == fixture);
+    removeIf(count_, [=](const HeldKey& key) {
+        return key.fixture == fixture || (dropsCaused && key.other == fixture);
     });
 }
 

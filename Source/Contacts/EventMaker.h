@@ -33,10 +33,10 @@ public:
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
         if (count_ == slotCount_ && !grow() && !dropWeakest(event.amplitude)) return;
         earliestNewNs_ = std::min(earliestNewNs_, event.timeNs);
-        const std::size_t at = place(count_++);
-        held_[at] = event;
-        held_[at].source.other = std::max(event.source.other, -1);
-        keys_[at] = {event.timeNs, event.source.fixture, event.source.other};
+        const std::size_t slot = ringIndex(count_++);
+        heldEvents_[slot] = event;
+        heldEvents_[slot].source.other = std::max(event.source.other, -1);
+        keys_[slot] = {event.timeNs, event.source.fixture, event.source.other};
     }
 
     /// Adds an event per grain; other values are those of `model`. False, and nothing is added: no room.
@@ -67,7 +67,7 @@ private:
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.rank < b.rank;
         }
     };
-    std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
+    std::size_t ringIndex(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void sort(std::size_t count) noexcept;
@@ -81,9 +81,9 @@ private:
     std::size_t oldCount_ = 0;    // events up to the last release; later ones come after them
     std::int64_t releasedNs_ = 0; // events before it have been released
     std::int64_t earliestNewNs_ = std::numeric_limits<std::int64_t>::max();
-    std::vector<CollisionEvent> held_;
+    std::vector<CollisionEvent> heldEvents_;
     std::vector<HeldKey> keys_; // of each held event
-    // Buckets in time of the events being released, as many as held_ has
+    // Buckets in time of the events being released, as many as heldEvents_ has
     std::vector<std::uint32_t> buckets_;
     std::vector<ReleaseOrder> order_, sorted_;
     std::vector<std::uint32_t> bucketEnds_; // ends of the buckets
@@ -114,7 +114,7 @@ public:
     /// Sets the source and the partner of the next impacts.
     void selectPair(std::int32_t source, std::int32_t other) {
         if (source != source_) setSource(source);
-        if (!isMuted_ && (!hasPartner_ || other != other_)) setPartner(other);
+        if (!isMuted_ && (!hasPartner_ || other != partner_)) setPartner(other);
     }
     /// Selects the pair, and sets its factors in `runs`. False: its grains have to be added one by one.
     bool prepare(std::int32_t source, std::int32_t other, GrainRuns& runs) {
@@ -145,7 +145,7 @@ private:
         return pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
     }
     [[gnu::always_inline]] void addEvent(const Mode& mode, const Impact& impact, double amplitude) noexcept {
-        if (isAtContact_) place(impact.point);
+        if (isAtContact_) setPlace(impact.point);
         event_.timeNs = impact.timeNs;
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
         event_.source.kind = impact.kind;
@@ -174,15 +174,15 @@ private:
     template <class Sound>
     void addModes(const Sound& sound) noexcept;
     // The field lies in the plane: its origin and rotation leave z as it is.
-    void place(Vector3 world) noexcept {
-        const Vector2 from = inPlane(world) - settings_.fieldOrigin;
-        event_.x = static_cast<double>(cos_ * from.x + sin_ * from.y);
-        event_.y = static_cast<double>(cos_ * from.y - sin_ * from.x);
+    void setPlace(Vector3 world) noexcept {
+        const Vector2 offset = inPlane(world) - settings_.fieldOrigin;
+        event_.x = static_cast<double>(cos_ * offset.x + sin_ * offset.y);
+        event_.y = static_cast<double>(cos_ * offset.y - sin_ * offset.x);
         event_.z = static_cast<double>(world.z);
     }
 
     const FixtureTable& table_;
-    const PairSounds& pairs_;
+    const PairSounds& pairSounds_;
     const BodyReader& bodies_;
     const ImpactSettings& settings_;
     EventSorter& events_;
@@ -200,7 +200,7 @@ private:
     bool isMuted_ = false;
     // Of its current partner:
     bool hasPartner_ = false, hasOwnSound_ = false; // the source's own, for any partner
-    std::int32_t other_ = FixtureTable::none;
+    std::int32_t partner_ = FixtureTable::none;
     double pairGain_ = 1.0;
     int modeCount_ = 0;
     std::array<Mode, 2 * (1 + std::tuple_size_v<Overtones>)> modes_;
@@ -241,7 +241,7 @@ public:
 
 private:
     double level_ = 0.0;    // N s, of the goal
-    double sounding_ = 0.0; // N s, of what sounds at once
+    double strength_ = 0.0; // N s, of what sounds at once
     std::int64_t learnedNs_ = 0;
 };
 

@@ -33,15 +33,15 @@ static_assert(offsetof(FacePoint, isFaceOfB) == 27 * sizeof(float));
 #if defined(__SSE2__) || defined(__ARM_NEON)
 constexpr std::size_t faceLanes = 4;
 using FloatLanes = float __attribute__((vector_size(faceLanes * sizeof(float))));
-inline float laneOf(FloatLanes of, std::size_t lane) noexcept { return of[lane]; }
+inline float laneOf(FloatLanes lanes, std::size_t lane) noexcept { return lanes[lane]; }
 
 struct FaceColumns {
     FloatLanes a, b, c, d;
     [[gnu::always_inline]] FaceColumns(const FacePoint* rows, std::size_t group) noexcept {
         const auto row = [rows, group](std::size_t i) {
-            FloatLanes of;
-            std::memcpy(&of, reinterpret_cast<const char*>(rows + i) + group * sizeof of, sizeof of);
-            return of;
+            FloatLanes quad;
+            std::memcpy(&quad, reinterpret_cast<const char*>(rows + i) + group * sizeof quad, sizeof quad);
+            return quad;
         };
         const FloatLanes r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
         const FloatLanes low01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
@@ -57,7 +57,7 @@ struct FaceColumns {
 #else
 constexpr std::size_t faceLanes = 1;
 using FloatLanes = float;
-inline float laneOf(FloatLanes of, std::size_t) noexcept { return of; }
+inline float laneOf(FloatLanes lanes, std::size_t) noexcept { return lanes; }
 
 struct FaceColumns {
     FloatLanes a, b, c, d;
@@ -86,16 +86,16 @@ struct FaceMotion {
             otherCentre{motion1.c, motion1.d}, faceVelocity{motion0.a, motion0.b},
             otherVelocity{motion1.a, motion1.b};
         const Vector normal = face.turned({touch2.a, touch2.b}), tangent{normal.y, -normal.x},
-                     at = sum(other.turned({touch3.a, touch3.b}), {touch1.a, touch1.b}),
+                     corner = sum(other.turned({touch3.a, touch3.b}), {touch1.a, touch1.b}),
                      onFace = sum(face.turned({touch2.c, touch2.d}), origin),
-                     above = sum(at, scaled(touch3.c - dot(difference(at, onFace), normal), normal)),
-                     below = difference(at, scaled(touch3.d, normal)), pointSum = sum(above, below);
+                     upper = sum(corner, scaled(touch3.c - dot(difference(corner, onFace), normal), normal)),
+                     lower = difference(corner, scaled(touch3.d, normal)), pointSum = sum(upper, lower);
         point = {0.5F * pointSum.x, 0.5F * pointSum.y};
-        const Vector otherVelocityThere = velocity(otherVelocity, spins.b, otherCentre, at),
-                     faceVelocityThere = velocity(faceVelocity, spins.a, faceCentre, at);
-        pointVelocity = difference(otherVelocityThere, scaled(touch3.d, crossed(spins.a, normal)));
-        faceMetres = dot(face.turnedBack(difference(at, origin)), face.turnedBack(tangent));
-        faceMetresPerSecond = dot(difference(otherVelocityThere, faceVelocityThere), tangent);
+        const Vector otherCornerVelocity = velocity(otherVelocity, spins.b, otherCentre, corner),
+                     faceCornerVelocity = velocity(faceVelocity, spins.a, faceCentre, corner);
+        pointVelocity = difference(otherCornerVelocity, scaled(touch3.d, crossed(spins.a, normal)));
+        faceMetres = dot(face.turnedBack(difference(corner, origin)), face.turnedBack(tangent));
+        faceMetresPerSecond = dot(difference(otherCornerVelocity, faceCornerVelocity), tangent);
         slipMetresPerSecond = dot(difference(velocity(otherVelocity, spins.b, otherCentre, point),
                                              velocity(faceVelocity, spins.a, faceCentre, point)),
                                   tangent);
@@ -125,9 +125,9 @@ private:
     [[gnu::always_inline]] static Vector crossed(FloatLanes spin, Vector arm) noexcept {
         return {-spin * arm.y, spin * arm.x};
     }
-    [[gnu::always_inline]] static Vector velocity(Vector ofCentre, FloatLanes spin, Vector centre,
-                                                  Vector at) noexcept {
-        return sum(ofCentre, crossed(spin, difference(at, centre)));
+    [[gnu::always_inline]] static Vector velocity(Vector centreVelocity, FloatLanes spin, Vector centre,
+                                                  Vector position) noexcept {
+        return sum(centreVelocity, crossed(spin, difference(position, centre)));
     }
 };
 

@@ -15,15 +15,15 @@ std::int32_t FixtureTable::findOrAdd(std::uint64_t fixture, const BodyFacts& bod
         updateBody(slot, body);
         return slot;
     }
-    if (free_.empty()) {
-        free_.push_back(size());
+    if (freeSlots_.empty()) {
+        freeSlots_.push_back(size());
         entries_.emplace_back();
         traits_.push_back(0);
         mobility_.emplace_back();
-        free_.reserve(entries_.capacity()); // so that releasing a slot never allocates
+        freeSlots_.reserve(entries_.capacity()); // so that releasing a slot never allocates
     }
-    const std::int32_t slot = free_.back();
-    free_.pop_back();
+    const std::int32_t slot = freeSlots_.back();
+    freeSlots_.pop_back();
     at(slot).fixture = fixture;
     storeBody(slot, body);
     at(slot).id = nextUnnamedId_--;
@@ -65,7 +65,7 @@ void FixtureTable::release(std::int32_t slot) {
     storeTraits(slot, false, false);
     at(slot) = {};
     storeBody(slot, {});
-    free_.push_back(slot);
+    freeSlots_.push_back(slot);
 }
 
 void FixtureTable::storeBody(std::int32_t slot, const BodyFacts& body) noexcept {
@@ -114,14 +114,14 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
         areStaticMassesStale_ = false;
     }
     double largest = 0.0;
-    for (const StaticBody& each : staticBodies_)
-        if (each.massKg > largest && bodies.facts(each.body).isEnabled) largest = each.massKg;
+    for (const StaticBody& candidate : staticBodies_)
+        if (candidate.massKg > largest && bodies.facts(candidate.body).isEnabled) largest = candidate.massKg;
     return largest;
 }
 
 inline void ContactGraph::unite(const Edge& edge) noexcept {
     if (!edge.unites) return;
-    const std::int32_t a = root(edge.a), b = root(edge.b);
+    const std::int32_t a = findRoot(edge.a), b = findRoot(edge.b);
     at(std::max(a, b)).parent = std::min(a, b);
 }
 
@@ -130,7 +130,7 @@ ContactGraph::ContactGraph(std::size_t edges)
     edges_.reserve(edges);
 }
 
-void ContactGraph::changePassing(std::int32_t node) noexcept {
+void ContactGraph::togglePassing(std::int32_t node) noexcept {
     at(node).isPassing = !at(node).isPassing;
     for (Edge& edge : edges_) edge.unites = unites(edge.a, edge.b);
     isStale_ = true;
@@ -163,7 +163,7 @@ void ContactGraph::isolate(std::int32_t node) {
     setPassing(node, true);
 }
 
-void ContactGraph::reach(std::int32_t node, std::vector<std::int32_t>& components) {
+void ContactGraph::findComponents(std::int32_t node, std::vector<std::int32_t>& components) {
     components.clear();
     prepare(node + 1);
     const auto add = [&](std::int32_t from) {
@@ -195,7 +195,7 @@ void ContactGraph::drop(std::size_t edge) {
 void ContactGraph::rebuild() noexcept {
     // all nodes, or those of edges, whichever are fewer: others are their own root already
     if (nodes_.size() < 2 * edges_.size())
-        for (std::int32_t node = 0; Node & each : nodes_) each.parent = node++;
+        for (std::int32_t node = 0; Node & entry : nodes_) entry.parent = node++;
     else
         for (const Edge& edge : edges_)
             for (const std::int32_t node : {edge.a, edge.b}) at(node).parent = node;

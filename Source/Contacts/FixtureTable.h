@@ -98,7 +98,7 @@ private:
     std::int32_t sourceCount_ = 0;
     std::uint32_t revision_ = 0;
     CountingFilter sourceFilter_;
-    std::vector<std::int32_t> free_;
+    std::vector<std::int32_t> freeSlots_;
     IntegerMap slots_;    // by the engine's fixture number
     IntegerMap slotOfId_; // by id + 1
     std::int32_t nextId_ = 0;
@@ -138,7 +138,7 @@ public:
     explicit TouchingPairs(std::size_t pairs)
         : numbers_(pairs) {
         pairs_.reserve(pairs);
-        free_.reserve(pairs);
+        freeNumbers_.reserve(pairs);
         releaseCandidates_.reserve(pairs);
     }
 
@@ -148,12 +148,12 @@ public:
     /// The number of a pair, a new one if necessary.
     std::int32_t findOrAdd(std::int32_t a, std::int32_t b) {
         if (const std::int32_t known = find(a, b); known != none) return known;
-        if (free_.empty()) {
-            free_.push_back(static_cast<std::int32_t>(pairs_.size()));
+        if (freeNumbers_.empty()) {
+            freeNumbers_.push_back(static_cast<std::int32_t>(pairs_.size()));
             pairs_.emplace_back();
         }
-        const std::int32_t number = free_.back();
-        free_.pop_back();
+        const std::int32_t number = freeNumbers_.back();
+        freeNumbers_.pop_back();
         numbers_.set(pairKey(a, b), number);
         (*this)[number] = {.a = a, .b = b};
         releaseWhenUnused(number);
@@ -188,7 +188,7 @@ public:
             if (pair.collisionIndex != none || pair.lastIndex != none || pair.loadIndex != none) return false;
             numbers_.erase(pairKey(pair.a, pair.b));
             pair = {};
-            free_.push_back(number);
+            freeNumbers_.push_back(number);
             return true;
         });
     }
@@ -196,7 +196,7 @@ public:
 private:
     std::vector<Pair> pairs_;
     IntegerMap numbers_; // by the pair
-    std::vector<std::int32_t> free_;
+    std::vector<std::int32_t> freeNumbers_;
     std::vector<std::int32_t> releaseCandidates_; // candidates to be freed
 };
 
@@ -220,7 +220,7 @@ public:
     /// Nodes are passing by default. A change costs a rebuild.
     void setPassing(std::int32_t node, bool isPassing) {
         ensureNode(node);
-        if (at(node).isPassing != isPassing) changePassing(node);
+        if (at(node).isPassing != isPassing) togglePassing(node);
     }
 
     /// Adds a contact between two different nodes (>= 0); two fixtures can have several (chains). Returns the
@@ -246,12 +246,12 @@ public:
         if (isStale_) rebuild();
     }
     std::int32_t preparedComponent(std::int32_t node) noexcept {
-        return at(node).isPassing ? root(node) : noComponent;
+        return at(node).isPassing ? findRoot(node) : noComponent;
     }
 
     /// The components connected to `node`: its own, or, if it is not passing, those of its neighbours.
     /// Allocates if `components` must grow.
-    void reach(std::int32_t node, std::vector<std::int32_t>& components);
+    void findComponents(std::int32_t node, std::vector<std::int32_t>& components);
 
     bool isPassing(std::int32_t node) const noexcept {
         const auto index = static_cast<std::size_t>(node);
@@ -298,10 +298,10 @@ private:
         while (static_cast<std::int32_t>(nodes_.size()) <= node)
             nodes_.push_back({static_cast<std::int32_t>(nodes_.size())});
     }
-    [[gnu::noinline]] void changePassing(std::int32_t node) noexcept;
+    [[gnu::noinline]] void togglePassing(std::int32_t node) noexcept;
     bool unites(std::int32_t a, std::int32_t b) noexcept { return at(a).isPassing && at(b).isPassing; }
     void drop(std::size_t edge);
-    std::int32_t root(std::int32_t node) noexcept {
+    std::int32_t findRoot(std::int32_t node) noexcept {
         while (at(node).parent != node) {
             at(node).parent = at(at(node).parent).parent; // path halving
             node = at(node).parent;

@@ -55,7 +55,7 @@ struct GrainRuns {
     }
     /// After compute(): makes events of some of them, like `model` otherwise.
     void write(std::size_t first, std::size_t last, const CollisionEvent& model,
-               CollisionEvent* to) const noexcept;
+               CollisionEvent* target) const noexcept;
 };
 
 } // namespace physvib

@@ -114,20 +114,20 @@ public:
         return isRandom_ ? GrainChance::minStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
     }
 
-    /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
+    /// Calls `onGrain(index, t)` for each grain whose index is a multiple of `every`, in the order in which
     /// they are passed. Returns the gap in which the point is then. `gap`: that of the step before, for the
     /// same grains and `every`, which saves a search; or null.
-    template <class Passed>
+    template <class OnGrain>
     [[gnu::always_inline]] GrainGap visit(const SurfaceMotion& motion, std::int64_t every,
-                                          const GrainGap* gap, Passed&& passed) const {
+                                          const GrainGap* gap, OnGrain&& onGrain) const {
         double from = 0.0, to = motion.turn();
-        GrainGap at;
+        GrainGap lastGap;
         for (;;) { // there, and back
-            at = walk(motion, from, to, every, gap, passed);
-            if (!(to < motion.seconds)) return at;
+            lastGap = walk(motion, from, to, every, gap, onGrain);
+            if (!(to < motion.seconds)) return lastGap;
             from = to;
             to = motion.seconds;
-            gap = &at;
+            gap = &lastGap;
         }
     }
 
@@ -155,12 +155,12 @@ public:
     }
 
 private:
-    std::uint64_t keyOf(std::int64_t index, std::uint64_t which) const noexcept {
-        return (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U + (seed_ + which * seedFactor);
+    std::uint64_t keyOf(std::int64_t index, std::uint64_t stream) const noexcept {
+        return (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U + (seed_ + stream * seedFactor);
     }
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
-    double chance(std::int64_t index, std::uint64_t which) const noexcept {
-        std::uint64_t z = keyOf(index, which);
+    double chance(std::int64_t index, std::uint64_t stream) const noexcept {
+        std::uint64_t z = keyOf(index, stream);
         z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
         z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
         z ^= z >> 31U;
@@ -172,7 +172,7 @@ private:
         std::int64_t index;
         double metres;
     };
-    Grain at(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
+    Grain grainAt(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
     /// The first grain beyond `metres`, upwards or downwards, whose index is a multiple of `every`. `behind`
     /// becomes the one before it, where that is known.
     Grain next(double metres, bool isUp, std::int64_t every, double& behind) const noexcept {
@@ -180,32 +180,32 @@ private:
         auto i = static_cast<std::int64_t>(cell); // rounds towards 0
         if (isUp && cell < static_cast<double>(i)) --i;
         if (!isUp && cell > static_cast<double>(i)) ++i;
-        Grain grain = at(i * every); // at most one step before the result
+        Grain grain = grainAt(i * every); // at most one step before the result
         const std::int64_t step = isUp ? every : -every;
         while (isUp ? grain.metres <= metres : grain.metres >= metres) {
             behind = grain.metres;
-            grain = at(grain.index + step);
+            grain = grainAt(grain.index + step);
         }
         return grain;
     }
 
-    template <class Passed>
+    template <class OnGrain>
     [[gnu::always_inline]] GrainGap walk(const SurfaceMotion& motion, double from, double to,
-                                         std::int64_t every, const GrainGap* gap, Passed& passed) const {
+                                         std::int64_t every, const GrainGap* gap, OnGrain& onGrain) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
         double behind = 0.0;
         Grain grain;
         grain.index = findFirst(start, isUp, every, gap, behind, grain.metres);
-        for (; sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
+        for (; sign * (end - grain.metres) >= 0.0; grain = grainAt(grain.index + (isUp ? every : -every))) {
             behind = grain.metres;
             const double far = grain.metres - start;
             // The root of the parabola that begins at `from`, in the form without cancellation.
             const double root = std::sqrt(std::max(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
             const double denominator = speed + sign * root;
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
-            passed(grain.index, std::min(std::max(from, t), to));
+            onGrain(grain.index, std::min(std::max(from, t), to));
         }
         return isUp ? GrainGap{behind, grain.metres, grain.index, true}
                     : GrainGap{grain.metres, behind, grain.index, false};

@@ -35,7 +35,7 @@ public:
 
     /// Centre of mass, m, world; and the world position of a point given in the body's frame.
     virtual Vector2 centre(std::uint64_t body) const = 0;
-    virtual Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const = 0;
+    virtual Vector3 toWorld(std::uint64_t body, Vector2 local) const = 0;
 
     /// Moment of inertia about the centre of mass, kg m^2.
     virtual double inertia(std::uint64_t body) const = 0;

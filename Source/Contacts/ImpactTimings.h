@@ -49,32 +49,32 @@ public:
     /// Call before findPrepared() for sources below `slots`; only if there are collisions.
     void prepare(ContactGraph& graph, std::int32_t slots) {
         graph.prepare(slots);
-        if (!isLocated_) locate(graph);
+        if (!areSumsCurrent_) sumByComponent(graph);
     }
     const CauseSum& findPrepared(std::int32_t source, ContactGraph& graph) {
         const std::int32_t component = graph.preparedComponent(source);
         if (component == ContactGraph::noComponent || ownCollisions_.find(source) != SlotMap::none)
             return findAtSource(source, graph);
-        const std::int32_t at = sumOf_.find(component); // the usual case
-        return at == SlotMap::none ? sourceSum_ = {} : sums_[static_cast<std::size_t>(at)];
+        const std::int32_t index = sumOf_.find(component); // the usual case
+        return index == SlotMap::none ? sourceSum_ = {} : sums_[static_cast<std::size_t>(index)];
     }
 
     /// The slot is freed or reassigned: drops its collisions.
     void forget(std::int32_t slot) noexcept;
 
 private:
-    void locate(ContactGraph& graph);
+    void sumByComponent(ContactGraph& graph);
     const CauseSum& findAtSource(std::int32_t source, ContactGraph& graph);
     void addToSum(std::int32_t component, std::size_t collision);
     bool isReached(const HardCollision& collision) const noexcept;
 
-    std::vector<HardCollision> collisions_; // sorted by strength once located
+    std::vector<HardCollision> collisions_; // sorted by strength once summed
     std::vector<CauseSum> sums_;
-    bool isLocated_ = false;
-    SlotMap sumOf_;                     // by component
-    SlotMap ownCollisions_;             // the strongest of a slot's own collisions
-    std::vector<std::int32_t> reached_; // components at the current source
-    CauseSum sourceSum_;                // result of the last findAtSource(), or none
+    bool areSumsCurrent_ = false;
+    SlotMap sumOf_;                               // by component
+    SlotMap ownCollisions_;                       // the strongest of a slot's own collisions
+    std::vector<std::int32_t> reachedComponents_; // components at the current source
+    CauseSum sourceSum_;                          // result of the last findAtSource(), or none
 };
 
 /// `onset` timing: from the solver's impulses, when a contact begins. A haptic source that takes part in a
@@ -96,7 +96,7 @@ public:
     void reset() noexcept;
 
     /// The world's origin has moved: shifts all places by this.
-    void shift(Vector2 by) noexcept;
+    void shift(Vector2 offset) noexcept;
 
     /// Completes what a haptic source has received so far, because it is about to be destroyed.
     void finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const;
@@ -161,8 +161,8 @@ public:
     }
 
     /// The world's origin has moved: shifts all places by this.
-    void shift(Vector2 by) noexcept {
-        for (PendingImpact& pending : pending_) pending.point += by;
+    void shift(Vector2 offset) noexcept {
+        for (PendingImpact& pending : pending_) pending.point += offset;
     }
 
     /// Ends a contact outside a step.
@@ -194,17 +194,17 @@ private:
         double causedNewtonSeconds = 0.0; // of a transmitted impact: the sum of all connected collisions so
                                           // far
     };
-    void open(const StepSpan& span);
-    void openDirect(const Collision& collision, const StepSpan& span);
-    void openTransmitted(std::int32_t source, const StepSpan& span);
+    void beginPending(const StepSpan& span);
+    void beginDirect(const Collision& collision, const StepSpan& span);
+    void beginTransmitted(std::int32_t source, const StepSpan& span);
     void findCauses(const StepSpan& span);
-    bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;
+    bool isStronger(std::int32_t collision, std::int32_t rival) const noexcept;
     void push(const PendingImpact& pending);
     void addMomentumChanges();
     void addCausedImpulses();
     Vector2 momentumChange(std::int32_t source);
     Vector2 momentumChangeOf(std::int32_t slot);
-    void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
+    void release(bool beganThisStep, const StepSpan& span, std::vector<Impact>& impacts);
     template <class Filter>
     void release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Filter filter);
     void expire(const StepSpan& span, std::vector<Impact>& impacts);
@@ -218,14 +218,14 @@ private:
     const BodyReader& bodies_;
     std::vector<PendingImpact> pending_;
     static constexpr std::int32_t transmitted = 0, direct = 1;
-    SlotMap pendingKindOf_;             // whether a source has a transmitted or a direct impact pending
-    SlotMap struckA_, struckB_;         // slots of pending impacts, whose contacts' ends matter
-    std::vector<double> impulses_;      // of this step's collisions
-    SlotMap strongestOf_;               // strongest collision by component
-    ImpactCauses causes_, lastCauses_;  // of this step and of the last
-    std::vector<std::int32_t> reached_; // components at the current source
-    IntegerMap counted_;                // by body: the last sum in which it was counted
-    std::int32_t sums_ = 0;
+    SlotMap pendingKindOf_;            // whether a source has a transmitted or a direct impact pending
+    SlotMap struckA_, struckB_;        // slots of pending impacts, whose contacts' ends matter
+    std::vector<double> impulses_;     // of this step's collisions
+    SlotMap strongestOf_;              // strongest collision by component
+    ImpactCauses causes_, lastCauses_; // of this step and of the last
+    std::vector<std::int32_t> reachedComponents_; // components at the current source
+    IntegerMap lastSumOf_;                        // by body: the last sum in which it was counted
+    std::int32_t momentumSums_ = 0;
     std::uint64_t drops_ = 0;
 };
 

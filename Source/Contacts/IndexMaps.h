@@ -44,9 +44,9 @@ public:
     void erase(std::uint64_t key) noexcept {
         std::size_t hole = locate(key);
         if (!isTaken(entries_[hole])) return;
-        for (std::size_t next = after(hole); isTaken(entries_[next]); next = after(next)) {
-            const std::size_t fromHome = (next - home(entries_[next].key)) & mask();
-            if (fromHome < ((next - hole) & mask())) continue;
+        for (std::size_t next = nextIndex(hole); isTaken(entries_[next]); next = nextIndex(next)) {
+            const std::size_t probeLength = (next - homeIndex(entries_[next].key)) & mask();
+            if (probeLength < ((next - hole) & mask())) continue;
             entries_[hole] = entries_[next];
             hole = next;
         }
@@ -73,26 +73,26 @@ private:
     bool isTaken(const Entry& entry) const noexcept { return entry.age == age_; }
 
     std::size_t mask() const noexcept { return entries_.size() - 1; }
-    std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
-    std::size_t home(std::uint64_t key) const noexcept {
+    std::size_t nextIndex(std::size_t index) const noexcept { return (index + 1) & mask(); }
+    std::size_t homeIndex(std::uint64_t key) const noexcept {
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
                                                                                 // Knuth 6.4
     }
     std::size_t locate(std::uint64_t key) const noexcept {
-        std::size_t place = home(key);
-        while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
-        return place;
+        std::size_t index = homeIndex(key);
+        while (isTaken(entries_[index]) && entries_[index].key != key) index = nextIndex(index);
+        return index;
     }
-    void allocate(std::size_t places) {
-        entries_.assign(places, {});
-        shift_ = 64 - std::countr_zero(places);
+    void allocate(std::size_t count) {
+        entries_.assign(count, {});
+        shift_ = 64 - std::countr_zero(count);
         size_ = 0;
     }
     void grow() {
-        std::vector<Entry> before;
-        before.swap(entries_);
-        allocate(2 * before.size());
-        for (const Entry& entry : before)
+        std::vector<Entry> old;
+        old.swap(entries_);
+        allocate(2 * old.size());
+        for (const Entry& entry : old)
             if (isTaken(entry)) set(entry.key, entry.value);
     }
 
@@ -123,7 +123,7 @@ public:
     }
 
     /// Slots below `slots` may be marked.
-    void fit(std::int32_t slots) {
+    void ensureSlots(std::int32_t slots) {
         entries_.resize(std::max(entries_.size(), static_cast<std::size_t>(slots)));
     }
     /// Sets 0, where it only matters whether there is a value.
@@ -153,16 +153,16 @@ private:
 /// thread at a time.
 class CountingFilter {
 public:
-    void add(std::uint64_t number) noexcept { ++counts_[place(number)]; }
+    void add(std::uint64_t number) noexcept { ++counts_[indexOf(number)]; }
 
     /// Removes a number that was added.
-    void remove(std::uint64_t number) noexcept { --counts_[place(number)]; }
+    void remove(std::uint64_t number) noexcept { --counts_[indexOf(number)]; }
 
-    bool mayContain(std::uint64_t number) const noexcept { return counts_[place(number)] != 0; }
+    bool mayContain(std::uint64_t number) const noexcept { return counts_[indexOf(number)] != 0; }
 
 private:
     static constexpr int bits = 11;
-    static constexpr std::size_t place(std::uint64_t number) noexcept {
+    static constexpr std::size_t indexOf(std::uint64_t number) noexcept {
         return static_cast<std::size_t>((number * 0x9E3779B97F4A7C15U) >> (64 - bits)); // hash as in
                                                                                         // IntegerMap
     }

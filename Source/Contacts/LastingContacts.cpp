@@ -53,8 +53,8 @@ static const bool isWide = __builtin_cpu_supports("avx2") != 0;
 #endif
 void GrainRuns::compute() noexcept { PHYSVIB_LANES(compute)(*this); }
 void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
-                      CollisionEvent* to) const noexcept {
-    PHYSVIB_LANES(write)(*this, first, last, model, to);
+                      CollisionEvent* target) const noexcept {
+    PHYSVIB_LANES(write)(*this, first, last, model, target);
 }
 
 LastingContacts::LastingContacts(const FixtureTable& table)
@@ -63,7 +63,7 @@ LastingContacts::LastingContacts(const FixtureTable& table)
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     computePassages(span.seconds());
     const ImpactSink list{
-        [](void* to, const Impact& impact) { static_cast<std::vector<Impact>*>(to)->push_back(impact); },
+        [](void* dest, const Impact& impact) { static_cast<std::vector<Impact>*>(dest)->push_back(impact); },
         &impacts};
     for (const Passage& passage : std::span{passages_.data(), passageCount_})
         if (const GrainGap* gap = nullptr; passage.every > 0 && !staysInGap(passage, span.seconds(), gap))
@@ -85,10 +85,10 @@ void LastingContacts::addGrainImpacts(const Passage& passage, const StepSpan& sp
         double power, perSecond, backSeconds, slipping, perSpeed, rolling;
         Vector3 from, velocity;
     } constants; // computed at the first grain: many points pass none
-    std::size_t passed = 0;
+    std::size_t count = 0;
     tracked.gap = grains.visit(
         motion, passage.every, gap, [&](std::int64_t index, double t) __attribute__((always_inline)) {
-            if (passed++ == 0)
+            if (count++ == 0)
                 constants = {std::sqrt(static_cast<double>(passage.every)),
                              1.0 / motion.seconds,
                              1.5 * motion.seconds,
@@ -108,40 +108,40 @@ void LastingContacts::addGrainImpacts(const Passage& passage, const StepSpan& sp
                                constants.from +
                                    static_cast<float>(t - constants.backSeconds) * constants.velocity,
                                slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
-            sink.add(sink.to, grain);
+            sink.add(sink.dest, grain);
             if (isSourceA && isSourceB) // in turn, which matters if there is no room for all
-                sink.add(sink.to,
+                sink.add(sink.dest,
                          {other, source, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
         });
-    thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
+    thinned_ += count * static_cast<std::uint64_t>(passage.every - 1);
 }
 
 namespace {
 
 /// On the circumference of a disc that touches a face.
-SurfacePath around(const FacePoint& of) noexcept {
-    return aroundDisc(of.touch.otherRadius, of.touch.other.turnedBack(-of.touch.face.turned(of.touch.normal)),
-                      of.faceRadiansPerSecond - of.otherRadiansPerSecond);
+SurfacePath rimPath(const FacePoint& p) noexcept {
+    return discPath(p.touch.otherRadius, p.touch.other.turnedBack(-p.touch.face.turned(p.touch.normal)),
+                    p.faceRadiansPerSecond - p.otherRadiansPerSecond);
 }
 
 } // namespace
 
-void LastingContacts::computeFaces(LastingContacts& all) {
-    const std::size_t count = std::exchange(all.faceCount_, 0);
+void LastingContacts::computeFaces(LastingContacts& contacts) {
+    const std::size_t count = std::exchange(contacts.faceCount_, 0);
     // the results of rows behind the last are not used
     FaceMoves moves;
     for (std::size_t first = 0; first < count; first += faceLanes) {
-        PHYSVIB_LANES(moveFaces)(&all.faces_[first], moves);
+        PHYSVIB_LANES(moveFaces)(&contacts.faces_[first], moves);
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
-            const FacePoint& of = all.faces_[first + i];
+            const FacePoint& point = contacts.faces_[first + i];
             const SurfacePath face{moves.faceMetres[i], moves.faceMetresPerSecond[i]},
-                other = of.isDiscRough ? around(of) : SurfacePath{};
-            if (!isNear(face) || (of.isDiscRough && !isNear(other))) continue;
-            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
-                     moves.slipMetresPerSecond[i], Vector2{moves.x[i], moves.y[i]},
-                     Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
-                     of.isFaceOfB ? other : face, of.isFaceOfB ? face : other},
-                    of.pairsKey);
+                other = point.isDiscRough ? rimPath(point) : SurfacePath{};
+            if (!isResolvable(face) || (point.isDiscRough && !isResolvable(other))) continue;
+            contacts.add({point.a, point.b, point.feature, static_cast<double>(point.normalNewtonSeconds),
+                          moves.slipMetresPerSecond[i], Vector2{moves.x[i], moves.y[i]},
+                          Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
+                          point.isFaceOfB ? other : face, point.isFaceOfB ? face : other},
+                         point.pairsKey);
         }
     }
 }
@@ -152,13 +152,13 @@ inline void LastingContacts::addPassage(TrackedPoint& tracked, std::int32_t surf
     const double newtons = pairs_[tracked.pair].steadyShare * tracked.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const SurfacePath to = tracked.point.*path, from = tracked.before != StepRecords<TrackedPoint>::none
-                                                           ? points_.before(tracked.before).point.*path
-                                                           : SurfacePath{unknown, unknown};
-    passages_[passageCount_++] = {from.metres,
-                                  from.metresPerSecond,
-                                  to.metres,
-                                  to.metresPerSecond,
+    const SurfacePath now = tracked.point.*path, before = tracked.before != StepRecords<TrackedPoint>::none
+                                                              ? points_.before(tracked.before).point.*path
+                                                              : SurfacePath{unknown, unknown};
+    passages_[passageCount_++] = {before.metres,
+                                  before.metresPerSecond,
+                                  now.metres,
+                                  now.metresPerSecond,
                                   newtons,
                                   table_[surface].values.texture.grainMetres,
                                   0.0,

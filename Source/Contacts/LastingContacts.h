@@ -36,12 +36,12 @@ public:
         return add(key, before.now, static_cast<std::int32_t>(next_++));
     }
 
-    Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
-    const Record& operator[](std::int32_t place) const noexcept {
-        return now_[static_cast<std::size_t>(place)];
+    Record& operator[](std::int32_t index) noexcept { return now_[static_cast<std::size_t>(index)]; }
+    const Record& operator[](std::int32_t index) const noexcept {
+        return now_[static_cast<std::size_t>(index)];
     }
-    const Record& before(std::int32_t place) const noexcept {
-        return before_[static_cast<std::size_t>(place)];
+    const Record& before(std::int32_t index) const noexcept {
+        return before_[static_cast<std::size_t>(index)];
     }
     std::span<Record> now() noexcept { return {now_.data(), count_}; }
     std::size_t count() const noexcept { return count_; } ///< records of this step
@@ -83,8 +83,8 @@ public:
 private:
     void clear() noexcept {
         count_ = next_ = 0;
-        if (new_.size() > 0) new_.clear();
-        isMapped_ = false;
+        if (indexOfNew_.size() > 0) indexOfNew_.clear();
+        isIndexed_ = false;
     }
 
     [[gnu::always_inline]] std::int32_t add(std::uint64_t key, std::int32_t& now, std::int32_t before) {
@@ -101,39 +101,39 @@ private:
     }
 
     [[gnu::noinline]] std::int32_t search(std::uint64_t key) {
-        const std::int32_t before = placeBefore(key);
+        const std::int32_t before = indexBefore(key);
         if (before != none) {
-            std::int32_t& at = before_[static_cast<std::size_t>(before)].now;
-            return at != none ? at : add(key, at, before);
+            std::int32_t& index = before_[static_cast<std::size_t>(before)].now;
+            return index != none ? index : add(key, index, before);
         }
-        std::int32_t at = new_.find(key);
-        if (at != none) return at;
-        add(key, at, none);
-        new_.set(key, at);
-        return at;
+        std::int32_t index = indexOfNew_.find(key);
+        if (index != none) return index;
+        add(key, index, none);
+        indexOfNew_.set(key, index);
+        return index;
     }
-    std::int32_t placeBefore(std::uint64_t key) {
+    std::int32_t indexBefore(std::uint64_t key) {
         if (next_ < countBefore_ && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
         // reported again
         if (next_ > 0 && before_[next_ - 1].key == key) return static_cast<std::int32_t>(next_ - 1);
-        if (!isMapped_) map();
-        const std::int32_t place = placeOf_.find(key);
-        if (place != none) next_ = static_cast<std::size_t>(place) + 1;
-        return place;
+        if (!isIndexed_) indexLast();
+        const std::int32_t index = indexOf_.find(key);
+        if (index != none) next_ = static_cast<std::size_t>(index) + 1;
+        return index;
     }
-    void map() {
-        placeOf_.clear();
+    void indexLast() {
+        indexOf_.clear();
         for (std::size_t i = 0; i < countBefore_; ++i)
-            placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
-        isMapped_ = true;
+            indexOf_.set(before_[i].key, static_cast<std::int32_t>(i));
+        isIndexed_ = true;
     }
 
     std::vector<Record> before_{1}, now_{1};                 // the records, and one without a key
     std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
     std::size_t next_ = 0;                                   // in before_
-    IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
-    bool isMapped_ = false;
-    IntegerMap new_; // records of now_ that did not exist in the last step
+    IntegerMap indexOf_;                                     // keys of before_, built at the first lookup
+    bool isIndexed_ = false;
+    IntegerMap indexOfNew_; // records of now_ that did not exist in the last step
 };
 
 /// Position of a contact point on a surface at the end of a step, in the surface's own frame, and its speed
@@ -145,7 +145,7 @@ struct SurfacePath {
 
 /// On the circumference of a disc: `towards` the point, in the disc's frame; that direction turns against the
 /// disc at `radiansPerSecond`. Any thread.
-inline SurfacePath aroundDisc(float radiusMetres, Vector2 towards, float radiansPerSecond) noexcept {
+inline SurfacePath discPath(float radiusMetres, Vector2 towards, float radiansPerSecond) noexcept {
     return {static_cast<double>(radiusMetres * portable::atan2(towards.y, towards.x)),
             static_cast<double>(radiusMetres * radiansPerSecond)};
 }
@@ -199,7 +199,7 @@ public:
     /// touch() for a caller that has the pair's key.
     void touch(const LastingPoint& point, std::uint64_t pairsKey) {
         computePending();
-        if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
+        if (isResolvable(point.onA) && isResolvable(point.onB)) add(point, pairsKey);
     }
     /// Reports a point on a face: the caller fills it in; its motion is computed later, four at once.
     [[gnu::always_inline]] FacePoint& touchFace() {
@@ -267,7 +267,7 @@ private:
         key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
         return key != 0 ? key : 1; // IntegerMap excludes key 0
     }
-    static bool isNear(const SurfacePath& path) noexcept { // false for NaN
+    static bool isResolvable(const SurfacePath& path) noexcept { // false for NaN
         return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
     }
     /// How one point passes along one surface in this step; moveAlong() computes it.
@@ -287,19 +287,19 @@ private:
     void computePending() {
         if (faceCount_ > 0) computeFaces_(*this);
     }
-    static void computeFaces(LastingContacts& of);
+    static void computeFaces(LastingContacts& contacts);
     [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
         if (points_.count() == maxPoints || !(point.normalNewtonSeconds >= 0.0)) return;
         const std::size_t countBefore = points_.count();
-        const std::int32_t at = points_.findOrAdd(keyOf(pairsKey, point.feature));
+        const std::int32_t pointIndex = points_.findOrAdd(keyOf(pairsKey, point.feature));
         if (points_.count() == countBefore) return;
         const std::size_t pairs = pairs_.count();
-        const std::int32_t pairAt = pairs_.findOrAdd(pairsKey);
-        Pair& pair = pairs_[pairAt];
+        const std::int32_t pairIndex = pairs_.findOrAdd(pairsKey);
+        Pair& pair = pairs_[pairIndex];
         if (pairs_.count() != pairs) pair.newtonSeconds = 0.0;
         pair.newtonSeconds += point.normalNewtonSeconds;
-        TrackedPoint& tracked = points_[at];
-        tracked.pair = pairAt;
+        TrackedPoint& tracked = points_[pointIndex];
+        tracked.pair = pairIndex;
         tracked.point = point;
         tracked.gapSurface = FixtureTable::none;
     }
@@ -334,8 +334,8 @@ private:
     template <class Maker>
     [[gnu::always_inline]] void pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker);
     struct ImpactSink {
-        void (*add)(void* to, const Impact& impact);
-        void* to;
+        void (*add)(void* dest, const Impact& impact);
+        void* dest;
     };
     [[gnu::noinline]] void addGrainImpacts(const Passage& passage, const StepSpan& span, const GrainGap* gap,
                                            ImpactSink sink);
@@ -392,23 +392,23 @@ template <class Maker>
 inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
     const GrainGap* gap = nullptr;
     if (staysInGap(passage, runs.seconds, gap)) return;
-    const auto passOneByOne = [&] {
+    const auto addOneByOne = [&] {
         flush(runs, maker);
         runs.surface = FixtureTable::none; // the maker's source or partner may change
         addGrainImpacts(
             passage, span, gap,
-            {[](void* to, const Impact& impact) { static_cast<Maker*>(to)->add(impact); }, &maker});
+            {[](void* dest, const Impact& impact) { static_cast<Maker*>(dest)->add(impact); }, &maker});
     };
     TrackedPoint& tracked = *passage.tracked;
     const LastingPoint& point = tracked.point;
     const bool isSourceA = table_.isSource(point.a);
     const std::int32_t source = isSourceA ? point.a : point.b, other = isSourceA ? point.b : point.a;
     if (isSourceA == table_.isSource(point.b) || passage.fastest < 0.0) [[unlikely]]
-        return passOneByOne();
+        return addOneByOne();
     if (runs.surface != passage.surface || runs.source != source) [[unlikely]]
         begin(passage, source, other, runs, maker);
     if (!runs.isUsed) [[unlikely]]
-        return passOneByOne();
+        return addOneByOne();
     const double end = passage.endMetres;
     const bool isUp = end > passage.startMetres;
     const double sign = isUp ? 1.0 : -1.0;

@@ -25,8 +25,8 @@ void OnsetImpacts::reset() noexcept {
     lastCauses_.clear();
 }
 
-void OnsetImpacts::shift(Vector2 by) noexcept {
-    for (TransmittedImpact& transmitted : pending_) transmitted.point += by;
+void OnsetImpacts::shift(Vector2 offset) noexcept {
+    for (TransmittedImpact& transmitted : pending_) transmitted.point += offset;
 }
 
 void OnsetImpacts::forget(std::int32_t slot, bool dropsCaused) noexcept {
@@ -56,13 +56,13 @@ void OnsetImpacts::addDirect(const StepSpan& span, std::vector<Impact>& impacts)
 void OnsetImpacts::completePending(const StepSpan& span, std::vector<Impact>& impacts) {
     lastCauses_.addAftermath(recorder_);
     usedSources_.clear();
-    usedSources_.fit(table_.size());
+    usedSources_.ensureSlots(table_.size());
     for (const TransmittedImpact& transmitted : pending_) {
         usedSources_.mark(transmitted.source);
         const auto later = [&] {
             return lastCauses_.find(transmitted.source, graph_).aftermathNewtonSeconds;
         };
-        complete(transmitted, recorder_.loads().transmittedTo(transmitted.source), later, span, impacts);
+        complete(transmitted, recorder_.impulses().transmittedTo(transmitted.source), later, span, impacts);
     }
     if (!lastCauses_.isEmpty()) completeLate(span, impacts);
 }
@@ -71,12 +71,12 @@ void OnsetImpacts::completePending(const StepSpan& span, std::vector<Impact>& im
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
     const double defaultThreshold = span.thresholdMetresPerSecond(1.0F);
     lastCauses_.prepare(graph_, table_.size());
-    for (const std::int32_t source : recorder_.loads().receivers()) {
+    for (const std::int32_t source : recorder_.impulses().receivers()) {
         if (usedSources_.isMarked(source)) continue;
         const ImpactCauses::CauseSum& found = lastCauses_.findPrepared(source, graph_);
         if (found.strongest == nullptr) continue;
         usedSources_.mark(source);
-        const TransmittedImpulses::Transmitted& now = recorder_.loads().transmittedToReceiver(source);
+        const TransmittedImpulses::Transmitted& now = recorder_.impulses().transmittedToReceiver(source);
         const Limit limit = limitOf(source, now);
         const double threshold =
             limit.gravityScale == 1.0F ? defaultThreshold : span.thresholdMetresPerSecond(limit.gravityScale);
@@ -86,7 +86,7 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
         const double impulse = std::min(total, found.newtonSeconds + found.aftermathNewtonSeconds);
         if (StepSpan::isImpact(impulse, minImpulse))
             impacts.push_back({source, now.other, std::max(span.earliestNs, found.strongest->timeNs), impulse,
-                               recorder_.loads().pointOf(now)});
+                               recorder_.impulses().pointOf(now)});
     }
 }
 
@@ -124,7 +124,7 @@ inline void OnsetImpacts::complete(const TransmittedImpact& transmitted,
     const double impulse = std::min(total, transmitted.causedNewtonSeconds + later());
     if (StepSpan::isImpact(impulse, minImpulse))
         impacts.push_back({transmitted.source, mainPart.other, std::max(span.earliestNs, transmitted.timeNs),
-                           impulse, isLate ? recorder_.loads().pointOf(now) : transmitted.point});
+                           impulse, isLate ? recorder_.impulses().pointOf(now) : transmitted.point});
 }
 
 void OnsetImpacts::finish(std::int32_t source, const StepSpan& span, std::vector<Impact>& impacts) const {
@@ -137,13 +137,13 @@ void OnsetImpacts::finish(std::int32_t source, const StepSpan& span, std::vector
 void OnsetImpacts::beginTransmitted() {
     if (causes_.isEmpty()) return;
     causes_.prepare(graph_, table_.size());
-    for (const std::int32_t source : recorder_.loads().receivers()) {
+    for (const std::int32_t source : recorder_.impulses().receivers()) {
         if (usedSources_.isMarked(source)) continue;
         if (const auto& found = causes_.findPrepared(source, graph_); found.strongest != nullptr) {
             const TransmittedImpulses::Transmitted& received =
-                recorder_.loads().transmittedToReceiver(source);
+                recorder_.impulses().transmittedToReceiver(source);
             pending_.push_back({source, found.strongest->timeNs, found.strongest->a, found.strongest->b,
-                                found.newtonSeconds, received, recorder_.loads().pointOf(received)});
+                                found.newtonSeconds, received, recorder_.impulses().pointOf(received)});
         }
     }
 }
@@ -151,22 +151,22 @@ void OnsetImpacts::beginTransmitted() {
 ImpactCauses::ImpactCauses() {
     collisions_.reserve(CollisionRecorder::expectedCollisions);
     sums_.reserve(CollisionRecorder::expectedCollisions);
-    reached_.reserve(CollisionRecorder::expectedCollisions);
+    reachedComponents_.reserve(CollisionRecorder::expectedCollisions);
 }
 
 void ImpactCauses::add(const HardCollision& collision) {
     collisions_.push_back(collision);
-    isLocated_ = false;
+    areSumsCurrent_ = false;
 }
 
 void ImpactCauses::addAftermath(const CollisionRecorder& recorder) {
-    isLocated_ = false; // the graph has changed as well
+    areSumsCurrent_ = false; // the graph has changed as well
     for (HardCollision& collision : collisions_)
         collision.aftermathNewtonSeconds = recorder.aftermathNewtonSeconds(collision.pair);
 }
 
-void ImpactCauses::locate(ContactGraph& graph) {
-    isLocated_ = true;
+void ImpactCauses::sumByComponent(ContactGraph& graph) {
+    areSumsCurrent_ = true;
     std::sort(collisions_.begin(), collisions_.end(), [](const HardCollision& a, const HardCollision& b) {
         return a.newtonSeconds != b.newtonSeconds ? a.newtonSeconds > b.newtonSeconds : a.timeNs < b.timeNs;
     });
@@ -192,25 +192,25 @@ void ImpactCauses::locate(ContactGraph& graph) {
 
 void ImpactCauses::addToSum(std::int32_t component, std::size_t collision) {
     if (component == ContactGraph::noComponent) return;
-    std::int32_t at = sumOf_.find(component);
-    if (at == SlotMap::none) {
-        at = static_cast<std::int32_t>(sums_.size());
-        sumOf_.set(component, at);
+    std::int32_t index = sumOf_.find(component);
+    if (index == SlotMap::none) {
+        index = static_cast<std::int32_t>(sums_.size());
+        sumOf_.set(component, index);
         sums_.push_back({&collisions_[collision], 0.0, 0.0});
     }
-    sums_[static_cast<std::size_t>(at)].newtonSeconds += collisions_[collision].newtonSeconds;
-    sums_[static_cast<std::size_t>(at)].aftermathNewtonSeconds +=
+    sums_[static_cast<std::size_t>(index)].newtonSeconds += collisions_[collision].newtonSeconds;
+    sums_[static_cast<std::size_t>(index)].aftermathNewtonSeconds +=
         collisions_[collision].aftermathNewtonSeconds;
 }
 
 const ImpactCauses::CauseSum& ImpactCauses::findAtSource(std::int32_t source, ContactGraph& graph) {
     CauseSum& found = sourceSum_ = {};
-    graph.reach(source, reached_);
+    graph.findComponents(source, reachedComponents_);
     std::size_t strongest = collisions_.size();
-    for (const std::int32_t component : reached_) {
-        const std::int32_t at = sumOf_.find(component);
-        if (at == SlotMap::none) continue;
-        const CauseSum& sum = sums_[static_cast<std::size_t>(at)];
+    for (const std::int32_t component : reachedComponents_) {
+        const std::int32_t index = sumOf_.find(component);
+        if (index == SlotMap::none) continue;
+        const CauseSum& sum = sums_[static_cast<std::size_t>(index)];
         strongest = std::min(strongest, static_cast<std::size_t>(sum.strongest - collisions_.data()));
         found.newtonSeconds += sum.newtonSeconds;
         found.aftermathNewtonSeconds += sum.aftermathNewtonSeconds;
@@ -236,7 +236,7 @@ const ImpactCauses::CauseSum& ImpactCauses::findAtSource(std::int32_t source, Co
 }
 
 void ImpactCauses::forget(std::int32_t slot) noexcept {
-    isLocated_ = false; // indices have changed
+    areSumsCurrent_ = false; // indices have changed
     std::erase_if(collisions_, [slot](const HardCollision& collision) {
         return collision.a == slot || collision.b == slot;
     });
@@ -244,7 +244,7 @@ void ImpactCauses::forget(std::int32_t slot) noexcept {
 
 bool ImpactCauses::isReached(const HardCollision& collision) const noexcept {
     const auto isIn = [&](std::int32_t component) {
-        return std::ranges::find(reached_, component) != reached_.end();
+        return std::ranges::find(reachedComponents_, component) != reachedComponents_.end();
     };
     return isIn(collision.componentA) || isIn(collision.componentB);
 }

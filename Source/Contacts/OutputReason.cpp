@@ -16,7 +16,7 @@ struct Place {
     double x, y;
 };
 
-std::array<Place, 5> placesOf(const ContactCounts& counts) {
+std::array<Place, 5> samplePlaces(const ContactCounts& counts) {
     return {{{0.5 * (counts.minX + counts.maxX), 0.5 * (counts.minY + counts.maxY)},
              {counts.minX, counts.minY},
              {counts.minX, counts.maxY},
@@ -38,8 +38,8 @@ double gainAt(const Place& place, const PhantomPanner& panner, Plays plays) {
 // True if those channels play no place of the events.
 template <class Plays>
 bool areAllSilent(const ContactCounts& counts, const PhantomPanner& panner, Plays plays) {
-    const auto isSilentThere = [&](const Place& at) { return gainAt(at, panner, plays) < imperceptible; };
-    return std::ranges::all_of(placesOf(counts), isSilentThere);
+    const auto isSilentAt = [&](const Place& place) { return gainAt(place, panner, plays) < imperceptible; };
+    return std::ranges::all_of(samplePlaces(counts), isSilentAt);
 }
 
 bool isAnyChannel(int) noexcept { return true; }
@@ -82,10 +82,10 @@ std::string placeReason(const ContactCounts& counts, const OutputFacts& output) 
 
 // Some of the events are not played, because they lie outside.
 bool isPartlyOutside(const ContactCounts& counts, const PhantomPanner& panner) {
-    return std::ranges::any_of(placesOf(counts), [&](const Place& at) {
-        return (isOutside(at.x, at.x, panner.fieldWidthMetres()) ||
-                isOutside(at.y, at.y, panner.fieldHeightMetres())) &&
-               gainAt(at, panner, isAnyChannel) < imperceptible;
+    return std::ranges::any_of(samplePlaces(counts), [&](const Place& place) {
+        return (isOutside(place.x, place.x, panner.fieldWidthMetres()) ||
+                isOutside(place.y, place.y, panner.fieldHeightMetres())) &&
+               gainAt(place, panner, isAnyChannel) < imperceptible;
     });
 }
 

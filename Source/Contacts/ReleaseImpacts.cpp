@@ -14,13 +14,13 @@ ReleaseImpacts::ReleaseImpacts(const CollisionRecorder& recorder, const FixtureT
     , graph_(graph)
     , bodies_(bodies) {
     pending_.reserve(CollisionRecorder::expectedCollisions);
-    reached_.reserve(CollisionRecorder::expectedCollisions);
+    reachedComponents_.reserve(CollisionRecorder::expectedCollisions);
     impulses_.reserve(CollisionRecorder::expectedCollisions);
 }
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     release(false, span, impacts);
-    open(span);
+    beginPending(span);
     addMomentumChanges();
     addCausedImpulses();
     release(true, span, impacts);
@@ -32,19 +32,19 @@ void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts)
 
 void ReleaseImpacts::forget(std::int32_t slot, bool dropsCaused) noexcept {
     lastCauses_.forget(slot);
-    const auto isOf = [slot](const PendingImpact& s) {
+    const auto involves = [slot](const PendingImpact& s) {
         return s.other == slot || s.a == slot || s.b == slot;
     };
     std::erase_if(pending_,
-                  [&](const PendingImpact& s) { return s.source == slot || (dropsCaused && isOf(s)); });
+                  [&](const PendingImpact& s) { return s.source == slot || (dropsCaused && involves(s)); });
     for (PendingImpact& pending : pending_) {
-        pending.hasEnded = pending.hasEnded || isOf(pending);
+        pending.hasEnded = pending.hasEnded || involves(pending);
         if (pending.other == slot) pending.other = FixtureTable::none;
-        if (isOf(pending)) pending.a = pending.b = FixtureTable::none;
+        if (involves(pending)) pending.a = pending.b = FixtureTable::none;
     }
 }
 
-void ReleaseImpacts::open(const StepSpan& span) {
+void ReleaseImpacts::beginPending(const StepSpan& span) {
     if (recorder_.collisions().empty()) return;
     pendingKindOf_.clear();
     for (const PendingImpact& pending : pending_)
@@ -52,10 +52,10 @@ void ReleaseImpacts::open(const StepSpan& span) {
     findCauses(span);
     for (std::size_t i = 0; i < recorder_.collisions().size(); ++i)
         // 0 for a collision that the user has disabled
-        if (impulses_[i] > 0.0) openDirect(recorder_.collisions()[i], span);
+        if (impulses_[i] > 0.0) beginDirect(recorder_.collisions()[i], span);
     // only haptic sources that touch something can receive transmitted impulses
     graph_.forEachTouching([&](std::int32_t slot) {
-        if (table_.isSource(slot) && pendingKindOf_.find(slot) == SlotMap::none) openTransmitted(slot, span);
+        if (table_.isSource(slot) && pendingKindOf_.find(slot) == SlotMap::none) beginTransmitted(slot, span);
     });
 }
 
@@ -79,14 +79,14 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
     }
 }
 
-bool ReleaseImpacts::isStronger(std::int32_t collision, std::int32_t than) const noexcept {
-    if (collision == SlotMap::none || than == SlotMap::none) return collision != SlotMap::none;
+bool ReleaseImpacts::isStronger(std::int32_t collision, std::int32_t rival) const noexcept {
+    if (collision == SlotMap::none || rival == SlotMap::none) return collision != SlotMap::none;
     const double first = impulses_[static_cast<std::size_t>(collision)],
-                 second = impulses_[static_cast<std::size_t>(than)];
-    return first != second ? first > second : collision < than;
+                 second = impulses_[static_cast<std::size_t>(rival)];
+    return first != second ? first > second : collision < rival;
 }
 
-void ReleaseImpacts::openDirect(const Collision& collision, const StepSpan& span) {
+void ReleaseImpacts::beginDirect(const Collision& collision, const StepSpan& span) {
     for (const bool isA : {true, false}) {
         const std::int32_t source = isA ? collision.a : collision.b;
         if (!table_.isSource(source)) continue;
@@ -100,17 +100,17 @@ void ReleaseImpacts::openDirect(const Collision& collision, const StepSpan& span
     }
 }
 
-void ReleaseImpacts::openTransmitted(std::int32_t source, const StepSpan& span) {
-    graph_.reach(source, reached_);
+void ReleaseImpacts::beginTransmitted(std::int32_t source, const StepSpan& span) {
+    graph_.findComponents(source, reachedComponents_);
     std::int32_t strongest = SlotMap::none;
-    for (const std::int32_t component : reached_)
+    for (const std::int32_t component : reachedComponents_)
         if (const std::int32_t collision = strongestOf_.find(component); isStronger(collision, strongest))
             strongest = collision;
     if (strongest == SlotMap::none) return;
     const Collision* const cause = &recorder_.collisions()[static_cast<std::size_t>(strongest)];
-    const TransmittedImpulses::Transmitted received = recorder_.loads().transmittedTo(source);
+    const TransmittedImpulses::Transmitted received = recorder_.impulses().transmittedTo(source);
     const bool isKnown = received.other != FixtureTable::none;
-    const Vector3 point = isKnown ? recorder_.loads().pointOf(received) : cause->point;
+    const Vector3 point = isKnown ? recorder_.impulses().pointOf(received) : cause->point;
     const std::uint64_t body = table_[source].body.body;
     push({source, isKnown ? received.other : cause->a, cause->a, cause->b, cause->order, false, false,
           span.timeNs(cause->fraction), point, inPlane(point) - bodies_.centre(body),
@@ -149,7 +149,7 @@ void ReleaseImpacts::addCausedImpulses() {
 }
 
 Vector2 ReleaseImpacts::momentumChange(std::int32_t source) {
-    sums_ = sums_ == std::numeric_limits<std::int32_t>::max() ? 0 : sums_ + 1;
+    momentumSums_ = momentumSums_ == std::numeric_limits<std::int32_t>::max() ? 0 : momentumSums_ + 1;
     Vector2 sum;
     graph_.forEachNeighbour(source, [&](std::int32_t neighbour) { sum += momentumChangeOf(neighbour); });
     for (const Collision& collision : recorder_.collisions()) { // its contact may have ended already
@@ -161,13 +161,13 @@ Vector2 ReleaseImpacts::momentumChange(std::int32_t source) {
 
 Vector2 ReleaseImpacts::momentumChangeOf(std::int32_t slot) {
     const FixtureEntry& known = table_[slot];
-    if (!known.isDynamic() || counted_.find(known.body.body) == sums_) return {};
-    counted_.set(known.body.body, sums_);
+    if (!known.isDynamic() || lastSumOf_.find(known.body.body) == momentumSums_) return {};
+    lastSumOf_.set(known.body.body, momentumSums_);
     const Vector2 before = bodies_.motionBefore(known.body.body).metresPerSecond;
     return static_cast<float>(known.massKg()) * (bodies_.motion(known.body.body).metresPerSecond - before);
 }
 
-void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
+void ReleaseImpacts::release(bool beganThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
     if (recorder_.ends().empty() || pending_.empty()) return;
     struckA_.clear();
     struckB_.clear();
@@ -179,7 +179,7 @@ void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<
     for (const ContactEnd& end : recorder_.ends())
         if (struckA_.find(end.a) != SlotMap::none && struckB_.find(end.b) != SlotMap::none)
             release(end, span, impacts, [&](const PendingImpact& pending) {
-                return pending.order < end.order && (pending.order >= 0) == ofThisStep;
+                return pending.order < end.order && (pending.order >= 0) == beganThisStep;
             });
 }
 

@@ -14,10 +14,10 @@ Vector3 velocityAt(const SpaceMotion& motion, Vector3 arm) noexcept {
 }
 
 /// Speed across the normal that a spin gives a point: |(spin x arm) x normal|.
-double slideOf(Vector3 spin, Vector3 arm, Vector3 normal) noexcept {
-    const double about = dot(spin, normal), along = dot(arm, normal);
+double slideSpeed(Vector3 spin, Vector3 arm, Vector3 normal) noexcept {
+    const double spinAlong = dot(spin, normal), armAlong = dot(arm, normal);
     const auto part = [=](float r, float w) {
-        return static_cast<double>(r) * about - static_cast<double>(w) * along;
+        return static_cast<double>(r) * spinAlong - static_cast<double>(w) * armAlong;
     };
     const double x = part(arm.x, spin.x), y = part(arm.y, spin.y), z = part(arm.z, spin.z);
     return std::sqrt(x * x + y * y + z * z);
@@ -48,14 +48,14 @@ void ReportedBodies::move(std::int32_t id, Vector3 centre, const SpaceMotion& mo
 
 void ReportedBodies::setMotionAfter(std::int32_t id, const SpaceMotion& motion) {
     Body& body = bodies_[static_cast<std::size_t>(slots_.find(idOf(id)))];
-    body.after = motion;
-    body.afterAge = age_;
+    body.motionAfter = motion;
+    body.motionAfterAge = age_;
     hasAnyMotionAfter_ = true;
 }
 
 bool ReportedBodies::hasMotionAfter(std::int32_t id) const {
     const Body& body = at(idOf(id));
-    return !(body.reported.massKg > 0.0) || body.afterAge == age_;
+    return !(body.reported.massKg > 0.0) || body.motionAfterAge == age_;
 }
 
 void ReportedBodies::remove(std::int32_t id) {
@@ -93,7 +93,7 @@ double ReportedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, V
                                 bool isAfter) const {
     const auto velocity = [&](const Body& body) {
         const bool isSolved = isAfter && body.reported.massKg > 0.0;
-        return velocityAt(isSolved ? body.after : body.motion, point - body.centre);
+        return velocityAt(isSolved ? body.motionAfter : body.motion, point - body.centre);
     };
     return dot(velocity(at(idOf(a))) - velocity(at(idOf(b))), normal);
 }
@@ -102,16 +102,16 @@ double ReportedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vect
     double sum = 0.0;
     for (const Body* body : {&at(idOf(a)), &at(idOf(b))})
         sum += lengthOf(cross(body->motion.metresPerSecond, normal)) +
-               slideOf(body->motion.radiansPerSecond, point - body->centre, normal);
+               slideSpeed(body->motion.radiansPerSecond, point - body->centre, normal);
     return sum;
 }
 
 // Divides by the moment of inertia where that is known, instead of multiplying by its inverse: the last bit
 // may differ.
 double ReportedBodies::angularCoupling(const Body& body, Vector3 lever, Vector3 other) noexcept {
-    if (body.inverse) return body.inverse->between(lever, other);
+    if (body.inverse) return body.inverse->coupling(lever, other);
     if (!(body.reported.inertiaKgSquareMetres > 0.0)) return 0.0;
-    return InverseInertia::ofBall(1.0).between(lever, other) / body.reported.inertiaKgSquareMetres;
+    return InverseInertia::ofBall(1.0).coupling(lever, other) / body.reported.inertiaKgSquareMetres;
 }
 
 InverseInertia ReportedBodies::inverseInertia(std::int32_t id) const {
@@ -148,12 +148,12 @@ double ReportedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 p
 
 Vector3 ReportedBodies::limitedDrag(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
                                     Vector3 drag) const {
-    const double across = lengthOf(drag);
-    if (!(across > 1.0e-6)) return {};
-    const Vector3 direction = static_cast<float>(1.0 / across) * drag;
+    const double length = lengthOf(drag);
+    if (!(length > 1.0e-6)) return {};
+    const Vector3 direction = static_cast<float>(1.0 / length) * drag;
     const double stopping =
         -coupling(a, b, point, direction, point, normal) / coupling(a, b, point, direction, point, direction);
-    return stopping > 0.0 && stopping < across ? static_cast<float>(stopping) * direction : drag;
+    return stopping > 0.0 && stopping < length ? static_cast<float>(stopping) * direction : drag;
 }
 
 BodyFacts ReportedBodies::facts(std::uint64_t body) const {
@@ -163,10 +163,10 @@ BodyFacts ReportedBodies::facts(std::uint64_t body) const {
 
 void ReportedSlides::report(const ReportedSlide& reported) {
     const std::uint64_t key = pairKey(reported.a, reported.b);
-    std::int32_t at = trackOf_.find(key);
-    if (at == IntegerMap::none) {
-        at = static_cast<std::int32_t>(tracks_.size());
-        trackOf_.set(key, at);
+    std::int32_t index = trackOf_.find(key);
+    if (index == IntegerMap::none) {
+        index = static_cast<std::int32_t>(tracks_.size());
+        trackOf_.set(key, index);
         Track& added = tracks_.emplace_back();
         added.key = key;
         added.isNew = true;
@@ -174,7 +174,7 @@ void ReportedSlides::report(const ReportedSlide& reported) {
         added.point.a = reported.a;
         added.point.b = reported.b;
     }
-    Track& track = tracks_[static_cast<std::size_t>(at)];
+    Track& track = tracks_[static_cast<std::size_t>(index)];
     LastingPoint& point = track.point;
     if (!std::exchange(track.isReported, true)) point.normalNewtonSeconds = 0.0;
     point.normalNewtonSeconds += std::max(0.0, reported.newtonSeconds);
@@ -196,8 +196,8 @@ void ReportedSlides::endStep(double seconds, LastingContacts& lasting) {
         point.slipMetresPerSecond = point.onA.metresPerSecond - point.onB.metresPerSecond;
         point.velocity = {};
         if (!std::exchange(track.isNew, false) && seconds > 0.0)
-            point.velocity = static_cast<float>(1.0 / seconds) * (point.point - track.before);
-        track.before = point.point;
+            point.velocity = static_cast<float>(1.0 / seconds) * (point.point - track.lastPoint);
+        track.lastPoint = point.point;
         lasting.touch(point);
         ++i;
     }

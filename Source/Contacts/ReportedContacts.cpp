@@ -18,7 +18,7 @@ void ReportedContacts::beginStep(std::int64_t endNs, double gravityMetresPerSeco
 
 void ReportedContacts::remove(std::int32_t id) {
     const std::int32_t slot = slotOf(id);
-    dropAllOf(slot);
+    dropPairsOf(slot);
     events_.handleDestruction(slot);
     bodies_.remove(id);
 }
@@ -98,7 +98,7 @@ void ReportedContacts::drop(std::size_t pair) {
     pairs_.pop_back();
 }
 
-void ReportedContacts::dropAllOf(std::int32_t slot) {
+void ReportedContacts::dropPairsOf(std::int32_t slot) {
     for (std::size_t i = pairs_.size(); i-- > 0;)
         if (pairs_[i].a == slot || pairs_[i].b == slot) drop(i);
     slides_.forget(slot);
@@ -128,9 +128,9 @@ bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew)
     const double speed = speedOf(contact), seconds = events_.stepSeconds();
     if (!(speed > 0.0) || (!isNew && contact.gapMetres > speed * seconds)) return false;
     constexpr double margin = 2.5; // excludes a starting elevator and the end of an earlier impact
-    const double beyond =
+    const double excessSpeed =
         speed - gravity_ * seconds * static_cast<double>(std::abs(gravityScaleOf(pair.a, pair.b)));
-    if (!isImpact(pair.a, pair.b, beyond / margin)) return false;
+    if (!isImpact(pair.a, pair.b, excessSpeed / margin)) return false;
     pair.approach = std::max(pair.approach, speed);
     return !isNew && speed > 2.0 * pair.lastApproach && !isOnGround(contact.a, contact.b) &&
            !isOnGround(contact.b, contact.a);
@@ -183,8 +183,8 @@ double ReportedContacts::supportedNewtonSeconds(double bySpeed, Push push, doubl
                                                 double fraction) const {
     constexpr double margin = 1.2; // the impulse of a step also moves overlaps apart
     const double gravitySpeed = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
-    const double ofCollision = push.first * gainedMetresPerSecond / (gainedMetresPerSecond + gravitySpeed);
-    if (ofCollision > margin * bySpeed) return ofCollision;
+    const double impactImpulse = push.first * gainedMetresPerSecond / (gainedMetresPerSecond + gravitySpeed);
+    if (impactImpulse > margin * bySpeed) return impactImpulse;
     return bySpeed > margin * push.second ? push.second : bySpeed;
 }
 
@@ -353,12 +353,12 @@ ReportedContacts::Push ReportedContacts::pushOf(const PendingContact& item) cons
     const double pushed =
         std::max(reportedNewtonSeconds, momentum_.newtonSeconds(static_cast<std::size_t>(item.momentum)));
     const double gap = contact.gapMetres > 0.0 ? contact.gapMetres / events_.stepSeconds() : HUGE_VAL;
-    const double after = bodies_.approach(contact.a, contact.b, contact.point, contact.normal, true);
-    const double remaining = std::clamp(after, 0.0, gap), speed = speedOf(contact);
+    const double speedAfter = bodies_.approach(contact.a, contact.b, contact.point, contact.normal, true);
+    const double remaining = std::clamp(speedAfter, 0.0, gap), speed = speedOf(contact);
     const double mass = bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal);
     // a body that has nearly stopped may bounce in the next step; over an edge most of the speed remains
-    const double bounceSpeed = after < 0.5 * speed
-                                   ? std::max(0.0, contact.restitution * speed + std::min(after, gap))
+    const double bounceSpeed = speedAfter < 0.5 * speed
+                                   ? std::max(0.0, contact.restitution * speed + std::min(speedAfter, gap))
                                    : (1.0 + contact.restitution) * remaining;
     // An engine that looks ahead leaves the speed that closes the gap; the next step stops it.
     const double stopped = bodies_.approach(contact.a, contact.b, contact.point, contact.normal) - remaining;
@@ -382,13 +382,13 @@ void ReportedContacts::addMomentumCollision() {
 // If the pair has a new point, that is the impact, and old points that were struck are load.
 void ReportedContacts::resolveKicks(Pair& pair) {
     bool isAnyNew = false;
-    const auto next = [this](std::int32_t at) { return pendingContacts_[static_cast<std::size_t>(at)].next; };
-    for (std::int32_t at = pair.newestPending; at != ReportedPoints::none; at = next(at))
-        if (const PendingContact& item = pendingContacts_[static_cast<std::size_t>(at)];
+    const auto next = [this](std::int32_t i) { return pendingContacts_[static_cast<std::size_t>(i)].next; };
+    for (std::int32_t index = pair.newestPending; index != ReportedPoints::none; index = next(index))
+        if (const PendingContact& item = pendingContacts_[static_cast<std::size_t>(index)];
             item.isNew && !item.isKick)
             isAnyNew = true;
-    for (std::int32_t at = pair.newestPending; at != ReportedPoints::none; at = next(at)) {
-        PendingContact& item = pendingContacts_[static_cast<std::size_t>(at)];
+    for (std::int32_t index = pair.newestPending; index != ReportedPoints::none; index = next(index)) {
+        PendingContact& item = pendingContacts_[static_cast<std::size_t>(index)];
         if (!item.isKick) continue;
         item.isNew = !isAnyNew;
         if (!isAnyNew)
@@ -403,10 +403,10 @@ void ReportedContacts::resolveKicks(Pair& pair) {
 void ReportedContacts::solvePair(Pair& pair) {
     resolveKicks(pair);
     pairContacts_.clear();
-    for (std::int32_t at = pair.newestPending; at != ReportedPoints::none;
-         at = pendingContacts_[static_cast<std::size_t>(at)].next)
+    for (std::int32_t index = pair.newestPending; index != ReportedPoints::none;
+         index = pendingContacts_[static_cast<std::size_t>(index)].next)
         // a point that was reported as begun and pushed counts once
-        if (const PendingContact& item = pendingContacts_[static_cast<std::size_t>(at)];
+        if (const PendingContact& item = pendingContacts_[static_cast<std::size_t>(index)];
             item.isNew || pair.isListed)
             pairContacts_.push_back(&item);
     if (pairContacts_.empty()) return;
@@ -442,7 +442,7 @@ void ReportedContacts::solvePair(Pair& pair) {
 }
 
 // The fastest approach of new points, m/s; below 0 if all of them part.
-double ReportedContacts::fastestOfNew() const {
+double ReportedContacts::fastestNewSpeed() const {
     double fastest = -std::numeric_limits<double>::infinity();
     for (const PendingContact* item : pairContacts_)
         if (item->isNew) fastest = std::max(fastest, speedOf(item->contact));
@@ -454,26 +454,26 @@ void ReportedContacts::addSharedCollision() {
     CollisionRecorder& recorder = events_.recorder();
     const FedContact& first = pairContacts_.front()->contact;
     const TouchingPairs::Handle pair = handleOf(first);
-    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = FedContact::latestFraction;
+    double total = 0.0, newImpulse = 0.0, fastest = 0.0, fraction = FedContact::latestFraction;
     Push push{0.0, 0.0};
     Vector3 point;
     for (std::size_t i = 0; i < solverPoints_.size(); ++i) {
         const SolverPoint& item = solverPoints_[i];
-        all += item.newtonSeconds;
+        total += item.newtonSeconds;
         if (const auto [newtonSeconds, maxNewtonSeconds] = pushOf(*pairContacts_[i]); item.isNew)
             push.first += newtonSeconds, push.second += maxNewtonSeconds;
         if (!item.isNew || !(item.newtonSeconds > 0.0)) continue;
-        ofNew += item.newtonSeconds;
-        point += static_cast<float>(item.newtonSeconds / ofNew) * (item.point - point);
+        newImpulse += item.newtonSeconds;
+        point += static_cast<float>(item.newtonSeconds / newImpulse) * (item.point - point);
         fastest = std::max(fastest, item.approach);
         fraction = std::min(fraction, fractionOf(pairContacts_[i]->contact, item.approach));
     }
-    const double share = all > 0.0 ? ofNew / all : 0.0;
+    const double share = total > 0.0 ? newImpulse / total : 0.0;
     if (fastest > 0.0)
-        ofNew = supportedNewtonSeconds(ofNew, push, (1.0 + first.restitution) * fastest, fraction);
-    const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
+        newImpulse = supportedNewtonSeconds(newImpulse, push, (1.0 + first.restitution) * fastest, fraction);
+    const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : newImpulse;
     const bool isCollision = impulse > 0.0 && std::isfinite(impulse) && isImpact(pair.a, pair.b, fastest);
-    if (!isCollision) countBelowThreshold(pair, first, fastest > 0.0 ? fastest : fastestOfNew(), impulse);
+    if (!isCollision) countBelowThreshold(pair, first, fastest > 0.0 ? fastest : fastestNewSpeed(), impulse);
     if (!isCollision && first.isImpulseOfPair) return addLoad(first);
     if (!isCollision) {
         for (const PendingContact* item : pairContacts_)

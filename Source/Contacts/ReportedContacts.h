@@ -35,10 +35,10 @@ public:
     /// because surfaces sink into each other, by several centimetres where contacts are springs.
     bool isNew(Chain& chain, std::int32_t id, Vector3 place, Vector3 normal, double withinMetres) {
         bool isOld = false;
-        for (std::int32_t at = chain.before; at != none && !isOld;
-             at = before_[static_cast<std::size_t>(at)].next) {
-            const Point& point = before_[static_cast<std::size_t>(at)];
-            isOld = id == FedContact::byPlace ? across(point.place - place, normal) <= withinMetres
+        for (std::int32_t index = chain.before; index != none && !isOld;
+             index = before_[static_cast<std::size_t>(index)].next) {
+            const Point& point = before_[static_cast<std::size_t>(index)];
+            isOld = id == FedContact::byPlace ? distanceAcross(point.place - place, normal) <= withinMetres
                                               : point.id == id;
         }
         now_.push_back({place, id, chain.now});
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    static double across(Vector3 direction, Vector3 normal) noexcept {
+    static double distanceAcross(Vector3 direction, Vector3 normal) noexcept {
         return lengthOf(cross(direction, normal));
     }
 
@@ -126,7 +126,7 @@ public:
     }
     BodyMotion motionBefore(std::uint64_t body) const override { return motion(body); }
     Vector2 centre(std::uint64_t body) const override { return inPlane(at(body).centre); }
-    Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const override { return at(body).centre + ofBody; }
+    Vector3 toWorld(std::uint64_t body, Vector2 local) const override { return at(body).centre + local; }
     double inertia(std::uint64_t body) const override { return at(body).reported.inertiaKgSquareMetres; }
 
 private:
@@ -134,9 +134,9 @@ private:
         std::int32_t id;
         FedBody reported;
         Vector3 centre;
-        SpaceMotion motion, after;
+        SpaceMotion motion, motionAfter;
         std::optional<InverseInertia> inverse{};
-        std::uint64_t afterAge = 0; // the step in which `after` was reported
+        std::uint64_t motionAfterAge = 0; // the step in which `motionAfter` was reported
     };
     const Body& at(std::uint64_t body) const { return bodies_[static_cast<std::size_t>(slots_.find(body))]; }
     static double angularCoupling(const Body& body, Vector3 lever, Vector3 other) noexcept;
@@ -216,17 +216,17 @@ private:
     struct Point {
         std::int32_t idA, idB, a, b; // engine's numbers; bodies as in Row
         Vector3 place;
-        std::size_t across = 0; // the first of two rows of friction; 0: none
+        std::size_t frictionRow = 0; // the first of two rows of friction; 0: none
         bool isStruck = false;
     };
     std::int32_t findOrAdd(const ReportedBodies& bodies, std::int32_t id);
-    Row rowOf(const ReportedBodies& bodies, const Point& point, Vector3 direction) const;
+    Row makeRow(const ReportedBodies& bodies, const Point& point, Vector3 direction) const;
     Row& addRow(const ReportedBodies& bodies, const Point& point, Vector3 direction);
     void addFriction(const ReportedBodies& bodies, std::size_t point);
     bool isInPlane(const Row& row) const;
     double explainedChange(const Row& row) const; // the part of row.targetChange that is explained so far,
                                                   // m/s
-    void push(const Row& row, double newtonSeconds);
+    void applyImpulse(const Row& row, double newtonSeconds);
     void sortByBatch();
     void sweep();
     void sweepInPlane();
@@ -266,7 +266,7 @@ private:
     struct Track {
         std::uint64_t key;
         LastingPoint point;
-        Vector3 before;
+        Vector3 lastPoint;
         bool isNew, isReported;
     };
     void drop(std::size_t track);
@@ -345,12 +345,12 @@ private:
     TouchingPairs::Handle handleOf(const FedContact& contact);
     Pair& findOrAdd(const FedContact& contact, bool isListed);
     void drop(std::size_t pair);
-    void dropAllOf(std::int32_t slot);
+    void dropPairsOf(std::int32_t slot);
     void addCollision(const FedContact& contact, Push push = unboundedPush);
     void countBelowThreshold(const TouchingPairs::Handle& pair, const FedContact& contact, double speed,
                              double impulse);
     void addSharedCollision();
-    double fastestOfNew() const;
+    double fastestNewSpeed() const;
     static void addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
                             float share) noexcept;
     void addLoad(const FedContact& contact);

@@ -29,8 +29,8 @@ struct Vector3 {
 };
 
 /// The length in double precision, in which the root of one component's square is that component. Any thread.
-inline double lengthOf(Vector3 of) noexcept {
-    const auto x = static_cast<double>(of.x), y = static_cast<double>(of.y), z = static_cast<double>(of.z);
+inline double lengthOf(Vector3 v) noexcept {
+    const auto x = static_cast<double>(v.x), y = static_cast<double>(v.y), z = static_cast<double>(v.z);
     return std::sqrt(x * x + y * y + z * z);
 }
 
@@ -61,7 +61,7 @@ struct Vector2 {
 };
 
 /// The part of a vector in space that lies in the plane. Any thread.
-inline Vector2 inPlane(Vector3 of) noexcept { return {of.x, of.y}; }
+inline Vector2 inPlane(Vector3 v) noexcept { return {v.x, v.y}; }
 
 /// Place and rotation of a body's frame.
 struct Frame {
@@ -86,9 +86,9 @@ struct FaceTouch {
 
     /// The point between the surfaces, world.
     Vector2 point() const noexcept {
-        const Vector2 out = face.turned(normal), at = other.toWorld(corner);
-        const auto height = static_cast<float>(dot(at - face.toWorld(onFace), out));
-        return 0.5F * ((at + (faceRadius - height) * out) + (at - otherRadius * out));
+        const Vector2 outward = face.turned(normal), tip = other.toWorld(corner);
+        const auto height = static_cast<float>(dot(tip - face.toWorld(onFace), outward));
+        return 0.5F * ((tip + (faceRadius - height) * outward) + (tip - otherRadius * outward));
     }
 };
 
@@ -117,7 +117,7 @@ struct InverseInertia {
     }
 
     /// Change of speed at one lever by 1 N s at the other, 1/kg.
-    double between(Vector3 u, Vector3 v) const noexcept {
+    double coupling(Vector3 u, Vector3 v) const noexcept {
         const auto product = [](float a, float b) { return static_cast<double>(a) * static_cast<double>(b); };
         return product(u.x, v.x) * xx + product(u.y, v.y) * yy + product(u.z, v.z) * zz +
                (product(u.x, v.y) + product(u.y, v.x)) * xy + (product(u.x, v.z) + product(u.z, v.x)) * xz +
@@ -129,19 +129,19 @@ struct InverseInertia {
     /// one or two axes only, is valid.
     bool isValid() const noexcept {
         constexpr double max = 1.0e18;
-        for (const double about : {xx, yy, zz})
-            if (!(about >= 0.0 && about <= max)) return false;
+        for (const double moment : {xx, yy, zz})
+            if (!(moment >= 0.0 && moment <= max)) return false;
         // no product of inertia is larger than the root of its two moments' product; engines round
         const auto isWithin = [](double product, double momentA, double momentB) {
             return std::abs(product) <= 1.0001 * std::sqrt(momentA * momentB);
         };
-        return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz) && isAboveZero();
+        return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz) && isSemiDefinite();
     }
 
 private:
     /// The last pivot of Cholesky's factors, where each axis has a moment: with those of the pairs above, it
     /// tells a positive semi-definite matrix. Scaled by the moments, since those of a rod differ a lot.
-    bool isAboveZero() const noexcept {
+    bool isSemiDefinite() const noexcept {
         if (!(xx > 0.0 && yy > 0.0 && zz > 0.0)) return true; // the pairs are all there is
         const double a = xy / std::sqrt(xx * yy), b = xz / std::sqrt(xx * zz), c = yz / std::sqrt(yy * zz);
         return 1.0 + 2.0 * a * b * c - a * a - b * b - c * c >= -1e-3;

@@ -37,7 +37,7 @@ Place perpendicular(const Place& vector, const Place& unit) noexcept {
 
 /// At right angles to the unit vector, along x if it can be, else along y or z as far as it can be: planes of
 /// two axes keep them as their own.
-Place uprightAcross(const Place& unit) noexcept {
+Place perpendicularAxis(const Place& unit) noexcept {
     constexpr Place axes[]{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     const Place* best = axes;
     for (const Place& axis : axes)
@@ -45,21 +45,21 @@ Place uprightAcross(const Place& unit) noexcept {
     return normalised(perpendicular(*best, unit));
 }
 
-/// The weights with which the vectors from the centre to three corners sum to `out`, the vector to a place
+/// The weights with which the vectors from the centre to three corners sum to `offset`, the vector to a place
 /// (Pulkki 1997, Eq. 9). All are 0 or more if the place is in their direction.
 using Weights = std::array<double, 3>;
-Weights weightsOf(const ActuatorPlace& out, const std::array<ActuatorPlace, 3>& corner) noexcept {
+Weights weightsOf(const ActuatorPlace& offset, const std::array<ActuatorPlace, 3>& corner) noexcept {
     const double volume = scalarProduct(corner[0], vectorProduct(corner[1], corner[2]));
     Weights weights;
     for (std::size_t i = 0; i < 3; ++i)
-        weights[i] = scalarProduct(out, vectorProduct(corner[(i + 1) % 3], corner[(i + 2) % 3])) / volume;
+        weights[i] = scalarProduct(offset, vectorProduct(corner[(i + 1) % 3], corner[(i + 2) % 3])) / volume;
     return weights;
 }
 
 } // namespace
 
 NeighbourCells::Place NeighbourCells::place(const Layout& layout, int k) const noexcept {
-    return onPlane(layout.places[order_[static_cast<std::size_t>(k)]]);
+    return toPlane(layout.places[order_[static_cast<std::size_t>(k)]]);
 }
 
 double NeighbourCells::tolerance(const Layout& layout) const noexcept {
@@ -80,14 +80,14 @@ bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
     axis_ = axis;
     Keys acrosses{}, alongs{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
-        acrosses[j] = across(onPlane(layout.places[j]));
-        alongs[j] = along(onPlane(layout.places[j]));
+        acrosses[j] = across(toPlane(layout.places[j]));
+        alongs[j] = along(toPlane(layout.places[j]));
     }
     const auto begin = order_.begin(), end = begin + layout.count;
     sortBy(acrosses, order_.data(), order_.data() + layout.count);
-    const double near = tolerance(layout), lowest = across(place(layout, 0));
+    const double margin = tolerance(layout), lowest = across(place(layout, 0));
     columns_ = static_cast<int>(
-        std::count_if(begin, end, [&](std::uint8_t j) { return acrosses[j] - lowest <= near; }));
+        std::count_if(begin, end, [&](std::uint8_t j) { return acrosses[j] - lowest <= margin; }));
     if (columns_ < 2 || layout.count % columns_ != 0) return false;
     rows_ = layout.count / columns_;
     for (int row = 0; row < layout.count; row += columns_)
@@ -96,15 +96,15 @@ bool NeighbourCells::findGrid(const Layout& layout, Axis axis) noexcept {
 }
 
 bool NeighbourCells::isGrid(const Layout& layout) const noexcept {
-    const double near = tolerance(layout);
+    const double margin = tolerance(layout);
     for (int k = 0; k < layout.count; ++k) {
         const int row = k / columns_, column = k % columns_;
         const Place p = place(layout, k), inRow = place(layout, row * columns_),
                     inColumn = place(layout, column);
-        if (std::abs(across(p) - across(inRow)) > near) return false;
-        if (std::abs(along(p) - along(inColumn)) > near) return false;
-        if (column > 0 && along(p) - along(place(layout, k - 1)) <= near) return false;
-        if (row > 0 && across(p) - across(place(layout, k - columns_)) <= near) return false;
+        if (std::abs(across(p) - across(inRow)) > margin) return false;
+        if (std::abs(along(p) - along(inColumn)) > margin) return false;
+        if (column > 0 && along(p) - along(place(layout, k - 1)) <= margin) return false;
+        if (row > 0 && across(p) - across(place(layout, k - columns_)) <= margin) return false;
     }
     return true;
 }
@@ -120,38 +120,38 @@ bool NeighbourCells::findRing(const Layout& layout) noexcept {
     }
     Keys angles{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
-        const Place d = difference(onPlane(layout.places[j]), centre_);
+        const Place d = difference(toPlane(layout.places[j]), centre_);
         angles[j] = portable::atan2(d.yMetres, d.xMetres);
     }
     sortBy(angles, order_.data(), order_.data() + n);
-    const double near = tolerance(layout);
+    const double margin = tolerance(layout);
     for (int k = 0; k < n; ++k) {
         const Place a = place(layout, k), b = place(layout, (k + 1) % n), c = place(layout, (k + 2) % n);
         const Place chord = difference(c, a);
         const double inwards = crossProduct(chord, difference(b, a)); // times the chord's length
-        if (inwards > near * portable::hypot(chord.xMetres, chord.yMetres)) return false;
-        if (crossProduct(difference(a, centre_), difference(b, centre_)) <= near * near) return false;
+        if (inwards > margin * portable::hypot(chord.xMetres, chord.yMetres)) return false;
+        if (crossProduct(difference(a, centre_), difference(b, centre_)) <= margin * margin) return false;
     }
     return true;
 }
 
 void NeighbourCells::sharesAt(const Layout& layout, const Place& place, Shares& shares) const noexcept {
     if (shape_ == Shape::ring)
-        ringShares(layout, onPlane(place), shares);
+        ringShares(layout, toPlane(place), shares);
     else
-        gridShares(layout, onPlane(place), shares);
+        gridShares(layout, toPlane(place), shares);
 }
 
 void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
-    const auto between = [](int count, double at, auto coordinate) -> Segment {
+    const auto locate = [](int count, double position, auto coordinate) -> Segment {
         if (count == 1) return {};
         int first = 0;
-        while (first + 2 < count && coordinate(first + 1) <= at) ++first;
-        const double from = coordinate(first), to = coordinate(first + 1);
-        return {first, std::clamp((at - from) / (to - from), 0.0, 1.0)};
+        while (first + 2 < count && coordinate(first + 1) <= position) ++first;
+        const double low = coordinate(first), high = coordinate(first + 1);
+        return {first, std::clamp((position - low) / (high - low), 0.0, 1.0)};
     };
-    const Segment column = between(columns_, along(p), [&](int c) { return along(place(layout, c)); });
-    const Segment row = between(rows_, across(p), [&](int r) { return across(place(layout, r * columns_)); });
+    const Segment column = locate(columns_, along(p), [&](int c) { return along(place(layout, c)); });
+    const Segment row = locate(rows_, across(p), [&](int r) { return across(place(layout, r * columns_)); });
     std::fill_n(shares.begin(), layout.count, 0.0);
     for (int r = 0; r < std::min(2, rows_); ++r)
         for (int c = 0; c < 2; ++c) {
@@ -164,14 +164,14 @@ void NeighbourCells::gridShares(const Layout& layout, const Place& p, Shares& sh
 // The two neighbours and the centre form a triangle. The centre has no actuator; all of the ring share its
 // part, and their mean place is the centre.
 void NeighbourCells::ringShares(const Layout& layout, const Place& p, Shares& shares) const noexcept {
-    const Place out = difference(p, centre_);
+    const Place offset = difference(p, centre_);
     int sector = 0;
     double first = 0.0, second = 0.0, inside = -1.0; // parts of the two; the best sector's smaller part
     for (int k = 0; k < layout.count; ++k) {
         const Place a = difference(place(layout, k), centre_),
                     b = difference(place(layout, (k + 1) % layout.count), centre_);
         const double area = crossProduct(a, b);
-        const double toA = crossProduct(out, b) / area, toB = crossProduct(a, out) / area;
+        const double toA = crossProduct(offset, b) / area, toB = crossProduct(a, offset) / area;
         if (k > 0 && std::min(toA, toB) <= inside) continue;
         inside = std::min(toA, toB);
         sector = k, first = std::max(0.0, toA), second = std::max(0.0, toB);
@@ -189,13 +189,13 @@ NeighbourCells::NeighbourCells(const Layout& layout) noexcept {
     if (layout.count < 2 || !findPlane(layout)) return;
     std::iota(order_.begin(), order_.begin() + layout.count, std::uint8_t{0});
     // Four on the corners of a rectangle that is not upright are a belt, as in the plane of x and y.
-    if (findGrid(layout, {}) || (layout.count != 4 && findGrid(layout, towardsNearest(layout))))
+    if (findGrid(layout, {}) || (layout.count != 4 && findGrid(layout, nearestDirection(layout))))
         shape_ = Shape::grid;
     else if (findRing(layout))
         shape_ = Shape::ring;
 }
 
-NeighbourCells::Place NeighbourCells::onPlane(const Place& p) const noexcept {
+NeighbourCells::Place NeighbourCells::toPlane(const Place& p) const noexcept {
     if (!isTilted_) return p;
     return {scalarProduct(p, right_), scalarProduct(p, up_)};
 }
@@ -214,12 +214,12 @@ bool NeighbourCells::findPlane(const Layout& layout) noexcept {
     if (!(length > 0.0)) return false;
     isTilted_ = true;
     const Place line = normalised(reach);
-    const auto aside = [&](const Place& d) { return lengthOf(perpendicular(d, line)); };
-    const Place side = perpendicular(vectorBetween(*begin, farthest(aside)), line);
+    const auto lineDistance = [&](const Place& d) { return lengthOf(perpendicular(d, line)); };
+    const Place side = perpendicular(vectorBetween(*begin, farthest(lineDistance)), line);
     spanMetres_ = length + lengthOf(side);
     const bool isRow = lengthOf(side) <= tolerance(layout);
-    const Place normal = isRow ? uprightAcross(line) : normalised(vectorProduct(line, side));
-    right_ = isRow ? line : uprightAcross(normal);
+    const Place normal = isRow ? perpendicularAxis(line) : normalised(vectorProduct(line, side));
+    right_ = isRow ? line : perpendicularAxis(normal);
     up_ = vectorProduct(normal, right_);
     return isRow || std::all_of(begin, end, [&](const Place& p) {
                return std::abs(scalarProduct(vectorBetween(*begin, p), normal)) <= tolerance(layout);
@@ -227,11 +227,11 @@ bool NeighbourCells::findPlane(const Layout& layout) noexcept {
 }
 
 // In a grid the nearest neighbour is in the same row or column, so a grid at any angle is upright along it.
-NeighbourCells::Axis NeighbourCells::towardsNearest(const Layout& layout) const noexcept {
-    const Place first = onPlane(layout.places[0]);
+NeighbourCells::Axis NeighbourCells::nearestDirection(const Layout& layout) const noexcept {
+    const Place first = toPlane(layout.places[0]);
     Place nearest;
     for (int j = 1; j < layout.count; ++j) {
-        const Place d = vectorBetween(first, onPlane(layout.places[static_cast<std::size_t>(j)]));
+        const Place d = vectorBetween(first, toPlane(layout.places[static_cast<std::size_t>(j)]));
         if (j == 1 || lengthOf(d) < lengthOf(nearest)) nearest = d;
     }
     const double length = lengthOf(nearest);
@@ -242,8 +242,8 @@ NeighbourCells::Axis NeighbourCells::towardsNearest(const Layout& layout) const 
 // one is below zero. A face of more than three corners is divided at its middle. No actuator stands there, so
 // its corners carry the middle's share equally, and so do all actuators that of the centre.
 void TriangleCells::sharesAt(const Layout& layout, const Place& place, Shares& shares) const noexcept {
-    const Place out = vectorBetween(centre_, place);
-    const Triangle best = triangleTowards(layout, out);
+    const Place offset = vectorBetween(centre_, place);
+    const Triangle best = triangleTowards(layout, offset);
     const double reach = best.weights[0] + best.weights[1] + best.weights[2]; // 1 on the surface
     const double scale = 1.0 / std::max(1.0, reach);
     std::fill_n(shares.begin(), layout.count, (1.0 - std::min(1.0, reach)) / layout.count);
@@ -258,7 +258,7 @@ void TriangleCells::sharesAt(const Layout& layout, const Place& place, Shares& s
 }
 
 TriangleCells::Triangle TriangleCells::triangleTowards(const Layout& layout,
-                                                       const Place& out) const noexcept {
+                                                       const Place& offset) const noexcept {
     const auto corner = [&](std::size_t c) { return vectorBetween(centre_, layout.places[corners_[c]]); };
     Triangle best;
     double inside = 0.0;
@@ -271,7 +271,7 @@ TriangleCells::Triangle TriangleCells::triangleTowards(const Layout& layout,
             const std::size_t second = count == 3 ? first + 1 : first + i,
                               third = count == 3 ? first + 2 : first + (i + 1) % count;
             const Weights weights =
-                weightsOf(out, {count == 3 ? corner(first) : middle, corner(second), corner(third)});
+                weightsOf(offset, {count == 3 ? corner(first) : middle, corner(second), corner(third)});
             const double smallest = std::min({weights[0], weights[1], weights[2]});
             if (face + i > 0 && smallest <= inside) continue;
             inside = smallest;
@@ -289,22 +289,22 @@ namespace {
 using Direction = ActuatorPlace; // length 1
 using Directions = std::array<Direction, TriangleCells::maxActuators>;
 
-constexpr double coplanar = 1e-6; // directions that miss a plane by less lie in it
-constexpr double minApart = 1e-3; // between two directions
-constexpr double minReach = 0.1;  // from the centre to a face of directions: below, the layout is open
+constexpr double coplanar = 1e-6;      // directions that miss a plane by less lie in it
+constexpr double minSeparation = 1e-3; // between two directions
+constexpr double minReach = 0.1;       // from the centre to a face of directions: below, the layout is open
 
 /// False if an actuator is at the centre, or two are in one direction from it.
 bool findDirections(const ActuatorLayout& layout, const ActuatorPlace& centre,
                     Directions& directions) noexcept {
     const auto count = static_cast<std::size_t>(layout.count);
-    const double minMetres = minApart * (layout.extentWidthMetres + layout.extentHeightMetres);
+    const double minMetres = minSeparation * (layout.extentWidthMetres + layout.extentHeightMetres);
     for (std::size_t j = 0; j < count; ++j) {
-        const ActuatorPlace out = vectorBetween(centre, layout.places[j]);
-        if (!(scalarProduct(out, out) > minMetres * minMetres)) return false;
-        directions[j] = normalised(out);
+        const ActuatorPlace offset = vectorBetween(centre, layout.places[j]);
+        if (!(scalarProduct(offset, offset) > minMetres * minMetres)) return false;
+        directions[j] = normalised(offset);
         for (std::size_t k = 0; k < j; ++k) {
-            const ActuatorPlace apart = vectorBetween(directions[j], directions[k]);
-            if (scalarProduct(apart, apart) < minApart * minApart) return false;
+            const ActuatorPlace separation = vectorBetween(directions[j], directions[k]);
+            if (scalarProduct(separation, separation) < minSeparation * minSeparation) return false;
         }
     }
     return true;
@@ -329,8 +329,8 @@ struct FacePlane {
     bool isFace() const noexcept { return !hasBeyond; }
     /// Nothing is below: the centre is not inside. Or it is hardly inside.
     bool isOpen() const noexcept { return !hasBelow || (isFace() && reach < minReach); }
-    bool contains(const Direction& out) const noexcept {
-        return std::abs(scalarProduct(normal, out) - reach) <= coplanar;
+    bool contains(const Direction& offset) const noexcept {
+        return std::abs(scalarProduct(normal, offset) - reach) <= coplanar;
     }
 };
 

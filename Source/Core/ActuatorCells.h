@@ -15,9 +15,9 @@ inline ActuatorPlace vectorBetween(const ActuatorPlace& a, const ActuatorPlace& 
     return {b.xMetres - a.xMetres, b.yMetres - a.yMetres, b.zMetres - a.zMetres};
 }
 
-/// The vector a + times * b.
-inline ActuatorPlace addScaled(const ActuatorPlace& a, const ActuatorPlace& b, double times) noexcept {
-    return {a.xMetres + times * b.xMetres, a.yMetres + times * b.yMetres, a.zMetres + times * b.zMetres};
+/// The vector a + factor * b.
+inline ActuatorPlace addScaled(const ActuatorPlace& a, const ActuatorPlace& b, double factor) noexcept {
+    return {a.xMetres + factor * b.xMetres, a.yMetres + factor * b.yMetres, a.zMetres + factor * b.zMetres};
 }
 
 inline double scalarProduct(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
@@ -41,9 +41,9 @@ void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexc
     for (std::uint8_t* next = begin; next < end; ++next) {
         const std::uint8_t moved = *next;
         const auto movedKey = key(moved);
-        std::uint8_t* at = next;
-        for (; at > begin && movedKey < key(*(at - 1)); --at) *at = *(at - 1);
-        *at = moved;
+        std::uint8_t* hole = next;
+        for (; hole > begin && movedKey < key(*(hole - 1)); --hole) *hole = *(hole - 1);
+        *hole = moved;
     }
 }
 
@@ -85,10 +85,10 @@ private:
     };
 
     Place place(const Layout& layout, int k) const noexcept;
-    Place onPlane(const Place& p) const noexcept;
+    Place toPlane(const Place& p) const noexcept;
     bool findPlane(const Layout& layout) noexcept;
     double tolerance(const Layout& layout) const noexcept;
-    Axis towardsNearest(const Layout& layout) const noexcept;
+    Axis nearestDirection(const Layout& layout) const noexcept;
     double along(const Place& p) const noexcept { return p.xMetres * axis_.x + p.yMetres * axis_.y; }
     double across(const Place& p) const noexcept { return p.yMetres * axis_.x - p.xMetres * axis_.y; }
     bool findGrid(const Layout& layout, Axis axis) noexcept;
@@ -142,7 +142,7 @@ private:
     };
 
     bool addFace(const std::uint8_t* corners, std::size_t count) noexcept;
-    Triangle triangleTowards(const Layout& layout, const Place& out) const noexcept;
+    Triangle triangleTowards(const Layout& layout, const Place& offset) const noexcept;
     std::size_t firstCorner(std::size_t face) const noexcept { return face == 0 ? 0 : ends_[face - 1]; }
 
     Place centre_;  // the mean of the actuators' places

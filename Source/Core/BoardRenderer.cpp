@@ -9,18 +9,18 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-constexpr auto release =
+constexpr auto releaseStep =
     static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
 
 // Converter code of a sample, 1 to 255; 128 is mid-scale. `sample` is within full scale, but for rounding.
-std::uint8_t codeOf(float sample) noexcept {
+std::uint8_t toCode(float sample) noexcept {
     return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample * 127.0f + 128.5f), 0, 255));
 }
 
 // Non-negative floats order as their bits do; comparing bits costs the board less than comparing floats.
 std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }
 
-bool exceeds(const PhasorBank::Block& block) noexcept {
+bool exceedsFullScale(const PhasorBank::Block& block) noexcept {
     std::uint32_t peakBits = 0;
     for (const auto& row : block)
 #pragma GCC unroll 4
@@ -40,18 +40,18 @@ void BoardRenderer::prepare() noexcept {
 
 bool BoardRenderer::schedule(const BoardEvent& event) noexcept {
     const auto ahead = static_cast<std::int32_t>(event.frame - frame());
-    const bool isTaken = isPlayable(event) && pending_.push(frame_ + ahead, event);
-    if (isTaken) nextDue_ = std::min(nextDue_, frame_ + ahead);
-    dropped_ += isTaken ? 0 : 1;
-    return isTaken;
+    const bool isAccepted = isPlayable(event) && pending_.push(frame_ + ahead, event);
+    if (isAccepted) nextDue_ = std::min(nextDue_, frame_ + ahead);
+    dropped_ += isAccepted ? 0 : 1;
+    return isAccepted;
 }
 
 bool BoardRenderer::schedule(const BoardSegment& segment) noexcept {
-    const bool isTaken = isPlayable(segment) && segments_.add(segment, frame());
-    dropped_ += isTaken ? 0 : 1;
-    played_ += isTaken ? 1 : 0;
-    late_ += isTaken && static_cast<std::int32_t>(segment.frame - frame()) < 0 ? 1 : 0;
-    return isTaken;
+    const bool isAccepted = isPlayable(segment) && segments_.add(segment, frame());
+    dropped_ += isAccepted ? 0 : 1;
+    played_ += isAccepted ? 1 : 0;
+    late_ += isAccepted && static_cast<std::int32_t>(segment.frame - frame()) < 0 ? 1 : 0;
+    return isAccepted;
 }
 
 void BoardRenderer::setGains(const Gains& gains) noexcept {
@@ -84,8 +84,8 @@ void BoardRenderer::render(Codes& out) noexcept {
         float* const channel = block[at(j)].data();
         gains_[at(j)].apply(&channel, 1, blockFrames);
     }
-    if (linkedGain_ < 1.0f || exceeds(block)) limit(block);
-    if (guard_.acts()) guard_.attenuate(block);
+    if (linkedGain_ < 1.0f || exceedsFullScale(block)) limit(block);
+    if (guard_.isActing()) guard_.attenuate(block);
     encode(block, out);
     frame_ += blockFrames;
 }
@@ -108,7 +108,7 @@ void BoardRenderer::limit(PhasorBank::Block& io) noexcept {
         std::uint32_t peakBits = 0;
         for (const auto& row : io) peakBits = std::max(peakBits, magnitude(row[at(k)]));
         const auto peak = std::bit_cast<float>(peakBits);
-        gain = std::min(1.0f, gain + release);
+        gain = std::min(1.0f, gain + releaseStep);
         if (peak * gain > 1.0f) gain = 1.0f / peak;
         for (auto& row : io) row[at(k)] *= gain;
     }
@@ -120,7 +120,7 @@ void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept 
     for (int j = 0; j < channels; ++j) {
         int sum = -blockFrames * midScale;
 #pragma GCC unroll 4 // saves a quarter of a percent of the board's time
-        for (int k = 0; k < blockFrames; ++k) sum += out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
+        for (int k = 0; k < blockFrames; ++k) sum += out[at(k)][at(j)] = toCode(block[at(j)][at(k)]);
         areas[at(j)] = BoardGuard::area(sum);
     }
     guard_.update(areas);

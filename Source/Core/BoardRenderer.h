@@ -34,11 +34,11 @@ public:
     void prepare() noexcept {
         law_.prepare(channels, GuardPlace::last);
         law_.setTile(blockSeconds);
-        acts_ = false;
+        isActing_ = false;
     }
 
     /// True if the gain of the next block has to be reduced.
-    bool acts() const noexcept { return acts_; }
+    bool isActing() const noexcept { return isActing_; }
     /// Not inlined: it runs seldom, so a board keeps it out of its fast memory.
     [[gnu::noinline]] void attenuate(PhasorBank::Block& io) const noexcept {
         for (std::size_t j = 0; j < io.size(); ++j) {
@@ -53,10 +53,10 @@ public:
         return static_cast<float>(sum) * (1.0f / (fullScale * limits::board::sampleRateHz));
     }
     /// Adds the areas of a block that was sent, and decides whether to reduce the next one.
-    void update(const Areas& areas) noexcept { acts_ = law_.update(areas); }
+    void update(const Areas& areas) noexcept { isActing_ = law_.update(areas); }
 
     /// Plays the next block unchanged: for a block that is not sent to the actuators.
-    void bypassNextBlock() noexcept { acts_ = false; }
+    void bypassNextBlock() noexcept { isActing_ = false; }
 
     float gain() const noexcept { return law_.gain(); }                 ///< lowest gain of all channels
     std::uint32_t episodes() const noexcept { return law_.episodes(); } ///< how often it began to act
@@ -67,7 +67,7 @@ public:
 
 private:
     GuardLaw<channels> law_;
-    bool acts_ = false;
+    bool isActing_ = false;
 };
 
 /// Player of moving-tone segments on the four-channel board: segments that are pending or sounding.

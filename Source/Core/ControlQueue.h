@@ -20,50 +20,50 @@ public:
     PannerPool(const PannerPool&) = delete;
     PannerPool& operator=(const PannerPool&) = delete;
     ~PannerPool() {
-        std::for_each_n(places_.begin(), count_, [](Place* place) { delete place; });
+        std::for_each_n(slots_.begin(), count_, [](Slot* slot) { delete slot; });
     }
 
     /// Makes `count` places, at most `Max`. Sender only, not while it renders. False: no memory.
     bool reserve(std::size_t count) noexcept {
         for (; count_ < std::min(count, Max); ++count_)
-            if ((places_[count_] = new (std::nothrow) Place) == nullptr) return false;
+            if ((slots_[count_] = new (std::nothrow) Slot) == nullptr) return false;
         return true;
     }
 
     /// A copy that stays until it is handed back; null: all places are in use. Sender only, wait-free.
     const PhantomPanner* store(const PhantomPanner& panner) noexcept {
-        Place* const place = free();
-        if (place == nullptr) return nullptr;
-        static_cast<PhantomPanner&>(*place) = panner;
-        place->isFree.store(false, std::memory_order_relaxed);
-        return place;
+        Slot* const slot = findFree();
+        if (slot == nullptr) return nullptr;
+        static_cast<PhantomPanner&>(*slot) = panner;
+        slot->isFree.store(false, std::memory_order_relaxed);
+        return slot;
     }
-    bool hasRoom() const noexcept { return free() != nullptr; } ///< sender only, wait-free
-    std::size_t count() const noexcept { return count_; }       ///< sender only
+    bool hasRoom() const noexcept { return findFree() != nullptr; } ///< sender only, wait-free
+    std::size_t count() const noexcept { return count_; }           ///< sender only
 
     /// Hands back what store() of any pool has returned. Reader only, wait-free.
     static void release(const PhantomPanner* copy) noexcept {
-        if (copy != nullptr) static_cast<const Place*>(copy)->isFree.store(true, std::memory_order_release);
+        if (copy != nullptr) static_cast<const Slot*>(copy)->isFree.store(true, std::memory_order_release);
     }
 
     /// Frees all places. Only while neither side uses it.
     void clear() noexcept {
-        std::for_each_n(places_.begin(), count_, [](Place* place) { release(place); });
+        std::for_each_n(slots_.begin(), count_, [](Slot* slot) { release(slot); });
     }
 
 private:
-    struct Place : PhantomPanner {
+    struct Slot : PhantomPanner {
         mutable std::atomic<bool> isFree{true};
     };
-    Place* free() const noexcept {
-        const auto end = places_.begin() + static_cast<std::ptrdiff_t>(count_);
-        const auto found = std::find_if(places_.begin(), end, [](const Place* place) {
-            return place->isFree.load(std::memory_order_acquire);
+    Slot* findFree() const noexcept {
+        const auto end = slots_.begin() + static_cast<std::ptrdiff_t>(count_);
+        const auto found = std::find_if(slots_.begin(), end, [](const Slot* slot) {
+            return slot->isFree.load(std::memory_order_acquire);
         });
         return found == end ? nullptr : *found;
     }
 
-    std::array<Place*, Max> places_{};
+    std::array<Slot*, Max> slots_{};
     std::size_t count_ = 0;
 };
 
@@ -79,7 +79,7 @@ public:
     /// copied. Sender only.
     bool push(RenderControl control) noexcept {
         if (control.panner != nullptr && (control.panner = copyOf(*control.panner)) == nullptr) {
-            refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+            refusedCount_.store(refusedCount_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
             return false;
         }
         if (controls_.push(control)) return true;
@@ -94,14 +94,14 @@ public:
 
     /// Forgets all controls, also those that were popped and are not done. Only while neither side uses it.
     void clear() noexcept {
-        for (RenderControl undone; controls_.pop(undone);) {
+        for (RenderControl unread; controls_.pop(unread);) {
         }
         panners_.clear();
     }
 
     /// How many controls were refused. Any thread, wait-free.
     std::size_t overflows() const noexcept {
-        return controls_.overflows() + refused_.load(std::memory_order_relaxed);
+        return controls_.overflows() + refusedCount_.load(std::memory_order_relaxed);
     }
 
 private:
@@ -114,7 +114,7 @@ private:
 
     EventQueue<RenderControl, Capacity> controls_;
     Pool panners_;
-    std::atomic<std::size_t> refused_{0};
+    std::atomic<std::size_t> refusedCount_{0};
 };
 
 } // namespace physvib

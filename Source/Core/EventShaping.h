@@ -109,8 +109,8 @@ constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
 
 /// The largest value of sin(2 pi f t) exp(-tau t), a little before its first quarter period. Any thread.
 inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
-    const double turn = 2.0 * std::numbers::pi * frequencyHz, phase = portable::atan2(turn, decayPerSecond);
-    return portable::sin(phase) * portable::exp(-decayPerSecond * phase / turn);
+    const double omega = 2.0 * std::numbers::pi * frequencyHz, phase = portable::atan2(omega, decayPerSecond);
+    return portable::sin(phase) * portable::exp(-decayPerSecond * phase / omega);
 }
 
 /// Sets the amplitudes of one world's impacts, in time order. An impact from rest peaks at the fixed
@@ -128,7 +128,7 @@ public:
         if (remaining > 0.0) add(event);
         return event;
     }
-    void forget() noexcept { sounding_ = {}; }
+    void reset() noexcept { envelopes_ = {}; }
 
 private:
     struct Envelope {
@@ -144,7 +144,7 @@ private:
 
     double soundingAt(std::int64_t timeNs) const noexcept {
         double sum = 0.0;
-        for (const Envelope& e : sounding_) sum += e.at(timeNs);
+        for (const Envelope& e : envelopes_) sum += e.at(timeNs);
         return sum;
     }
 
@@ -155,18 +155,18 @@ private:
         const auto isSame = [&](const Envelope& e) {
             return e.untilNs == INT64_MAX && untilNs == INT64_MAX && e.decayPerSecond == event.decayPerSecond;
         };
-        auto at = std::find_if(sounding_.begin(), sounding_.end(), isSame);
-        if (at == sounding_.end())
-            at = std::min_element(sounding_.begin(), sounding_.end(),
-                                  [&](const Envelope& a, const Envelope& b) {
-                                      return a.at(event.timeNs) < b.at(event.timeNs);
-                                  });
+        auto envelope = std::find_if(envelopes_.begin(), envelopes_.end(), isSame);
+        if (envelope == envelopes_.end())
+            envelope = std::min_element(envelopes_.begin(), envelopes_.end(),
+                                        [&](const Envelope& a, const Envelope& b) {
+                                            return a.at(event.timeNs) < b.at(event.timeNs);
+                                        });
         // The level of the replaced envelope is kept, though its decay then differs.
-        const double remaining = at->at(event.timeNs);
-        *at = {remaining + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
+        const double remaining = envelope->at(event.timeNs);
+        *envelope = {remaining + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
     }
 
-    std::array<Envelope, 16> sounding_{};
+    std::array<Envelope, 16> envelopes_{};
 };
 
 /// Maps the tactile frequency range into an actuator's band and keeps the order: equal musical intervals stay
@@ -178,9 +178,9 @@ struct FrequencyRemap {
 
     double operator()(double frequencyHz) const noexcept {
         if (!band.isKnown()) return frequencyHz;
-        const double place =
+        const double position =
             portable::log(frequencyHz / tactileLowHz) / portable::log(tactileHighHz / tactileLowHz);
-        return band.lowHz * portable::pow(band.highHz / band.lowHz, std::clamp(place, 0.0, 1.0));
+        return band.lowHz * portable::pow(band.highHz / band.lowHz, std::clamp(position, 0.0, 1.0));
     }
     bool operator==(const FrequencyRemap&) const = default;
 };
@@ -206,13 +206,13 @@ struct EventShaping {
         event.frequencyHz = remap(event.frequencyHz);
         adjust(event);
         event.amplitude = perceived(event.amplitude * gain, event.frequencyHz);
-        if (truncation > 0.0 && event.decayPerSecond > 0.0) cut(event);
+        if (truncation > 0.0 && event.decayPerSecond > 0.0) truncate(event);
         return event;
     }
     bool operator==(const EventShaping&) const = default;
 
 private:
-    void cut(CollisionEvent& event) const noexcept {
+    void truncate(CollisionEvent& event) const noexcept {
         const double seconds = -portable::log(truncation) / event.decayPerSecond;
         if (!(seconds < 1e9)) return; // hardly decays: no cut
         const auto lifeNs = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) -
@@ -226,9 +226,9 @@ private:
 
 /// Integral of an event over its length, in seconds at full scale; `seconds`: until it ends. Any thread.
 inline double areaOf(const CollisionEvent& e, double seconds) noexcept {
-    const double turn = 2.0 * std::numbers::pi * e.frequencyHz, decay = e.decayPerSecond,
-                 end = portable::cos(turn * seconds) * turn + portable::sin(turn * seconds) * decay;
-    return e.amplitude * (turn - portable::exp(-decay * seconds) * end) / (turn * turn + decay * decay);
+    const double omega = 2.0 * std::numbers::pi * e.frequencyHz, decay = e.decayPerSecond,
+                 end = portable::cos(omega * seconds) * omega + portable::sin(omega * seconds) * decay;
+    return e.amplitude * (omega - portable::exp(-decay * seconds) * end) / (omega * omega + decay * decay);
 }
 
 /// Whether the event is what meanCompensation() has added to a hit. Any thread.
@@ -272,15 +272,15 @@ public:
         const bool compensatesMeans = shaping_.method.fixesAmplitude && !shaping_.method.holdsLevel;
         for (std::size_t k = first; k < events.size(); ++k) events[k] = (*this)(events[k]);
         if (!compensatesMeans) return;
-        Events all;
+        Events shapedEvents;
         for (std::size_t k = 0; k < events.size(); ++k) {
-            all.push_back(events[k]);
+            shapedEvents.push_back(events[k]);
             if (const CollisionEvent off = meanCompensation(events[k]); k >= first && isMeanCompensation(off))
-                all.push_back(off);
+                shapedEvents.push_back(off);
         }
-        events.swap(all);
+        events.swap(shapedEvents);
     }
-    void forget() noexcept { level_.forget(); }
+    void reset() noexcept { level_.reset(); }
 
 private:
     EventShaping shaping_;

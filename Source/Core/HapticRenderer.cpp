@@ -98,11 +98,11 @@ void HapticRenderer::apply(const RenderControl& control) noexcept {
         player_.fadeAll(position_);
 }
 
-int HapticRenderer::discardPending(const WaitingEvents& which) noexcept {
+int HapticRenderer::discardPending(const WaitingEvents& selection) noexcept {
     constexpr std::int64_t first = INT64_MIN;
     const int before = pending_.size();
     pending_.retime([=](std::int64_t time, const CollisionEvent& event) {
-        return which.contain(event, time) ? first : time;
+        return selection.contain(event, time) ? first : time;
     });
     while (!pending_.empty() && pending_.nextTime() == first) pending_.pop();
     return before - pending_.size();
@@ -151,10 +151,10 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
 
-void HapticRenderer::driveAt(const CollisionEvent& event, double* inPhase, double* ahead) noexcept {
+void HapticRenderer::driveAt(const CollisionEvent& event, double* inPhase, double* quadrature) noexcept {
     panners_.gainsAt(event, gains_);
     if (isCoupled())
-        settings_.drives.apply(event.frequencyHz, gains_.data(), inPhase, ahead);
+        settings_.drives.apply(event.frequencyHz, gains_.data(), inPhase, quadrature);
     else
         std::copy_n(gains_.begin(), panners_.base().channels(), inPhase);
 }
@@ -163,11 +163,11 @@ void HapticRenderer::driveAt(const CollisionEvent& event, double* inPhase, doubl
 // both are struck or none.
 bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
-    std::array<double, static_cast<std::size_t>(limits::maxActuators)> inPhase{}, ahead{};
-    settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), ahead.data());
+    std::array<double, static_cast<std::size_t>(limits::maxActuators)> inPhase{}, quadrature{};
+    settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), quadrature.data());
     bank_.strike(strike, inPhase.data());
     strike.phase += std::uint64_t{1} << 62;
-    return bank_.strike(strike, ahead.data());
+    return bank_.strike(strike, quadrature.data());
 }
 
 // Fast path for modes alone that reach the limiter unchanged. The limiter reads them where they were summed,
@@ -175,16 +175,16 @@ bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
 bool HapticRenderer::renderModesOnly(const Channels& out, int frames) noexcept {
     Channels delayInputs;
     std::array<const float*, static_cast<std::size_t>(limits::maxActuators)> sums;
-    const bool isAlone =
+    const bool hasOnlyModes =
         bank_.liveModes() > 0 && limiter_.hasKernel() && player_.voices() == 0 && moving_.count() == 0;
-    if (!isAlone || !actuators_.canBypass(delayInputs.data(), frames)) return false;
-    if (!bank_.sumsAt(sums.data(), position_)) {
+    if (!hasOnlyModes || !actuators_.canBypass(delayInputs.data(), frames)) return false;
+    if (!bank_.findSums(sums.data(), position_)) {
         if (!bank_.render(out.data(), position_, frames)) return false;
         std::copy_n(out.begin(), channels_, sums.begin());
     }
     actuators_.bypass(frames);
     limiter_.processInto(sums.data(), out.data(), frames, delayInputs.data());
-    guard(out, frames, false);
+    applyGuard(out, frames, false);
     return true;
 }
 
@@ -199,11 +199,11 @@ void HapticRenderer::renderAll(const Channels& out, int frames, const float* con
                        out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
     const bool isSilent =
         actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds && !added);
-    guard(out, frames, limiter_.process(out.data(), frames, isSilent));
+    applyGuard(out, frames, limiter_.process(out.data(), frames, isSilent));
 }
 
 // Without the limiter samples are unbounded, so the guard does not act; that of the device still does.
-void HapticRenderer::guard(const Channels& out, int frames, bool isSilent) noexcept {
+void HapticRenderer::applyGuard(const Channels& out, int frames, bool isSilent) noexcept {
     if (!settings_.limiterEnabled) return;
     guard_.moveTo(position_);
     guard_.process(out.data(), frames, isSilent);

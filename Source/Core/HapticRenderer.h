@@ -125,7 +125,7 @@ public:
 
     /// Discards these events, here and in `source`; returns how many they were. R, wait-free.
     template <class Source>
-    int discard(Source& source, const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
+    int discard(Source& source, const WaitingEvents& selection) noexcept PHYSVIB_NONBLOCKING;
 
     /// Events that have been played, for one reader on another thread.
     PlayedQueue& played() noexcept { return playedQueue_; }
@@ -152,7 +152,7 @@ private:
     int startDueEvents(Source& source, int maxFrames) noexcept;
     bool renderModesOnly(const Channels& out, int frames) noexcept;
     void renderAll(const Channels& out, int frames, const float* const* added) noexcept;
-    void guard(const Channels& out, int frames, bool isSilent) noexcept;
+    void applyGuard(const Channels& out, int frames, bool isSilent) noexcept;
     void normalise(float* const* out, int frames) const noexcept;
     template <class Source>
     void applyDueControls(Source& source) noexcept;
@@ -161,10 +161,10 @@ private:
     bool allocate() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
-    int discardPending(const WaitingEvents& which) noexcept;
+    int discardPending(const WaitingEvents& selection) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
-    void driveAt(const CollisionEvent& event, double* inPhase, double* ahead) noexcept;
+    void driveAt(const CollisionEvent& event, double* inPhase, double* quadrature) noexcept;
     bool isCoupled() const noexcept {
         return settings_.drives.isOn() &&
                settings_.drives.channels == static_cast<std::size_t>(panners_.base().channels());
@@ -245,11 +245,11 @@ int HapticRenderer::startDueEvents(Source& source, int maxFrames) noexcept {
 }
 
 template <class Source>
-int HapticRenderer::discard(Source& source, const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
+int HapticRenderer::discard(Source& source, const WaitingEvents& selection) noexcept PHYSVIB_NONBLOCKING {
     int count = 0;
     for (int last = -1; last != 0;) { // more than the pending store takes may wait in the source
         refill(source);
-        count += last = discardPending(which);
+        count += last = discardPending(selection);
     }
     return count;
 }
@@ -261,16 +261,16 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
         return;
     }
     const DenormalGuard guard;
-    Channels at; // only the first channels_ entries are set
-    std::copy_n(out, channels_, at.begin());
+    Channels outputs; // only the first channels_ entries are set
+    std::copy_n(out, channels_, outputs.begin());
     for (int done = 0; done < frames;) {
         const int part = startDueEvents(source, frames - done);
         const float* const* added = nullptr;
         if constexpr (requires { source.added(position_, part); }) added = source.added(position_, part);
-        if (added || !renderModesOnly(at, part)) renderAll(at, part, added);
+        if (added || !renderModesOnly(outputs, part)) renderAll(outputs, part, added);
         position_ += part;
         done += part;
-        for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
+        for (int j = 0; j < channels_; ++j) outputs[static_cast<std::size_t>(j)] += part;
     }
     if (settings_.normalisesBlocks) normalise(out, frames);
 }

@@ -53,8 +53,8 @@ constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law
 /// Perceived place, 0 to 1, of an impact that is panned to `share` of the way between two actuators: the
 /// centroid of intensity. Any thread.
 inline double centroidOf(PanningLaw law, double share) noexcept {
-    const double near = describe(law).gain(share), far = describe(law).gain(1.0 - share);
-    return far * far / (near * near + far * far);
+    const double nearGain = describe(law).gain(share), farGain = describe(law).gain(1.0 - share);
+    return farGain * farGain / (nearGain * nearGain + farGain * farGain);
 }
 
 /// Names of the laws, in table order.

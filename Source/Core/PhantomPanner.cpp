@@ -55,9 +55,9 @@ bool PhantomPanner::findLine() noexcept {
                   std::abs(lineDirection_.y) * layout_.extentHeightMetres;
     const double tolerance = placeTolerance();
     for (int j = 1; j < layout_.count; ++j) {
-        const double aside =
+        const double distance =
             (place(j).x - origin.x) * lineDirection_.y - (place(j).y - origin.y) * lineDirection_.x;
-        if (std::abs(aside) > tolerance) return false;
+        if (std::abs(distance) > tolerance) return false;
     }
     return true;
 }
@@ -67,12 +67,12 @@ bool PhantomPanner::isRectangle() const noexcept {
     const auto [left, right] = std::minmax({place(0).x, place(1).x, place(2).x, place(3).x});
     const auto [low, high] = std::minmax({place(0).y, place(1).y, place(2).y, place(3).y});
     const double tolerance = placeTolerance();
-    const auto near = [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; };
+    const auto isNear = [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; };
     int corners = 0; // one bit per corner: four places fill four corners only if no two share one
     for (int j = 0; j < 4; ++j) {
         const Vector p = place(j);
-        const bool isRight = near(p.x, right), isHigh = near(p.y, high);
-        if ((!isRight && !near(p.x, left)) || (!isHigh && !near(p.y, low))) return false;
+        const bool isRight = isNear(p.x, right), isHigh = isNear(p.y, high);
+        if ((!isRight && !isNear(p.x, left)) || (!isHigh && !isNear(p.y, low))) return false;
         corners |= 1 << ((isRight ? 1 : 0) + (isHigh ? 2 : 0));
     }
     return corners == 15;
@@ -117,8 +117,8 @@ void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexc
         return (s.x - o.x) * (t.y - o.y) - (s.y - o.y) * (t.x - o.x);
     };
     const double area = cross(a, b, c);
-    std::array<double, 3> weight{cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area};
-    if (*std::min_element(weight.begin(), weight.end()) < 0.0) {
+    std::array<double, 3> weights{cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area};
+    if (*std::min_element(weights.begin(), weights.end()) < 0.0) {
         // Outside the triangle the nearest point lies on an edge: the closest of all three.
         double nearest = -1.0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -130,35 +130,35 @@ void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexc
             const double distance = portable::hypot(s.x + share * e.x - p.x, s.y + share * e.y - p.y);
             if (nearest >= 0.0 && distance >= nearest) continue;
             nearest = distance;
-            weight = {};
-            weight[k] = 1.0 - share;
-            weight[next] = share;
+            weights = {};
+            weights[k] = 1.0 - share;
+            weights[next] = share;
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) gains[k] = gainFor(rule, 1.0 - weight[k]);
+    for (std::size_t k = 0; k < 3; ++k) gains[k] = gainFor(rule, 1.0 - weights[k]);
 }
 
 void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noexcept {
     // Shepard's weights 1/d^2. An impact at an actuator's place drives that actuator alone. Loops without
     // branches are vectorised.
-    constexpr double minSquare = 1e-18;              // a nanometre squared: avoids division by zero
-    std::array<double, limits::maxActuators> weight; // only `count` are used: not worth clearing
+    constexpr double minSquare = 1e-18;               // a nanometre squared: avoids division by zero
+    std::array<double, limits::maxActuators> weights; // only `count` are used: not worth clearing
     const auto count = static_cast<std::size_t>(layout_.count);
     const double depth = isFlat_ ? 0.0 : 1.0;
     for (std::size_t j = 0; j < count; ++j) {
         const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres,
                      dz = p.z - depth * layout_.places[j].zMetres;
         const double square = dx * dx + dy * dy + dz * dz;
-        weight[j] = square < minSquare ? minSquare : square;
+        weights[j] = square < minSquare ? minSquare : square;
     }
-    for (std::size_t j = 0; j < count; ++j) weight[j] = 1.0 / weight[j];
+    for (std::size_t j = 0; j < count; ++j) weights[j] = 1.0 / weights[j];
     double sum = 0.0;
-    for (std::size_t j = 0; j < count; ++j) sum += weight[j];
+    for (std::size_t j = 0; j < count; ++j) sum += weights[j];
     if (rule.isPlain())
         // rounded as factor() rounds it, within 0 and 1
-        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum);
+        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weights[j] / sum);
     else
-        for (std::size_t j = 0; j < count; ++j) gains[j] = gainFor(rule, 1.0 - weight[j] / sum);
+        for (std::size_t j = 0; j < count; ++j) gains[j] = gainFor(rule, 1.0 - weights[j] / sum);
 }
 
 void PhantomPanner::resolveAutomatic() noexcept {
@@ -174,16 +174,16 @@ void PhantomPanner::resolveAutomatic() noexcept {
         grains_ = grainSpread;
 }
 
-PhantomPanner::Vector PhantomPanner::onLayout(Vector field) const noexcept {
+PhantomPanner::Vector PhantomPanner::toLayout(Vector field) const noexcept {
     return {field.x * scaleX_, field.y * scaleY_, isFlat_ ? 0.0 : field.z * scaleX_};
 }
 
 void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
-    gainsForRule(rule_, onLayout({x, y}), gains);
+    gainsForRule(rule_, toLayout({x, y}), gains);
 }
 
 void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept {
-    gainsForSpread(spread, onLayout({x, y}), gains);
+    gainsForSpread(spread, toLayout({x, y}), gains);
 }
 
 int PhantomPanner::actuatorsOn(PartNumber part) const noexcept {
@@ -209,10 +209,10 @@ void PhantomPanner::gainsOf(const CollisionEvent& event, Spread spread, Gains& g
     copyPartGains(event.source.part, partGains, gains);
 }
 
-void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& ofPart,
+void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& partPanner,
                             Gains& gains) const noexcept {
     Gains partGains;
-    ofPart.gainsByPlace(event, ofPart.spreadOf(event), partGains);
+    partPanner.gainsByPlace(event, partPanner.spreadOf(event), partGains);
     copyPartGains(event.source.part, partGains, gains);
 }
 

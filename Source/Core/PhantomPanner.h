@@ -53,8 +53,8 @@ public:
     /// that they span. Takes up to 10 us. Any thread.
     PhantomPanner pannerOf(PartNumber part) const noexcept;
 
-    /// Gains of an event that is bound to a part; `ofPart`: this panner's pannerOf() of it. Any thread.
-    void gainsAt(const CollisionEvent& event, const PhantomPanner& ofPart, Gains& gains) const noexcept;
+    /// Gains of an event that is bound to a part; `partPanner`: this panner's pannerOf() of it. Any thread.
+    void gainsAt(const CollisionEvent& event, const PhantomPanner& partPanner, Gains& gains) const noexcept;
 
     /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
     bool lacksPartOf(const CollisionEvent& event) const noexcept {
@@ -112,14 +112,14 @@ private:
                (!isFlat_ || (layout_.count > 2 && arrangement_ != Arrangement::rectangle));
     }
     void resolveAutomatic() noexcept;
-    Vector onLayout(Vector field) const noexcept;
+    Vector toLayout(Vector field) const noexcept;
     int actuatorsOn(PartNumber part) const noexcept;
     Spread spreadOf(const CollisionEvent& event) const noexcept {
         const bool isGrain = event.source.kind != ContactKind::hit && event.spread == Spread::layout;
         return isGrain ? grains_ : event.spread;
     }
     void gainsByPlace(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
-        gainsForSpread(spread, onLayout({event.x, event.y, event.z}), gains);
+        gainsForSpread(spread, toLayout({event.x, event.y, event.z}), gains);
     }
     void copyPartGains(PartNumber part, const Gains& partGains, Gains& gains) const noexcept;
     void gainsForSpread(Spread spread, Vector p, Gains& gains) const noexcept;

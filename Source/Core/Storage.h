@@ -90,7 +90,7 @@ public:
     int size() const noexcept { return size_; }
     void clear() noexcept {
         size_ = heapSize_ = usedItems_ = 0;
-        free_ = first_ = last_ = none;
+        firstFree_ = first_ = last_ = none;
     }
 
     /// False if the queue is full; then nothing has changed.
@@ -102,18 +102,18 @@ public:
     }
 
     /// The memory of the next item: write it in place, then call pushFreeItem. Only when not full.
-    T& freeItem() noexcept { return items_[index(free_ != none ? free_ : usedItems_)]; }
+    T& freeItem() noexcept { return items_[index(firstFree_ != none ? firstFree_ : usedItems_)]; }
     void pushFreeItem(std::int64_t time) noexcept {
-        const std::int32_t at = free_ != none ? free_ : usedItems_++;
-        if (free_ != none) free_ = node(at).next;
-        node(at) = {time, arrivals_++, none};
+        const std::int32_t i = firstFree_ != none ? firstFree_ : usedItems_++;
+        if (firstFree_ != none) firstFree_ = node(i).next;
+        node(i) = {time, arrivals_++, none};
         ++size_;
         if (first_ == none)
-            first_ = last_ = at;
+            first_ = last_ = i;
         else if (time >= node(last_).time)
-            last_ = node(last_).next = at;
+            last_ = node(last_).next = i;
         else
-            pushOnHeap(at);
+            pushOnHeap(i);
     }
 
     /// Time and value of the first item. Only when not empty.
@@ -122,13 +122,13 @@ public:
 
     /// Removes the first item. Only when not empty.
     void pop() noexcept {
-        const std::int32_t at = firstIndex();
-        if (at == first_)
-            first_ = node(at).next;
+        const std::int32_t i = firstIndex();
+        if (i == first_)
+            first_ = node(i).next;
         else
             std::pop_heap(heap_.data(), heap_.data() + heapSize_--, laterFirst());
-        node(at).next = free_;
-        free_ = at;
+        node(i).next = firstFree_;
+        firstFree_ = i;
         --size_;
     }
 
@@ -139,7 +139,7 @@ public:
         for (; first_ != none; first_ = node(first_).next)
             heap_[index(heapSize_++)] = static_cast<ItemIndex>(first_);
         std::for_each(heap_.data(), heap_.data() + heapSize_,
-                      [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
+                      [&](std::int32_t i) { node(i).time = newTime(node(i).time, items_[index(i)]); });
         std::make_heap(heap_.data(), heap_.data() + heapSize_, laterFirst());
     }
 
@@ -150,17 +150,17 @@ private:
         std::uint32_t arrival = 0; // may wrap: arrivals in the queue are never 2^31 apart
         std::int32_t next = none;  // in the list of items, or in the list of free places
     };
-    static constexpr std::size_t index(std::int32_t at) noexcept { return static_cast<std::size_t>(at); }
-    Node& node(std::int32_t at) noexcept { return nodes_[index(at)]; }
-    const Node& node(std::int32_t at) const noexcept { return nodes_[index(at)]; }
+    static constexpr std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+    Node& node(std::int32_t i) noexcept { return nodes_[index(i)]; }
+    const Node& node(std::int32_t i) const noexcept { return nodes_[index(i)]; }
     static bool isLater(const Node& a, const Node& b) noexcept {
         return a.time != b.time ? a.time > b.time : static_cast<std::int32_t>(a.arrival - b.arrival) > 0;
     }
     auto laterFirst() const noexcept {
         return [this](std::int32_t a, std::int32_t b) { return isLater(node(a), node(b)); };
     }
-    void pushOnHeap(std::int32_t at) noexcept {
-        heap_[index(heapSize_++)] = static_cast<ItemIndex>(at);
+    void pushOnHeap(std::int32_t i) noexcept {
+        heap_[index(heapSize_++)] = static_cast<ItemIndex>(i);
         std::push_heap(heap_.data(), heap_.data() + heapSize_, laterFirst());
     }
     std::int32_t firstIndex() const noexcept {
@@ -174,8 +174,8 @@ private:
     using ItemIndex = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // for boards
     Storage<ItemIndex, maxItems, isOnHeap> heap_; // places of items that arrived out of order
     std::uint32_t arrivals_ = 0;
-    std::int32_t first_ = none, last_ = none;  // of the list
-    std::int32_t free_ = none, usedItems_ = 0; // places from `usedItems_` on have never been used
+    std::int32_t first_ = none, last_ = none;       // of the list
+    std::int32_t firstFree_ = none, usedItems_ = 0; // places from `usedItems_` on have never been used
     int size_ = 0, heapSize_ = 0;
     int capacity_ = isOnHeap ? 0 : Capacity;
 };

@@ -64,10 +64,10 @@ public:
 
     /// Removes the voices that have ended by `frame`. The others keep the order of their sums.
     void removeEnded(std::int64_t frame) noexcept {
-        Voice* writeTo = begin();
+        Voice* target = begin();
         for (Voice& voice : *this)
-            if (voice.end > frame) std::swap(*writeTo++, voice);
-        count_ = static_cast<std::size_t>(writeTo - begin());
+            if (voice.end > frame) std::swap(*target++, voice);
+        count_ = static_cast<std::size_t>(target - begin());
     }
 
     int count() const noexcept { return static_cast<int>(count_); }
@@ -184,8 +184,8 @@ public:
     int count() const noexcept { return voices_.count(); }
 
     /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
-    /// `driveAt(event, inPhase, ahead)` writes the gain per output of the part in phase with the tone and of
-    /// that a quarter turn ahead; what it leaves is 0. False if there was nothing to add.
+    /// `driveAt(event, inPhase, quadrature)` writes the gain per output of the part in phase with the tone
+    /// and of that a quarter turn ahead; what it leaves is 0. False if there was nothing to add.
     template <class DriveAt>
     bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
         bool sounds = false;
@@ -217,23 +217,23 @@ private:
         voice.first = std::max(tile, voice.onset);
         voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
         // the gains of the tile before, because the panning law may have changed since
-        double *const from = voice.gains, *const to = from + 2 * channels_;
+        double *const startGains = voice.gains, *const endGains = startGains + 2 * channels_;
         const auto drive = [&](std::int64_t frame, double* gains) {
             std::fill_n(gains, 2 * channels_, 0.0);
-            driveAt(at(voice, frame), gains, gains + channels_);
+            driveAt(eventAt(voice, frame), gains, gains + channels_);
         };
         if (voice.first == voice.onset)
-            drive(voice.first, from);
+            drive(voice.first, startGains);
         else
-            std::copy_n(to, 2 * channels_, from);
-        drive(voice.last, to);
+            std::copy_n(endGains, 2 * channels_, startGains);
+        drive(voice.last, endGains);
     }
 
     double ageFrames(const Voice& voice, std::int64_t frame) const noexcept {
         return static_cast<double>(frame - voice.onset) + voice.leadFrames;
     }
 
-    CollisionEvent at(const Voice& voice, std::int64_t frame) const noexcept {
+    CollisionEvent eventAt(const Voice& voice, std::int64_t frame) const noexcept {
         const auto travelNs = static_cast<double>(voice.event.course.travelNs);
         return movedAlong(voice.event, std::min(1.0, ageFrames(voice, frame) * 1e9 / (travelNs * rate_)));
     }
@@ -249,12 +249,12 @@ private:
                            voice.level * static_cast<double>(voices_.fadeAt(voice, frame)));
         const auto share =
             static_cast<double>(frame - voice.first) / static_cast<double>(voice.last - voice.first);
-        const auto between = [&](std::size_t i) {
+        const auto interpolated = [&](std::size_t i) {
             const double from = voice.gains[i];
             return from + share * (voice.gains[i + 2 * channels_] - from);
         };
         for (std::size_t j = 0; j < channels_; ++j)
-            io[j][n] += static_cast<float>(between(j) * tone.im + between(j + channels_) * tone.re);
+            io[j][n] += static_cast<float>(interpolated(j) * tone.im + interpolated(j + channels_) * tone.re);
     }
 
     double rate_ = 48000.0;

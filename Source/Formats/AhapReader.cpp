@@ -59,20 +59,20 @@ constexpr double maxLineChange = 0.1; // change of intensity per line: its squar
 /// The times at which `curve` bends during the event, including both ends.
 std::vector<double> bendTimes(const AhapEvent& event, const std::vector<ClipPoint>& curve) {
     const double end = roundedToNs(event.start + event.seconds);
-    std::vector<double> at{event.start};
+    std::vector<double> times{event.start};
     const auto first = std::ranges::upper_bound(curve, event.start, {}, &ClipPoint::seconds);
-    for (auto p = first; p != curve.end() && p->seconds < end; ++p) at.push_back(p->seconds);
-    at.push_back(end);
-    return at;
+    for (auto p = first; p != curve.end() && p->seconds < end; ++p) times.push_back(p->seconds);
+    times.push_back(end);
+    return times;
 }
 
 /// Calls `emit` for each line of `value` between bends of `curve`; it ends just before the next bend.
 template <class Value, class Emit>
 void forEachLine(const AhapEvent& event, const std::vector<ClipPoint>& curve, Value value, Emit emit) {
-    const auto at = bendTimes(event, curve);
-    for (std::size_t i = 0; i + 1 < at.size(); ++i)
-        emit(ClipPoint{at[i] - event.start, value(at[i])},
-             ClipPoint{at[i + 1] - event.start, value(std::nextafter(at[i + 1], 0.0))});
+    const auto times = bendTimes(event, curve);
+    for (std::size_t i = 0; i + 1 < times.size(); ++i)
+        emit(ClipPoint{times[i] - event.start, value(times[i])},
+             ClipPoint{times[i + 1] - event.start, value(std::nextafter(times[i + 1], 0.0))});
 }
 
 void addWave(std::vector<ClipBand>& bands, ClipWave wave) {
@@ -94,14 +94,14 @@ public:
         , intensity_{pattern.intensity.curve()}
         , sharpness_{pattern.sharpness.curve()} {}
 
-    ClipTransient transientOf(const AhapEvent& event) const {
+    ClipTransient toTransient(const AhapEvent& event) const {
         const double strength = intensityAt(event, event.start);
         return {event.start, strength * strength, frequencyHzAt(event, event.start)};
     }
 
-    ClipWave waveOf(const AhapEvent& event) {
+    ClipWave toWave(const AhapEvent& event) {
         ClipWave wave{event.start, 0.0, ClipWaveform::sine, {}, {}};
-        const auto strength = [&](double at) { return intensityAt(event, at); };
+        const auto strength = [&](double seconds) { return intensityAt(event, seconds); };
         forEachLine(event, intensity_, strength, [&](const ClipPoint& from, const ClipPoint& to) {
             const int pieces =
                 std::max(1, static_cast<int>(std::ceil(std::abs(to.value - from.value) / maxLineChange)));
@@ -114,7 +114,7 @@ public:
             }
             wave.amplitude.push_back({to.seconds, to.value * to.value});
         });
-        const auto frequencyHz = [&](double at) { return frequencyHzAt(event, at); };
+        const auto frequencyHz = [&](double seconds) { return frequencyHzAt(event, seconds); };
         forEachLine(event, sharpness_, frequencyHz, [&](const ClipPoint& from, const ClipPoint& to) {
             countPoints(1);
             wave.frequencyHz.push_back(from);
@@ -124,11 +124,11 @@ public:
     }
 
 private:
-    double intensityAt(const AhapEvent& event, double at) const {
-        return event.intensity * valueAt(intensity_, at);
+    double intensityAt(const AhapEvent& event, double seconds) const {
+        return event.intensity * valueAt(intensity_, seconds);
     }
-    double frequencyHzAt(const AhapEvent& event, double at) const {
-        return scale_.toHz(event.sharpness + valueAt(sharpness_, at));
+    double frequencyHzAt(const AhapEvent& event, double seconds) const {
+        return scale_.toHz(event.sharpness + valueAt(sharpness_, seconds));
     }
 
     /// Each event copies the curves that apply during it: many could exceed the file's size by far.
@@ -144,16 +144,16 @@ private:
 };
 
 /// Throws JsonError if the result is too large.
-Clip clipOf(AhapPattern pattern, const FrequencyScale& scale) {
+Clip toClip(AhapPattern pattern, const FrequencyScale& scale) {
     sortByTime(pattern.events, &AhapEvent::start);
     AhapEventConverter converter{pattern, scale};
     Clip clip;
     ClipChannel& channel = clip.channels.emplace_back();
     for (const AhapEvent& event : pattern.events)
         if (event.seconds == 0.0)
-            channel.transients.push_back(converter.transientOf(event));
+            channel.transients.push_back(converter.toTransient(event));
         else
-            addWave(channel.bands, converter.waveOf(event));
+            addWave(channel.bands, converter.toWave(event));
     return clip;
 }
 
@@ -165,8 +165,8 @@ public:
         expectKeys(root, {"Version", "Metadata", "Pattern"});
         const JsonField list = root["Pattern"];
         for (std::size_t i = 0; i < list.arraySize(); ++i) readEntry(list.item(i));
-        Clip clip = clipOf(std::move(pattern_), scale);
-        clip.leftOut = omissions_.line();
+        Clip clip = toClip(std::move(pattern_), scale);
+        clip.omissions = omissions_.line();
         if (auto error = clipError(clip); !error.empty()) list.fail(error);
         return clip;
     }
@@ -215,7 +215,7 @@ private:
     void readParameter(const JsonField& json, AhapEvent& event) {
         expectKeys(json, {"ParameterID", "ParameterValue"});
         const auto share = [&](double fallback) { return std::clamp(value(json, fallback), 0.0, 1.0); };
-        const std::string name = idOf(json);
+        const std::string name = readParameterId(json);
         if (name == "HapticIntensity")
             event.intensity = share(defaultIntensity);
         else if (name == "HapticSharpness")
@@ -224,13 +224,13 @@ private:
             omissions_.add(name);
     }
 
-    static std::string idOf(const JsonField& json) {
+    static std::string readParameterId(const JsonField& json) {
         return json.has("ParameterID") ? json["ParameterID"].line() : "a parameter without ParameterID";
     }
 
     /// The control that a curve or step applies to; null if it is not tactile.
-    AhapControl* controlOf(const JsonField& json) {
-        const std::string name = idOf(json);
+    AhapControl* findControl(const JsonField& json) {
+        const std::string name = readParameterId(json);
         if (name == "HapticIntensityControl") return &pattern_.intensity;
         if (name == "HapticSharpnessControl") return &pattern_.sharpness;
         omissions_.add(name); // sound, attack, decay, release
@@ -239,13 +239,13 @@ private:
 
     void readStep(const JsonField& json) {
         expectKeys(json, {"ParameterID", "Time", "ParameterValue"});
-        AhapControl* const control = controlOf(json);
+        AhapControl* const control = findControl(json);
         if (control) control->add({{time(json), value(json, control->initialValue())}});
     }
 
     void readCurve(const JsonField& json) {
         expectKeys(json, {"ParameterID", "Time", "ParameterCurveControlPoints"});
-        AhapControl* const control = controlOf(json);
+        AhapControl* const control = findControl(json);
         if (!control || !json.has("ParameterCurveControlPoints")) return;
         const JsonField list = json["ParameterCurveControlPoints"];
         points_ += list.arraySize();
@@ -256,10 +256,10 @@ private:
         for (std::size_t i = 0; i < list.arraySize(); ++i) {
             const JsonField point = list.item(i);
             expectKeys(point, {"Time", "ParameterValue"});
-            const double at = roundedToNs(time(json) + time(point));
-            if (!points.empty() && at < points.back().seconds)
+            const double seconds = roundedToNs(time(json) + time(point));
+            if (!points.empty() && seconds < points.back().seconds)
                 point["Time"].fail("expected control points in time order");
-            points.push_back({at, value(point, control->initialValue())});
+            points.push_back({seconds, value(point, control->initialValue())});
         }
         control->add(std::move(points));
     }

@@ -61,7 +61,7 @@ bool isSilent(std::span<const EnvelopePoint> points) {
 class EnvelopeCutter {
 public:
     explicit EnvelopeCutter(const ClipChannel& channel)
-        : envelope_{envelopeOf(channel)}
+        : envelope_{makeEnvelope(channel)}
         , hasTransients_{!channel.transients.empty()} {
         const std::vector<ClipTransient>& transients = channel.transients;
         double from = 0.0;
@@ -169,7 +169,7 @@ OrderedJson parametersJson(double intensity, double sharpness) {
 }
 
 /// Intensities in shares of `full`. Points are closer where the amplitude is small: its root is steep.
-std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, double full) {
+std::vector<ClipPoint> intensityCurve(std::span<const EnvelopePoint> envelope, double full) {
     std::vector<ClipPoint> curve;
     for (std::size_t i = 0; i < envelope.size(); ++i) {
         const EnvelopePoint& p = envelope[i];
@@ -212,10 +212,10 @@ public:
                                {"EventDuration", seconds},
                                {"EventParameters", parametersJson(intensity, sharpness)}}}});
         addCurves("HapticIntensityControl",
-                  intensity > 0.0 ? intensitiesOf(piece.points, intensity) : constant(piece, 1.0),
+                  intensity > 0.0 ? intensityCurve(piece.points, intensity) : constant(piece, 1.0),
                   intensity_);
         addCurves("HapticSharpnessControl",
-                  intensity > 0.0 ? sharpnessesOf(piece.points, sharpness) : constant(piece, 0.0),
+                  intensity > 0.0 ? sharpnessCurve(piece.points, sharpness) : constant(piece, 0.0),
                   sharpness_);
     }
 
@@ -234,7 +234,7 @@ private:
         return {{piece.points.front().seconds, value}, {piece.points.back().seconds, value}};
     }
 
-    std::vector<ClipPoint> sharpnessesOf(std::span<const EnvelopePoint> envelope, double before) const {
+    std::vector<ClipPoint> sharpnessCurve(std::span<const EnvelopePoint> envelope, double before) const {
         std::vector<ClipPoint> curve;
         for (const EnvelopePoint& p : envelope)
             curve.push_back({p.seconds, scale_.toShare(p.frequencyHz) - before});
@@ -271,9 +271,9 @@ std::string ahapText(const ClipChannel& channel, std::string_view title, const F
     Pattern pattern{scale};
     for (const AhapPiece& piece : EnvelopeCutter{channel}.releasePieces()) pattern.add(piece);
     for (const ClipTransient& t : channel.transients) pattern.add(t);
-    return jsonLines({{"Version", 1},
-                      {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}},
-                      {"Pattern", pattern.releaseJson()}});
+    return prettyJson({{"Version", 1},
+                       {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}},
+                       {"Pattern", pattern.releaseJson()}});
 }
 
 } // namespace physvib

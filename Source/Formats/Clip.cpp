@@ -58,7 +58,7 @@ std::string clipError(const Clip& clip) {
     return clip.seconds() > 0.0 ? "" : "expected something to feel, found silence";
 }
 
-double peakOf(const ClipChannel& channel) noexcept {
+double peakAmplitude(const ClipChannel& channel) noexcept {
     double peak = 0.0;
     for (const ClipTransient& transient : channel.transients)
         peak = std::max(peak, std::abs(transient.amplitude));

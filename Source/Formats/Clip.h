@@ -118,7 +118,7 @@ struct Clip {
     std::string title;
     double extentWidthMetres = 0.0, extentHeightMetres = 0.0; ///< 0: no channel has a place
     std::vector<ClipChannel> channels;
-    std::string leftOut{}; ///< one line: contents of the file that are not played; empty: none
+    std::string omissions{}; ///< one line: contents of the file that are not played; empty: none
     bool operator==(const Clip&) const = default;
 
     double seconds() const noexcept {
@@ -146,7 +146,7 @@ struct Clip {
 std::string clipError(const Clip& clip);
 
 /// The largest amplitude of any wave or transient. Any thread.
-double peakOf(const ClipChannel& channel) noexcept;
+double peakAmplitude(const ClipChannel& channel) noexcept;
 
 /// Sorts the waves and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
 void makeSequential(ClipBand& band);

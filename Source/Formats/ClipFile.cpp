@@ -13,11 +13,11 @@ struct ClipProperties {
     bool hasOverlaps = false; ///< a channel has more than one wave at a time
 };
 
-ClipProperties propertiesOf(const Clip& clip) {
+ClipProperties findProperties(const Clip& clip) {
     ClipProperties properties;
     for (const ClipChannel& channel : clip.channels) {
         properties.hasOverlaps = properties.hasOverlaps || channel.bands.size() > 1;
-        properties.peak = std::max(properties.peak, peakOf(channel));
+        properties.peak = std::max(properties.peak, peakAmplitude(channel));
         for (const ClipTransient& t : channel.transients) properties.frequenciesHz.insert(t.frequencyHz);
         for (const ClipBand& band : channel.bands)
             for (const ClipWave& wave : band.waves)
@@ -44,7 +44,7 @@ std::vector<std::string> monoLosses(const ClipProperties& properties, const Freq
 
 } // namespace
 
-std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
+std::optional<ClipFormat> findClipFormat(std::string_view path) noexcept {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
     for (std::size_t i = 0; i < writableEndings.size(); ++i)
         if (const std::string_view ending = writableEndings[i];
@@ -81,7 +81,7 @@ std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale&
 }
 
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
-    const ClipProperties properties = propertiesOf(clip);
+    const ClipProperties properties = findProperties(clip);
     if (format == ClipFormat::hjif) return hjifLosses(clip, properties.frequenciesHz);
     std::vector<std::string> losses = monoLosses(properties, scale);
     const std::size_t raised = format == ClipFormat::haptic && !clip.channels.empty()

@@ -42,7 +42,7 @@ inline constexpr auto& clipEndings = firstEndings<3>;
 static_assert(clipFormats[clipEndings.size() - 1].isReadable && !clipFormats[clipEndings.size()].isReadable);
 
 /// By the file's ending, case-insensitive. Any thread.
-std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
+std::optional<ClipFormat> findClipFormat(std::string_view path) noexcept;
 
 /// True if the format has one channel only. Any thread.
 constexpr bool isMono(ClipFormat format) noexcept {

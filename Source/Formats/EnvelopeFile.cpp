@@ -10,17 +10,17 @@ namespace physvib {
 namespace {
 
 /// Closer times are equal: a wave that begins where another ends follows it. Files have whole microseconds.
-constexpr double sameSeconds = 5e-7;
+constexpr double mergeSeconds = 5e-7;
 
 /// The sounding wave of a band, for increasing times.
-class BandWalk {
+class BandCursor {
 public:
-    explicit BandWalk(const ClipBand& band)
+    explicit BandCursor(const ClipBand& band)
         : band_{band} {}
 
     /// The wave just before `seconds`, or from then on; null if none.
-    const ClipWave* at(double seconds, bool isBefore) {
-        const double after = seconds + sameSeconds;
+    const ClipWave* waveAt(double seconds, bool isBefore) {
+        const double after = seconds + mergeSeconds;
         while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
         for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= after; ++i) {
             const ClipWave& wave = band_.waves[i];
@@ -47,7 +47,7 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
         }
     std::ranges::sort(moments);
     moments.erase(
-        std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < sameSeconds; }),
+        std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < mergeSeconds; }),
         moments.end());
     return moments;
 }
@@ -59,10 +59,10 @@ double valueAtStep(std::span<const ClipPoint> curve, double seconds, bool isBefo
     return first == end ? valueAt(curve, seconds) : isBefore ? first->value : (end - 1)->value;
 }
 
-EnvelopePoint sumAt(std::vector<BandWalk>& bands, double seconds, bool isBefore, double heldHz) {
+EnvelopePoint sumAt(std::vector<BandCursor>& bands, double seconds, bool isBefore, double heldHz) {
     double squares = 0.0, weighted = 0.0;
-    for (BandWalk& band : bands)
-        if (const ClipWave* wave = band.at(seconds, isBefore)) {
+    for (BandCursor& band : bands)
+        if (const ClipWave* wave = band.waveAt(seconds, isBefore)) {
             const double a = valueAtStep(wave->amplitude, seconds - wave->startSeconds, isBefore);
             squares += a * a;
             weighted += a * a * valueAtStep(wave->frequencyHz, seconds - wave->startSeconds, isBefore);
@@ -76,8 +76,8 @@ bool isJump(const EnvelopePoint& a, const EnvelopePoint& b) {
 
 } // namespace
 
-std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds) {
-    std::vector<BandWalk> bands(channel.bands.begin(), channel.bands.end());
+std::vector<EnvelopePoint> makeEnvelope(const ClipChannel& channel, double riseSeconds) {
+    std::vector<BandCursor> bands(channel.bands.begin(), channel.bands.end());
     std::vector<EnvelopePoint> points;
     for (const double moment : momentsOf(channel)) {
         const double heldHz = points.empty() ? 0.0 : points.back().frequencyHz;
@@ -172,7 +172,7 @@ struct Sample {
 std::vector<Sample> sampleEnvelope(const ClipChannel& channel, const FrequencyScale& scale) {
     ClipChannel combined = channel;
     for (const ClipTransient& transient : channel.transients) combined.bands.push_back({{transient.wave()}});
-    const std::vector<EnvelopePoint> envelope = envelopeOf(combined);
+    const std::vector<EnvelopePoint> envelope = makeEnvelope(combined);
     std::vector<Sample> samples;
     if (envelope.empty()) return samples;
     const int last = static_cast<int>(std::ceil(1e3 * envelope.back().seconds)) + 1;
@@ -197,7 +197,7 @@ struct SlopeRange {
 };
 
 /// The farthest end of a line from `a` at `from` that is within the tolerances of all samples.
-std::size_t lineFrom(std::span<const Sample> samples, std::size_t from, const Sample& a, Sample& end) {
+std::size_t findLineEnd(std::span<const Sample> samples, std::size_t from, const Sample& a, Sample& end) {
     SlopeRange amplitudes, frequencies;
     std::size_t last = from + 1;
     end = samples[last];
@@ -237,7 +237,7 @@ std::vector<AndroidEffect> androidEffects(const ClipChannel& channel, const Freq
             begin(at);
             lineEnd = samples[end]; // from 0 within the first millisecond
         } else {
-            end = lineFrom(samples, at, Sample{lineEnd}, lineEnd);
+            end = findLineEnd(samples, at, Sample{lineEnd}, lineEnd);
         }
         if (samples[end].isSilent()) lineEnd.amplitude = 0.0;
         effects.back().points.push_back(
@@ -257,10 +257,10 @@ std::string envelopeText(const ClipChannel& channel, std::string_view title, con
                            {"initial_hz", rounded(effect.initialHz, 10.0)},
                            {"points", std::move(points)}});
     }
-    return jsonLines({{"android_waveform_envelope", 1},
-                      {"title", title},
-                      {"point", {"amplitude", "hz", "ms"}},
-                      {"effects", std::move(effects)}});
+    return prettyJson({{"android_waveform_envelope", 1},
+                       {"title", title},
+                       {"point", {"amplitude", "hz", "ms"}},
+                       {"effects", std::move(effects)}});
 }
 
 } // namespace physvib

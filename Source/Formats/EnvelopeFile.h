@@ -26,7 +26,7 @@ struct EnvelopePoint {
 
 /// All waves of the channel combined, without transients: the root of their summed squares, the frequency
 /// weighted by these. Times increase; a jump takes `riseSeconds`. From amplitude 0 to 0. Any thread.
-std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds = envelopeRiseSeconds);
+std::vector<EnvelopePoint> makeEnvelope(const ClipChannel& channel, double riseSeconds = envelopeRiseSeconds);
 
 /// On the line from `a` to `b`, at that share. Any thread.
 inline EnvelopePoint interpolated(const EnvelopePoint& a, const EnvelopePoint& b, double share) {

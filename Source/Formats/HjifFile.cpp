@@ -23,7 +23,7 @@ constexpr int maxCoordinate = 127; // of a place, in grid points
 constexpr std::array<std::string_view, 5> waveforms{"Sine", "Square", "Triangle", "SawToothUp",
                                                     "SawToothDown"};
 
-std::int64_t tickOf(double seconds) { return std::llround(seconds * ticksPerSecond); }
+std::int64_t toTicks(double seconds) { return std::llround(seconds * ticksPerSecond); }
 
 struct GridPoint {
     int x = 0, y = 0;
@@ -36,7 +36,7 @@ struct PlaceGrid {
         pitchMetres = 1e-3 * std::max(1.0, std::ceil(longest * 1e3 / (maxCoordinate - 1) - 1e-9));
         points = {pointsOf(clip.extentWidthMetres), pointsOf(clip.extentHeightMetres)};
     }
-    GridPoint at(const ActuatorPlace& place) const {
+    GridPoint nearest(const ActuatorPlace& place) const {
         const auto index = [this](double metres, int count) {
             return static_cast<int>(
                 std::clamp(std::lround(metres / pitchMetres), 0L, static_cast<long>(count - 1)));
@@ -136,7 +136,7 @@ public:
         if (clip_.channels.empty())
             perceptions.fail("expected a vibrotactile perception with channels, found none");
         if (auto error = clipError(clip_); !error.empty()) perceptions.fail(error);
-        clip_.leftOut = omissions_.line();
+        clip_.omissions = omissions_.line();
         return std::move(clip_);
     }
 
@@ -161,15 +161,14 @@ private:
     /// Also "Other" with waves or transients, as MPEG's encoder writes .ahap; wavelets' meaning is unknown.
     static bool isVibrotactile(const JsonField& perception) {
         const JsonField modality = perception["perception_modality"];
-        if (!modality.isString("Other") || !perception.has("channels"))
-            return modality.isString("Vibrotactile");
+        if (!modality.equals("Other") || !perception.has("channels")) return modality.equals("Vibrotactile");
         bool isFelt = false;
         for (std::size_t i = 0; i < perception["channels"].arraySize(); ++i) {
             const JsonField bands = perception["channels"].item(i)["bands"];
             for (std::size_t j = 0; j < bands.arraySize(); ++j) {
                 const JsonField type = bands.item(j)["band_type"];
-                if (type.isString("WaveletWave")) return false;
-                isFelt = isFelt || type.isString("VectorialWave") || type.isString("Transient");
+                if (type.equals("WaveletWave")) return false;
+                isFelt = isFelt || type.equals("VectorialWave") || type.equals("Transient");
             }
         }
         return isFelt;
@@ -206,7 +205,7 @@ private:
         for (std::size_t i = 0; i < effects.arraySize(); ++i) {
             const JsonField effect = effects.item(i);
             const double start = effect.has("position") ? seconds(effect["position"]) : 0.0;
-            addEffect(effectOf(resolvedEffect(effect, perception), kind.type), start, kind, band, channel);
+            addEffect(readEffect(resolvedEffect(effect, perception), kind.type), start, kind, band, channel);
         }
         makeSequential(band);
         if (!band.waves.empty()) channel.bands.push_back(std::move(band));
@@ -221,12 +220,11 @@ private:
         if (found == library_.end())
             effect["id"].fail("expected an effect of the library, found none of that number");
         const JsonField basis = perception["effect_library"].item(found->second);
-        if (!basis["effect_type"].isString("Basis"))
-            basis["effect_type"].fail("expected Basis in the library");
+        if (!basis["effect_type"].equals("Basis")) basis["effect_type"].fail("expected Basis in the library");
         return basis;
     }
 
-    Effect effectOf(const JsonField& json, BandType type) {
+    Effect readEffect(const JsonField& json, BandType type) {
         Effect effect;
         const JsonField frames = json["keyframes"];
         points_ += frames.arraySize();
@@ -273,8 +271,8 @@ struct TickFrame {
 
 /// Amplitudes (unscaled) and frequencies of a wave by tick.
 std::vector<TickFrame> tickFrames(const ClipWave& wave) {
-    const std::int64_t start = tickOf(wave.startSeconds);
-    const auto relative = [&](const ClipPoint& p) { return tickOf(wave.startSeconds + p.seconds) - start; };
+    const std::int64_t start = toTicks(wave.startSeconds);
+    const auto relative = [&](const ClipPoint& p) { return toTicks(wave.startSeconds + p.seconds) - start; };
     std::vector<TickFrame> frames;
     auto frequency = wave.frequencyHz.begin();
     for (const ClipPoint& p : wave.amplitude) {
@@ -294,7 +292,7 @@ constexpr double defaultTopHz = 1000.0; // upper limit of written bands: the tac
 
 /// An object without its end, for more fields.
 std::string openObject(const OrderedJson& fields) {
-    std::string text = jsonLine(fields);
+    std::string text = compactJson(fields);
     text.resize(text.size() - 2); // " }"
     return text + ", ";
 }
@@ -311,29 +309,29 @@ OrderedJson vectorJson(GridPoint p, int z) { return {{"X", p.x}, {"Y", p.y}, {"Z
 
 OrderedJson keyframesJson(const ClipWave& wave, double gain) {
     OrderedJson frames = OrderedJson::array();
-    for (const TickFrame& found : tickFrames(wave)) {
-        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", found.ticks}});
-        if (found.amplitude) frame["amplitude_modulation"] = roundedTo8Digits(*found.amplitude / gain);
-        if (found.frequencyHz) frame["frequency_modulation"] = *found.frequencyHz;
+    for (const TickFrame& key : tickFrames(wave)) {
+        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", key.ticks}});
+        if (key.amplitude) frame["amplitude_modulation"] = roundedTo8Digits(*key.amplitude / gain);
+        if (key.frequencyHz) frame["frequency_modulation"] = *key.frequencyHz;
     }
     return frames;
 }
 
 std::string effectText(const ClipWave& wave, double gain) {
-    return jsonLine({{"effect_type", "Basis"},
-                     {"position", tickOf(wave.startSeconds)},
-                     {"phase", roundedTo8Digits(std::min(wave.phaseRadians, maxPhaseRadians))},
-                     {"base_signal", waveforms[static_cast<std::size_t>(wave.waveform)]},
-                     {"keyframes", keyframesJson(wave, gain)}});
+    return compactJson({{"effect_type", "Basis"},
+                        {"position", toTicks(wave.startSeconds)},
+                        {"phase", roundedTo8Digits(std::min(wave.phaseRadians, maxPhaseRadians))},
+                        {"base_signal", waveforms[static_cast<std::size_t>(wave.waveform)]},
+                        {"keyframes", keyframesJson(wave, gain)}});
 }
 
 std::string effectText(const ClipTransient& transient, double gain) {
     const OrderedJson frame{{"relative_position", 0},
                             {"amplitude_modulation", roundedTo8Digits(transient.amplitude / gain)},
                             {"frequency_modulation", transient.frequencyHz}};
-    return jsonLine({{"effect_type", "Basis"},
-                     {"position", tickOf(transient.seconds)},
-                     {"keyframes", OrderedJson::array({frame})}});
+    return compactJson({{"effect_type", "Basis"},
+                        {"position", toTicks(transient.seconds)},
+                        {"keyframes", OrderedJson::array({frame})}});
 }
 
 template <class Effects>
@@ -354,7 +352,7 @@ double topFrequencyHz(const ClipBand& band) {
 }
 
 /// 1, or the largest amplitude if that is beyond full scale.
-double channelGain(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
+double channelGain(const ClipChannel& channel) { return std::max(1.0, peakAmplitude(channel)); }
 
 std::string bandsText(const ClipChannel& channel, double gain) {
     std::string bands = jsonList(channel.bands, [=](const ClipBand& band, std::size_t) {
@@ -373,7 +371,7 @@ std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_
     if (channel.place) {
         const PlaceGrid grid{clip};
         head["actuator_resolution"] = vectorJson(grid.points, 1);
-        head["actuator_target"] = OrderedJson::array({vectorJson(grid.at(*channel.place), 0)});
+        head["actuator_target"] = OrderedJson::array({vectorJson(grid.nearest(*channel.place), 0)});
     }
     return openObject(head) + "\"bands\": " + bandsText(channel, gain) + " }";
 }
@@ -386,7 +384,7 @@ std::string deviceText(const ClipChannel& channel, std::size_t j) {
                                       {"resonance_frequency", d.resonanceHz},
                                       {"maximum_amplitude", d.fullScaleG * 9.80665}})
         if (value > 0.0) device[name] = value;
-    return jsonLine(device);
+    return compactJson(device);
 }
 
 /// Largest displacement of a place by the grid.
@@ -395,9 +393,9 @@ double maxGridShiftMetres(const Clip& clip) {
     double metres = 0.0;
     for (const ClipChannel& channel : clip.channels)
         if (channel.place) {
-            const GridPoint at = grid.at(*channel.place);
-            metres = std::max({metres, std::abs(at.x * grid.pitchMetres - channel.place->xMetres),
-                               std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
+            const GridPoint point = grid.nearest(*channel.place);
+            metres = std::max({metres, std::abs(point.x * grid.pitchMetres - channel.place->xMetres),
+                               std::abs(point.y * grid.pitchMetres - channel.place->yMetres)});
         }
     return metres;
 }

@@ -10,21 +10,21 @@
 namespace physvib {
 namespace {
 
-double timeOf(const JsonField& point, double last) {
+double readTime(const JsonField& point, double last) {
     const double seconds = point["time"].numberUpTo(limits::maxClipSeconds);
     if (seconds < last) point["time"].fail("expected times in order");
     return seconds;
 }
 
 /// Since `start`. Before its first point, or without points, a device plays the middle of its band.
-std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, const FrequencyScale& scale) {
+std::vector<ClipPoint> frequencyCurve(const JsonField& envelopes, double start, const FrequencyScale& scale) {
     std::vector<ClipPoint> curve{{0.0, scale.toHz(0.5)}};
     if (!envelopes.has("frequency") || envelopes["frequency"].isNull()) return curve;
     const JsonField list = envelopes["frequency"];
     double last = 0.0;
     for (std::size_t i = 0; i < list.arraySize(); ++i) {
         const JsonField point = list.item(i);
-        last = timeOf(point, last);
+        last = readTime(point, last);
         if (i == 0) curve.push_back({last, curve.back().value}); // the step before the first point
         curve.push_back({last, scale.toHz(point["frequency"].numberUpTo(1.0))});
     }
@@ -53,7 +53,7 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
     double last = 0.0;
     for (std::size_t i = 0; i < amplitudes.arraySize(); ++i) {
         const JsonField point = amplitudes.item(i);
-        last = timeOf(point, last);
+        last = readTime(point, last);
         wave.amplitude.push_back({last - wave.startSeconds, point["amplitude"].numberUpTo(1.0)});
         if (!point.has("emphasis") || point["emphasis"].isNull()) continue;
         const JsonField emphasis = point["emphasis"];
@@ -64,13 +64,13 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
             {last, strength, scale.toHz(emphasis["frequency"].numberUpTo(1.0))});
     }
     if (!(wave.seconds() > 0.0)) amplitudes.fail("expected an envelope that lasts");
-    wave.frequencyHz = frequenciesOf(envelopes, wave.startSeconds, scale);
+    wave.frequencyHz = frequencyCurve(envelopes, wave.startSeconds, scale);
     clip.channels[0].bands.push_back({{std::move(wave)}});
     if (auto error = clipError(clip); !error.empty()) envelopes.fail(error);
     return clip;
 }
 
-std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) {
+std::vector<ClipPoint> amplitudeCurve(const std::vector<EnvelopePoint>& envelope) {
     std::vector<ClipPoint> curve;
     for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, std::min(1.0, p.amplitude)});
     if (curve.empty()) curve = {{0.0, 0.0}};
@@ -102,14 +102,14 @@ std::vector<ClipTransient> shiftedTransients(std::vector<ClipTransient> transien
 /// The envelope with a point at each transient, and long enough for two distinct points.
 std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
                                       const std::vector<ClipTransient>& transients) {
-    std::vector<ClipPoint> with = curve;
-    for (const ClipTransient& t : transients) with.push_back({t.seconds, valueAt(curve, t.seconds)});
-    sortByTime(with, &ClipPoint::seconds);
-    if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
-    const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
-    if (!(roundedForFile(with.back().seconds) > 0.0) || !transients.empty())
-        with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::durationSeconds), 0.0});
-    return with;
+    std::vector<ClipPoint> result = curve;
+    for (const ClipTransient& t : transients) result.push_back({t.seconds, valueAt(curve, t.seconds)});
+    sortByTime(result, &ClipPoint::seconds);
+    if (result.front().seconds > 0.0) result.insert(result.begin(), {0.0, 0.0});
+    const double last = std::max(result.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
+    if (!(roundedForFile(result.back().seconds) > 0.0) || !transients.empty())
+        result.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::durationSeconds), 0.0});
+    return result;
 }
 
 OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vector<ClipTransient>& transients,
@@ -146,7 +146,7 @@ Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const 
 }
 
 std::size_t raisedTransientCount(const ClipChannel& channel) {
-    const auto amplitudes = amplitudesOf(envelopeOf(channel));
+    const auto amplitudes = amplitudeCurve(makeEnvelope(channel));
     constexpr double unfelt = 0.01; // of full scale
     return static_cast<std::size_t>(
         std::ranges::count_if(shiftedTransients(channel.transients, amplitudes), [&](const ClipTransient& t) {
@@ -155,22 +155,22 @@ std::size_t raisedTransientCount(const ClipChannel& channel) {
 }
 
 std::string metaHapticText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
-    const auto envelope = envelopeOf(channel);
-    const auto amplitudes = amplitudesOf(envelope);
+    const auto envelope = makeEnvelope(channel);
+    const auto amplitudes = amplitudeCurve(envelope);
     const auto transients = shiftedTransients(channel.transients, amplitudes);
     OrderedJson envelopes{
         {"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
     if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty())
         envelopes["frequency"] = std::move(frequencies);
-    return jsonLines({{"version", {{"major", 1}, {"minor", 0}, {"patch", 0}}},
-                      {"metadata",
-                       {{"editor", "PhysVib"},
-                        {"author", ""},
-                        {"source", ""},
-                        {"project", ""},
-                        {"tags", OrderedJson::array()},
-                        {"description", title}}},
-                      {"signals", {{"continuous", {{"envelopes", std::move(envelopes)}}}}}});
+    return prettyJson({{"version", {{"major", 1}, {"minor", 0}, {"patch", 0}}},
+                       {"metadata",
+                        {{"editor", "PhysVib"},
+                         {"author", ""},
+                         {"source", ""},
+                         {"project", ""},
+                         {"tags", OrderedJson::array()},
+                         {"description", title}}},
+                       {"signals", {{"continuous", {{"envelopes", std::move(envelopes)}}}}}});
 }
 
 } // namespace physvib

@@ -133,16 +133,16 @@ Clip clipFromEvents(std::span<const CollisionEvent> events, const EventClipSetti
     std::size_t points = 0;
     for (std::size_t j = 0; j < settings.channels; ++j) {
         std::vector<ModeWave> waves;
-        std::size_t number = 0;
+        std::size_t modeIndex = 0;
         for (auto& [mode, edges] : modes[j]) {
             for (ClipWave& wave : wavesOf(mode, std::move(edges), settings.error)) {
                 points += wave.amplitude.size();
-                waves.push_back({number, std::move(wave)});
+                waves.push_back({modeIndex, std::move(wave)});
             }
-            ++number;
+            ++modeIndex;
             if (points > limits::maxClipPoints) break; // more than a clip may have
         }
-        clip.channels[j].bands = packedBands(std::move(waves), number);
+        clip.channels[j].bands = packedBands(std::move(waves), modeIndex);
     }
     return clip;
 }
@@ -155,20 +155,20 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
     };
     std::vector<ClipPoint> curve{at(0, amplitude)};
     const double decayPerTick = decayPerSecond / ticksPerSecond;
-    const auto ticksOf = [=](double u) {
+    const auto toTicks = [=](double u) {
         return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(u / decayPerTick, 9e15)));
     };
     for (std::int64_t tick = 0; tick < endTick;) {
         const double remainingShare = portable::exp(-decayPerTick * static_cast<double>(tick));
         if (decayPerTick > 0.0 && remainingShare <= finalChordErrors * error) {
-            const std::int64_t last = tick + ticksOf(portable::log(std::max(1.0, remainingShare / error)));
+            const std::int64_t last = tick + toTicks(portable::log(std::max(1.0, remainingShare / error)));
             if (last <= endTick) {
                 curve.push_back(at(last, 0.0));
                 return curve;
             }
         }
         tick = decayPerTick > 0.0
-                   ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / remainingShare, 0.5))))
+                   ? std::min(endTick, tick + toTicks(longestChord(std::min(error / remainingShare, 0.5))))
                    : endTick;
         curve.push_back(at(tick, amplitude * portable::exp(-decayPerTick * static_cast<double>(tick))));
     }
@@ -178,9 +178,9 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
 namespace {
 
 /// A curve of at least one point and its integral, at times that increase: without repeated searches.
-class CurveWalk {
+class CurveCursor {
 public:
-    explicit CurveWalk(std::span<const ClipPoint> curve)
+    explicit CurveCursor(std::span<const ClipPoint> curve)
         : curve_{curve} {}
 
     double value(double seconds) {
@@ -195,16 +195,16 @@ public:
         if (next_ == 0) return curve_.front().value * seconds;
         const ClipPoint& from = curve_[next_ - 1];
         const double t = seconds - from.seconds;
-        return before_ + t * (from.value + (next_ == curve_.size() ? 0.0 : 0.5 * slope() * t));
+        return integralBefore_ + t * (from.value + (next_ == curve_.size() ? 0.0 : 0.5 * slope() * t));
     }
 
 private:
     void advanceTo(double seconds) {
         for (; next_ < curve_.size() && curve_[next_].seconds <= seconds; ++next_) {
             const ClipPoint& to = curve_[next_];
-            before_ += next_ == 0 ? to.value * to.seconds
-                                  : 0.5 * (curve_[next_ - 1].value + to.value) *
-                                        (to.seconds - curve_[next_ - 1].seconds);
+            integralBefore_ += next_ == 0 ? to.value * to.seconds
+                                          : 0.5 * (curve_[next_ - 1].value + to.value) *
+                                                (to.seconds - curve_[next_ - 1].seconds);
         }
     }
     double slope() const {
@@ -213,8 +213,8 @@ private:
     }
 
     std::span<const ClipPoint> curve_;
-    std::size_t next_ = 0; // first later point
-    double before_ = 0.0;  // integral up to the point before it
+    std::size_t next_ = 0;        // first later point
+    double integralBefore_ = 0.0; // integral up to the point before it
 };
 
 constexpr double frameTolerance = 1e-6; // a time that was a whole number of ticks gives that tick again
@@ -238,7 +238,7 @@ double waveformValue(ClipWaveform waveform, double cycles) {
 void add(const ClipWave& wave, int rateHz, std::vector<double>& out) {
     for (const ClipPoint& p : wave.frequencyHz)
         if (p.value >= 0.5 * rateHz) return;
-    CurveWalk amplitude{wave.amplitude}, frequency{wave.frequencyHz};
+    CurveCursor amplitude{wave.amplitude}, frequency{wave.frequencyHz};
     const double phase = wave.phaseRadians / (2.0 * std::numbers::pi);
     const std::size_t end = std::min(out.size(), firstFrameFrom(wave.endSeconds(), rateHz));
     for (std::size_t n = firstFrameFrom(wave.startSeconds, rateHz); n < end; ++n) {

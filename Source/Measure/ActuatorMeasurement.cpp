@@ -28,11 +28,11 @@ struct ResponsePoint {
 /// sum x[n] e^(-i w n), by a rotating phasor that is recomputed often enough to stay exact.
 Complex spectrumAt(const std::vector<float>& x, double radiansPerFrame) {
     Complex sum = 0.0;
-    const Complex turn = std::polar(1.0, -radiansPerFrame);
+    const Complex rotation = std::polar(1.0, -radiansPerFrame);
     for (std::size_t first = 0; first < x.size(); first += 4096) {
         Complex phasor =
             std::polar(1.0, -std::remainder(radiansPerFrame * static_cast<double>(first), twoPi));
-        for (std::size_t n = first; n < std::min(first + 4096, x.size()); ++n, phasor *= turn)
+        for (std::size_t n = first; n < std::min(first + 4096, x.size()); ++n, phasor *= rotation)
             sum += static_cast<double>(x[n]) * phasor;
     }
     return sum;
@@ -130,9 +130,9 @@ Candidate refine(const std::vector<ResponsePoint>& points, Candidate best) {
         for (std::size_t i = 0; i < 3; ++i) {
             bool hasMoved = false;
             for (const double sign : {1.0, -1.0}) {
-                auto moved = best.parameters;
-                moved[i] += sign * steps[i];
-                if (const Candidate next{points, moved}; next.error < best.error)
+                auto trial = best.parameters;
+                trial[i] += sign * steps[i];
+                if (const Candidate next{points, trial}; next.error < best.error)
                     best = next, hasMoved = true;
                 if (hasMoved) break;
             }
@@ -145,7 +145,7 @@ Candidate refine(const std::vector<ResponsePoint>& points, Candidate best) {
     return best;
 }
 
-double energyOf(const std::vector<ResponsePoint>& points) {
+double responseEnergy(const std::vector<ResponsePoint>& points) {
     double energy = 0.0;
     for (const ResponsePoint& p : points) energy += std::norm(p.response);
     return energy;
@@ -184,11 +184,11 @@ std::vector<float> makeSweep(const SweepSettings& s, double rateHz) {
     return samples;
 }
 
-FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
+FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& sweptBand) const {
     // relative to the peak or the plateau
     const double minMagnitude = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q);
     FrequencyBand band{};
-    for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
+    for (double hz = std::ceil(sweptBand.lowHz); hz <= sweptBand.highHz; hz += 1.0) {
         if (std::abs(resonator.at(hz)) < minMagnitude) continue;
         if (band.lowHz == 0.0) band.lowHz = hz;
         band.highHz = hz;
@@ -209,7 +209,7 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
     // around the peak, which determines resonance and Q
     addPoints(points, played, recorded, rateHz,
               peakBand({std::exp(rough.parameters[0]), std::exp(rough.parameters[1])}, band), 120);
-    const double energy = energyOf(points);
+    const double energy = responseEnergy(points);
     if (!std::isfinite(energy)) return Failure{sweepError};
     const Candidate best = refine(points, {points, rough.parameters});
     MeasuredActuator measured{{std::exp(best.parameters[0]), std::exp(best.parameters[1])},
@@ -232,20 +232,21 @@ Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std
     if (auto error = inputError(played, recorded, rateHz, band); !error.empty()) return Failure{error};
     std::vector<ResponsePoint> points;
     addPoints(points, played, recorded, rateHz, band, 240);
-    const double energy = energyOf(points);
+    const double energy = responseEnergy(points);
     if (!std::isfinite(energy)) return Failure{sweepError};
-    MeasuredLoopback m;
-    m.delaySeconds = bestDelaySeconds(points, [](double) { return Complex{1.0}; });
+    MeasuredLoopback fit;
+    fit.delaySeconds = bestDelaySeconds(points, [](double) { return Complex{1.0}; });
     Complex sum = 0.0;
-    for (const ResponsePoint& p : points) sum += p.response * std::polar(1.0, twoPi * p.hz * m.delaySeconds);
+    for (const ResponsePoint& p : points)
+        sum += p.response * std::polar(1.0, twoPi * p.hz * fit.delaySeconds);
     const double count = static_cast<double>(points.size());
-    m.gain = sum.real() / count;
-    m.residualShare = 1.0 - m.gain * m.gain * count / energy;
-    if (!(m.residualShare < 0.1))
+    fit.gain = sum.real() / count;
+    fit.residualShare = 1.0 - fit.gain * fit.gain * count / energy;
+    if (!(fit.residualShare < 0.1))
         return Failure{
             "expected a cable from the output to the input, found a response that one explains by " +
-            fixedNumber(100.0 * (1.0 - m.residualShare), 0) + " %"};
-    return m;
+            fixedNumber(100.0 * (1.0 - fit.residualShare), 0) + " %"};
+    return fit;
 }
 
 } // namespace physvib

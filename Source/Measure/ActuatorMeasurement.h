@@ -28,8 +28,8 @@ struct MeasuredActuator {
     double residualShare = 0.0; ///< share of the response's energy that the model does not explain
     double rateHz = 0.0;
 
-    /// The band in which the response is within `decibels` of its peak, clipped to `swept`.
-    FrequencyBand bandWithin(double decibels, const FrequencyBand& swept) const;
+    /// The band in which the response is within `decibels` of its peak, clipped to `sweptBand`.
+    FrequencyBand bandWithin(double decibels, const FrequencyBand& sweptBand) const;
 };
 
 /// Model of a plain cable in the actuator's place: gain e^(-i w delay), the device's and its driver's

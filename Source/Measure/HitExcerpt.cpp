@@ -4,7 +4,7 @@
 #include "Core/Limits.h"
 
 namespace physvib {
-double energyOf(std::span<const double> samples) {
+double signalEnergy(std::span<const double> samples) {
     double sum = 0.0;
     for (const double x : samples) sum += x * x;
     return sum;
@@ -17,7 +17,7 @@ constexpr double frameSeconds = 0.025;     // a period of 40 Hz, so that power d
 constexpr double minSilenceSeconds = 0.01; // a shorter silence is too short to estimate an offset
 
 double power(std::span<const double> samples) {
-    return energyOf(samples) / static_cast<double>(samples.size());
+    return signalEnergy(samples) / static_cast<double>(samples.size());
 }
 
 /// Power of the quietest twentieth of the recording; 0 if it is too short for an estimate.
@@ -32,7 +32,7 @@ double noisePower(const std::vector<double>& samples, std::size_t frame) {
 }
 
 /// The mean; 0 if noise alone explains it, because subtracting it would then add noise.
-double offsetOf(std::span<const double> samples) {
+double estimateOffset(std::span<const double> samples) {
     double mean = 0.0;
     for (const double x : samples) mean += x / static_cast<double>(samples.size());
     return mean * mean > 9.0 * power(samples) / static_cast<double>(samples.size()) ? mean : 0.0;
@@ -46,15 +46,15 @@ std::size_t peakIndex(const std::vector<double>& samples) {
 /// First sample near the peak that exceeds the noise and a fiftieth of the peak.
 std::size_t onsetIndex(const std::vector<double>& samples, std::size_t peak, double noise, double rateHz) {
     const double threshold = std::max(4.0 * std::sqrt(noise), 0.02 * std::abs(samples[peak]));
-    std::size_t first = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
+    std::size_t first = peak - std::min(peak, toSamples(onsetReachSeconds, rateHz));
     while (first < peak && std::abs(samples[first]) < threshold) ++first;
     return first;
 }
 
 /// End of the impact: where the noise begins, or the next impact, with ten times the lowest power so far.
 std::size_t endIndex(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
-    const std::size_t frame = samplesIn(frameSeconds, rateHz),
-                      endLimit = std::min(samples.size(), begin + samplesIn(maxHitSeconds, rateHz));
+    const std::size_t frame = toSamples(frameSeconds, rateHz),
+                      endLimit = std::min(samples.size(), begin + toSamples(maxHitSeconds, rateHz));
     double minPower = HUGE_VAL, maxPower = 0.0;
     for (std::size_t i = begin; i + frame <= endLimit; i += frame) {
         const double framePower = power(std::span(samples).subspan(i, frame));
@@ -71,12 +71,12 @@ std::size_t endIndex(const std::vector<double>& samples, std::size_t begin, doub
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz) {
     std::vector<double> x(samples.begin(), samples.end());
     const std::size_t peak = peakIndex(x),
-                      quietSamples = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
+                      quietSamples = peak - std::min(peak, toSamples(onsetReachSeconds, rateHz));
     HitExcerpt hit;
-    if (quietSamples >= samplesIn(minSilenceSeconds, rateHz))
-        hit.offset = offsetOf(std::span(x).first(quietSamples));
+    if (quietSamples >= toSamples(minSilenceSeconds, rateHz))
+        hit.offset = estimateOffset(std::span(x).first(quietSamples));
     for (double& s : x) s -= hit.offset;
-    const double noise = noisePower(x, samplesIn(0.4 * frameSeconds, rateHz));
+    const double noise = noisePower(x, toSamples(0.4 * frameSeconds, rateHz));
     hit.begin = onsetIndex(x, peakIndex(x), noise, rateHz);
     hit.end = endIndex(x, hit.begin, noise, rateHz);
     return hit;

@@ -19,12 +19,12 @@ struct HitExcerpt {
 };
 
 /// Number of samples in that time, at least one.
-inline std::size_t samplesIn(double seconds, double rateHz) noexcept {
+inline std::size_t toSamples(double seconds, double rateHz) noexcept {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(seconds * rateHz)));
 }
 
 /// Sum of the squared samples. Any thread.
-double energyOf(std::span<const double> samples);
+double signalEnergy(std::span<const double> samples);
 
 /// The excerpt from the onset of the loudest impact to the noise, the next impact, or one second;
 /// `samples` must not be empty. Message thread (M) only.
@@ -52,14 +52,14 @@ inline std::string clippingError(const std::vector<float>& x, double rateHz) {
     }
     for (std::size_t i = 0; i + 2 < x.size(); ++i) {
         if (std::abs(x[i]) < peak || x[i + 1] != x[i] || x[i + 2] != x[i]) continue;
-        std::size_t after = i + 3;
-        while (after < x.size() && x[after] == x[i]) ++after;
-        const float before = i > 0 ? std::abs(x[i] - x[i - 1]) : 0.0f,
-                    behind = after < x.size() ? std::abs(x[i] - x[after]) : 0.0f;
-        if (std::max(before, behind) > 8.0f * step)
-            return "expected a recording that is not clipped, found " + std::to_string(after - i) +
+        std::size_t plateauEnd = i + 3;
+        while (plateauEnd < x.size() && x[plateauEnd] == x[i]) ++plateauEnd;
+        const float rise = i > 0 ? std::abs(x[i] - x[i - 1]) : 0.0f,
+                    fall = plateauEnd < x.size() ? std::abs(x[i] - x[plateauEnd]) : 0.0f;
+        if (std::max(rise, fall) > 8.0f * step)
+            return "expected a recording that is not clipped, found " + std::to_string(plateauEnd - i) +
                    " equal samples at its peak" + timeText(i, rateHz);
-        i = after;
+        i = plateauEnd;
     }
     return {};
 }

@@ -22,9 +22,9 @@ namespace {
 std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
     if (c.empty()) return {};
     c.insert(c.begin(), 1.0);
-    const Eigen::VectorXd rising =
+    const Eigen::VectorXd ascending =
         Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
-    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
+    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(ascending).roots();
     return {roots.begin(), roots.end()};
 }
 
@@ -83,7 +83,7 @@ HitFit::HitFit(std::vector<double> samples, std::size_t initialOnset, double rat
     , onset_{initialOnset}
     , rateHz_{rateHz}
     , maxPartials_{maxPartials}
-    , energy_{energyOf(samples_)}
+    , energy_{signalEnergy(samples_)}
     , fit_{afterOnset(), rateHz} {
     addPartials();
     if (fit_.partials().empty()) return;
@@ -92,10 +92,10 @@ HitFit::HitFit(std::vector<double> samples, std::size_t initialOnset, double rat
     tryOtherStarts();
 }
 
-PartialError HitFit::errorOf(std::size_t partial) const {
-    const PartialError white = commonOnset_ ? commonOnset_->errorOf(partial) : fit_.errorOf(partial);
+PartialError HitFit::stdError(std::size_t partial) const {
+    const PartialError error = commonOnset_ ? commonOnset_->stdError(partial) : fit_.stdError(partial);
     const double noiseFactor = std::sqrt(std::max(1.0, noiseDensityAround(partials()[partial])));
-    return {noiseFactor * white.omega, noiseFactor * white.tau};
+    return {noiseFactor * error.omega, noiseFactor * error.tau};
 }
 
 // Coloured noise counts by its density around the frequency (Whittle 1953): the density of the residual,
@@ -121,10 +121,10 @@ double HitFit::noiseDensityAround(const Partial& partial) const {
             spectrumValue(decaying, rateHz_, std::abs(partial.omega + offset * partial.tau), partial.tau);
         density += (point.re * point.re + point.im * point.im) / offsets.size();
     }
-    return density / weight * static_cast<double>(residuals.size()) / energyOf(residuals);
+    return density / weight * static_cast<double>(residuals.size()) / signalEnergy(residuals);
 }
 
-double HitFit::energyBeforeOnset() const { return energyOf(std::span(samples_).first(onset_)); }
+double HitFit::energyBeforeOnset() const { return signalEnergy(std::span(samples_).first(onset_)); }
 
 double HitFit::modelCost(double unexplained, std::size_t parameterCount) const {
     const double count = static_cast<double>(samples_.size());
@@ -134,7 +134,7 @@ double HitFit::modelCost(double unexplained, std::size_t parameterCount) const {
 
 void HitFit::addPartials() {
     const auto cost = [this] { return modelCost(unexplainedEnergy(), 4 * fit_.partials().size()); };
-    double lowest = cost();
+    double minimum = cost();
     while (fit_.partials().size() < maxPartials_ && unexplainedEnergy() > roundingShare * energy_) {
         const std::size_t onset = onset_;
         const std::vector<Partial> partials = fit_.partials();
@@ -142,8 +142,8 @@ void HitFit::addPartials() {
         fit_.refine();
         if (moveOnset()) fit_.refine();
         const double newCost = cost();
-        if (!(newCost < lowest)) return restart(onset, partials);
-        lowest = newCost;
+        if (!(newCost < minimum)) return restart(onset, partials);
+        minimum = newCost;
     }
 }
 
@@ -180,7 +180,7 @@ void HitFit::tryOtherStarts() {
             for (std::size_t count = 1; count <= std::min<std::size_t>(4, maxPartials_); ++count) {
                 if (unexplainedEnergy() < roundingShare * energy_ && count >= partials().size()) break;
                 const auto length =
-                    std::min(afterOnset().size(), samplesIn(decayTimes / slowestDecay.tau, rateHz_));
+                    std::min(afterOnset().size(), toSamples(decayTimes / slowestDecay.tau, rateHz_));
                 std::vector<Partial> starts;
                 for (const PredictedPartial& p :
                      predictPartials(afterOnset().first(length), rateHz_, count, blocks))
@@ -193,13 +193,13 @@ void HitFit::tryOtherStarts() {
 
 // A sample x that the model m covers reduces the unexplained energy by 2 x m - m^2.
 bool HitFit::moveOnset() {
-    const std::size_t reach = std::min(samples_.size() / 2, onset_ + samplesIn(onsetReachSeconds, rateHz_));
+    const std::size_t reach = std::min(samples_.size() / 2, onset_ + toSamples(onsetReachSeconds, rateHz_));
     double gain = 0.0, maxGain = 0.0;
     std::size_t best = reach;
     for (std::size_t i = reach; i-- > 0;) {
         double model = 0.0;
         for (const Partial& p : fit_.partials())
-            model += p.at((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
+            model += p.value((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
         gain += model * (2.0 * samples_[i] - model);
         if (gain > maxGain) {
             maxGain = gain;
@@ -223,14 +223,14 @@ void HitFit::restart(std::size_t onset, const std::vector<Partial>& partials) {
 // Least-squares fit of Eq. 5.1. Parameters in the order of the equations: the onset, then omega, tau and
 // amplitude of each partial.
 
-std::size_t CommonOnsetFit::firstSampleOf(const State& state) const {
+std::size_t CommonOnsetFit::firstSample(const State& state) const {
     return std::min(samples_.size(),
                     static_cast<std::size_t>(std::max(0.0, std::ceil(state.onset * rateHz_))));
 }
 
 std::vector<double> CommonOnsetFit::residual(const State& state) const {
     std::vector<double> residuals(samples_.begin(), samples_.end());
-    const std::size_t first = firstSampleOf(state);
+    const std::size_t first = firstSample(state);
     for (const CommonOnsetPartial& p : state.partials) {
         DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - state.onset};
         for (std::size_t i = first; i < residuals.size(); ++i, phasor.next())
@@ -239,44 +239,44 @@ std::vector<double> CommonOnsetFit::residual(const State& state) const {
     return residuals;
 }
 
-double CommonOnsetFit::energyOf(const State& state) const { return physvib::energyOf(residual(state)); }
+double CommonOnsetFit::residualEnergy(const State& state) const { return signalEnergy(residual(state)); }
 
-NormalEquations CommonOnsetFit::equationsOf(const State& state) const {
+NormalEquations CommonOnsetFit::makeEquations(const State& state) const {
     NormalEquations equations(1 + parametersPerPartial * state.partials.size());
     const std::vector<double> residuals = residual(state);
-    const std::size_t first = firstSampleOf(state);
+    const std::size_t first = firstSample(state);
     const double begin = static_cast<double>(first) / rateHz_ - state.onset;
     std::vector<DecayingPhasor> phasors;
     for (const CommonOnsetPartial& p : state.partials) phasors.emplace_back(p.omega, p.tau, rateHz_, begin);
     std::vector<NormalEquations::Column> columns(equations.size());
-    for (std::size_t at = first; at < residuals.size(); at += NormalEquations::block) {
-        const std::size_t count = std::min(NormalEquations::block, residuals.size() - at);
+    for (std::size_t start = first; start < residuals.size(); start += NormalEquations::blockRows) {
+        const std::size_t count = std::min(NormalEquations::blockRows, residuals.size() - start);
         columns[0].fill(0.0);
         for (std::size_t k = 0; k < state.partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
                 const CommonOnsetPartial& p = state.partials[k];
-                const double t = begin + static_cast<double>(at - first + i) / rateHz_,
+                const double t = begin + static_cast<double>(start - first + i) / rateHz_,
                              c = phasors[k].cosine(), s = phasors[k].sine();
                 columns[0][i] += p.amplitude * (p.tau * s - p.omega * c);
                 columns[1 + parametersPerPartial * k][i] = t * p.amplitude * c;
                 columns[2 + parametersPerPartial * k][i] = -t * p.amplitude * s;
                 columns[3 + parametersPerPartial * k][i] = s;
             }
-        equations.add(columns, std::span(residuals).subspan(at, count));
+        equations.add(columns, std::span(residuals).subspan(start, count));
     }
     return equations;
 }
 
-CommonOnsetFit::State CommonOnsetFit::solvedAt(double onset, State state) const {
+CommonOnsetFit::State CommonOnsetFit::solveAmplitudes(double onset, State state) const {
     state.onset = onset;
     for (CommonOnsetPartial& p : state.partials) p.amplitude = 0.0;
     const auto amplitudes =
-        equationsOf(state).subset(parametersPerPartial, parametersPerPartial, 1).step(1e-12);
+        makeEquations(state).subset(parametersPerPartial, parametersPerPartial, 1).step(1e-12);
     for (std::size_t k = 0; k < amplitudes.size(); ++k) state.partials[k].amplitude = amplitudes[k];
     return state;
 }
 
-CommonOnsetFit::State CommonOnsetFit::stepped(const State& from, std::span<const double> step) const {
+CommonOnsetFit::State CommonOnsetFit::takeStep(const State& from, std::span<const double> step) const {
     State moved = from;
     moved.onset = std::clamp(from.onset + step[0], 0.0, 0.5 * static_cast<double>(samples_.size()) / rateHz_);
     for (std::size_t k = 0; k < moved.partials.size(); ++k) {
@@ -295,14 +295,14 @@ CommonOnsetFit::CommonOnsetFit(std::span<const double> samples, double rateHz, s
     , rateHz_{rateHz} {
     for (const Partial& p : partials) state_.partials.push_back({p.omega, p.tau, 0.0});
     const double guessSeconds = static_cast<double>(onset) / rateHz;
-    state_ = solvedAt(guessSeconds, state_);
-    double lowest = residualEnergy();
+    state_ = solveAmplitudes(guessSeconds, state_);
+    double minimum = residualEnergy();
     for (const Partial& p : partials) {
         const double restSeconds =
             guessSeconds - std::remainder(std::atan2(p.cosine, p.sine), std::numbers::pi) / p.omega;
-        State trial = solvedAt(std::max(restSeconds, 0.0), state_);
-        if (const double energy = energyOf(trial); energy < lowest) {
-            lowest = energy;
+        State trial = solveAmplitudes(std::max(restSeconds, 0.0), state_);
+        if (const double energy = residualEnergy(trial); energy < minimum) {
+            minimum = energy;
             state_ = std::move(trial);
         }
     }
@@ -310,9 +310,9 @@ CommonOnsetFit::CommonOnsetFit(std::span<const double> samples, double rateHz, s
 
 bool CommonOnsetFit::refine() {
     return minimise(
-        state_, [this](const State& s) { return energyOf(s); },
-        [this](const State& s) { return equationsOf(s); },
-        [this](const State& s, std::span<const double> step) { return stepped(s, step); });
+        state_, [this](const State& s) { return residualEnergy(s); },
+        [this](const State& s) { return makeEquations(s); },
+        [this](const State& s, std::span<const double> step) { return takeStep(s, step); });
 }
 
 std::vector<Partial> CommonOnsetFit::partials() const {
@@ -321,12 +321,12 @@ std::vector<Partial> CommonOnsetFit::partials() const {
     return all;
 }
 
-PartialError CommonOnsetFit::errorOf(std::size_t partial) const {
-    const NormalEquations equations = equationsOf(state_);
+PartialError CommonOnsetFit::stdError(std::size_t partial) const {
+    const NormalEquations equations = makeEquations(state_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(1 + parametersPerPartial * partial, variance),
-            equations.errorOf(2 + parametersPerPartial * partial, variance)};
+    return {equations.stdError(1 + parametersPerPartial * partial, variance),
+            equations.stdError(2 + parametersPerPartial * partial, variance)};
 }
 
 } // namespace physvib

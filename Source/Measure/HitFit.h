@@ -26,10 +26,10 @@ public:
                    std::span<const Partial> partials);
 
     bool refine();
-    double residualEnergy() const { return energyOf(state_); }
+    double residualEnergy() const { return residualEnergy(state_); }
     double onsetSeconds() const noexcept { return state_.onset; }
     std::vector<Partial> partials() const; ///< time 0 is the onset
-    PartialError errorOf(std::size_t partial) const;
+    PartialError stdError(std::size_t partial) const;
 
 private:
     static constexpr std::size_t parametersPerPartial = 3; ///< parameters of a partial
@@ -38,11 +38,11 @@ private:
         std::vector<CommonOnsetPartial> partials;
     };
     std::vector<double> residual(const State& state) const;
-    double energyOf(const State& state) const;
-    NormalEquations equationsOf(const State& state) const;
-    State solvedAt(double onset, State state) const;
-    State stepped(const State& state, std::span<const double> step) const;
-    std::size_t firstSampleOf(const State& state) const;
+    double residualEnergy(const State& state) const;
+    NormalEquations makeEquations(const State& state) const;
+    State solveAmplitudes(double onset, State state) const;
+    State takeStep(const State& state, std::span<const double> step) const;
+    std::size_t firstSample(const State& state) const;
 
     std::span<const double> samples_;
     double rateHz_;
@@ -67,7 +67,7 @@ public:
         return commonOnset_ ? commonOnset_->partials() : fit_.partials();
     }
     /// Standard errors: Cramer-Rao bound for noise of the residual's density around the partial.
-    PartialError errorOf(std::size_t partial) const;
+    PartialError stdError(std::size_t partial) const;
     double onsetSeconds() const noexcept {
         return commonOnset_ ? commonOnset_->onsetSeconds() : static_cast<double>(onset_) / rateHz_;
     }

@@ -34,8 +34,8 @@ std::string noSoundError(ExtractionBand band) {
            " Hz, found none";
 }
 
-std::vector<double> excerptOf(const std::vector<float>& samples, std::size_t begin, std::size_t end,
-                              double offset) {
+std::vector<double> copyExcerpt(const std::vector<float>& samples, std::size_t begin, std::size_t end,
+                                double offset) {
     std::vector<double> all(samples.begin() + static_cast<std::ptrdiff_t>(begin),
                             samples.begin() + static_cast<std::ptrdiff_t>(end));
     for (double& x : all) x -= offset;
@@ -44,19 +44,19 @@ std::vector<double> excerptOf(const std::vector<float>& samples, std::size_t beg
 
 Result<ContactSound> extractByFit(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz,
                                   ExtractionBand band) {
-    const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rateHz));
-    const HitFit hitFit{excerptOf(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
+    const std::size_t begin = hit.begin - std::min(hit.begin, toSamples(onsetReachSeconds, rateHz));
+    const HitFit hitFit{copyExcerpt(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
     const std::vector<Partial> partials = hitFit.partials();
-    std::vector<std::size_t> inBand;
+    std::vector<std::size_t> bandIndices;
     for (std::size_t k = 0; k < partials.size(); ++k) {
         const double hz = partials[k].omega / (2.0 * std::numbers::pi);
-        if (hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= minTau) inBand.push_back(k);
+        if (hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= minTau) bandIndices.push_back(k);
     }
-    if (inBand.empty()) return Failure{noSoundError(band)};
-    std::ranges::stable_sort(inBand, std::greater{},
+    if (bandIndices.empty()) return Failure{noSoundError(band)};
+    std::ranges::stable_sort(bandIndices, std::greater{},
                              [&](std::size_t k) { return partials[k].spectralPeak(hitFit.seconds()); });
-    const std::size_t best = inBand.front();
-    const PartialError error = hitFit.errorOf(best);
+    const std::size_t best = bandIndices.front();
+    const PartialError error = hitFit.stdError(best);
     const Partial& p = partials[best];
     ContactSound sound;
     sound.frequencyHz = p.omega / (2.0 * std::numbers::pi);
@@ -65,11 +65,11 @@ Result<ContactSound> extractByFit(const std::vector<float>& samples, const HitEx
     sound.decayErrorPerSecond = error.tau;
     sound.residualShare = hitFit.unexplainedEnergy() / hitFit.energy();
     sound.partialCount = static_cast<int>(partials.size());
-    for (const std::size_t k : std::span(inBand).subspan(1))
+    for (const std::size_t k : std::span(bandIndices).subspan(1))
         sound.furtherPartials.push_back({partials[k].omega / (2.0 * std::numbers::pi), partials[k].tau,
                                          partials[k].amplitude() / p.amplitude()});
     double explainedEnergy = 0.0;
-    for (double t = 0.0; t < hitFit.seconds(); t += 1.0 / rateHz) explainedEnergy += p.at(t) * p.at(t);
+    for (double t = 0.0; t < hitFit.seconds(); t += 1.0 / rateHz) explainedEnergy += p.value(t) * p.value(t);
     sound.explainedShare = explainedEnergy / hitFit.energy();
     sound.beginSeconds = static_cast<double>(begin) / rateHz + hitFit.onsetSeconds();
     sound.lengthSeconds = hitFit.seconds();
@@ -80,7 +80,7 @@ Result<ContactSound> extractByFit(const std::vector<float>& samples, const HitEx
 /// first.
 std::vector<Peak> twoHighestPeaks(std::vector<double> x, double rateHz, double minSeparationSeconds) {
     for (double& sample : x) sample = std::abs(sample);
-    std::vector<Peak> all = peaksOf(x), peaks;
+    std::vector<Peak> all = findPeaks(x), peaks;
     std::ranges::sort(all, std::greater{}, &Peak::height);
     for (const Peak& peak : all) {
         const double seconds = peak.position / rateHz;
@@ -93,7 +93,7 @@ std::vector<Peak> twoHighestPeaks(std::vector<double> x, double rateHz, double m
 
 Result<ContactSound> extractByTwoPeaks(const std::vector<float>& samples, const HitExcerpt& hit,
                                        double rateHz, ExtractionBand band) {
-    const std::vector<double> x = excerptOf(samples, hit.begin, hit.end, hit.offset);
+    const std::vector<double> x = copyExcerpt(samples, hit.begin, hit.end, hit.offset);
     ContactSound sound;
     sound.frequencyHz = highestPeakHz(x, rateHz, band.lowHz, band.highHz);
     const auto peaks = twoHighestPeaks(x, rateHz, 0.25 / sound.frequencyHz);
@@ -108,7 +108,7 @@ Result<ContactSound> extractByTwoPeaks(const std::vector<float>& samples, const 
     fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
     fit.solveLinear();
     const auto count = static_cast<double>(x.size());
-    const double energy = energyOf(x) / count * count; // as published figures were computed
+    const double energy = signalEnergy(x) / count * count; // as published figures were computed
     sound.residualShare = fit.residualEnergy() / energy;
     sound.explainedShare = 1.0 - sound.residualShare;
     sound.beginSeconds = static_cast<double>(hit.begin) / rateHz;

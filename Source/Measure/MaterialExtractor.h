@@ -27,7 +27,7 @@ struct ContactSound {
     double decayPerSecond = 0.0;
     std::vector<FurtherPartial> furtherPartials; ///< in the band, the highest spectral peak first; none with
                                                  ///< twoPeaks
-    /// standard errors (HitFit::errorOf); 0 with twoPeaks
+    /// standard errors (HitFit::stdError); 0 with twoPeaks
     double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0;
     double residualShare = 0.0;  ///< share of the impact's energy that the fitted partials do not explain
     double explainedShare = 0.0; ///< share of the impact's energy that this partial explains

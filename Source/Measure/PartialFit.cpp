@@ -17,9 +17,9 @@ using Rows = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStr
 
 /// Solves a x = b from the lower triangle of `a`; false if it is not positive definite.
 bool solve(const Matrix& a, Eigen::Ref<Eigen::VectorXd> b) {
-    const Eigen::LLT<Matrix> decomposed(a);
-    if (decomposed.info() != Eigen::Success) return false;
-    decomposed.solveInPlace(b);
+    const Eigen::LLT<Matrix> cholesky(a);
+    if (cholesky.info() != Eigen::Success) return false;
+    cholesky.solveInPlace(b);
     return true;
 }
 
@@ -28,7 +28,7 @@ Eigen::Index index(std::size_t i) noexcept { return static_cast<Eigen::Index>(i)
 Matrix square(const std::vector<double>& byRows, std::size_t size) {
     return Eigen::Map<const Matrix>(byRows.data(), index(size), index(size));
 }
-Eigen::Map<Eigen::VectorXd> vectorOf(std::vector<double>& numbers) {
+Eigen::Map<Eigen::VectorXd> asVector(std::vector<double>& numbers) {
     return {numbers.data(), index(numbers.size())};
 }
 
@@ -40,10 +40,10 @@ NormalEquations::NormalEquations(std::size_t size)
 
 void NormalEquations::add(const std::vector<Column>& columns, std::span<const double> residuals) {
     const Rows derivatives(columns.front().data(), index(residuals.size()), index(size()),
-                           Eigen::OuterStride<>(index(block)));
+                           Eigen::OuterStride<>(index(blockRows)));
     Eigen::Map<Matrix> matrix(matrix_.data(), index(size()), index(size()));
     matrix.triangularView<Eigen::Lower>() += derivatives.transpose() * derivatives;
-    vectorOf(rightSide_) += derivatives.transpose() *
+    asVector(rightSide_) += derivatives.transpose() *
                             Eigen::Map<const Eigen::VectorXd>(residuals.data(), index(residuals.size()));
 }
 
@@ -51,13 +51,13 @@ std::vector<double> NormalEquations::step(double lambda) const {
     Matrix damped = square(matrix_, size());
     damped.diagonal() *= 1.0 + lambda;
     std::vector<double> b = rightSide_;
-    return solve(damped, vectorOf(b)) ? b : std::vector<double>{};
+    return solve(damped, asVector(b)) ? b : std::vector<double>{};
 }
 
 NormalEquations NormalEquations::subset(std::size_t first, std::size_t stride, std::size_t width) const {
     std::vector<std::size_t> indices;
-    for (std::size_t at = first; at < size(); at += stride)
-        for (std::size_t i = 0; i < width; ++i) indices.push_back(at + i);
+    for (std::size_t group = first; group < size(); group += stride)
+        for (std::size_t i = 0; i < width; ++i) indices.push_back(group + i);
     NormalEquations part(indices.size());
     for (std::size_t a = 0; a < indices.size(); ++a) {
         for (std::size_t b = 0; b <= a; ++b)
@@ -67,10 +67,10 @@ NormalEquations NormalEquations::subset(std::size_t first, std::size_t stride, s
     return part;
 }
 
-double NormalEquations::errorOf(std::size_t parameter, double variance) const {
+double NormalEquations::stdError(std::size_t parameter, double variance) const {
     std::vector<double> unit(size());
     unit[parameter] = 1.0;
-    return solve(square(matrix_, size()), vectorOf(unit)) ? std::sqrt(variance * unit[parameter]) : HUGE_VAL;
+    return solve(square(matrix_, size()), asVector(unit)) ? std::sqrt(variance * unit[parameter]) : HUGE_VAL;
 }
 
 namespace {
@@ -113,14 +113,14 @@ PartialFit::PartialFit(std::span<const double> samples, double rateHz)
     : samples_{samples}
     , rateHz_{rateHz} {}
 
-NormalEquations PartialFit::equationsOf(const std::vector<Partial>& partials) const {
+NormalEquations PartialFit::makeEquations(const std::vector<Partial>& partials) const {
     NormalEquations equations(parametersPerPartial * partials.size());
-    const std::vector<double> residuals = residualOf(partials);
+    const std::vector<double> residuals = residual(partials);
     std::vector<DecayingPhasor> phasors;
     for (const Partial& p : partials) phasors.emplace_back(p.omega, p.tau, rateHz_);
     std::vector<NormalEquations::Column> columns(equations.size());
-    for (std::size_t first = 0; first < residuals.size(); first += NormalEquations::block) {
-        const std::size_t count = std::min(NormalEquations::block, residuals.size() - first);
+    for (std::size_t first = 0; first < residuals.size(); first += NormalEquations::blockRows) {
+        const std::size_t count = std::min(NormalEquations::blockRows, residuals.size() - first);
         for (std::size_t k = 0; k < partials.size(); ++k)
             for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
                 const Partial& p = partials[k];
@@ -136,19 +136,19 @@ NormalEquations PartialFit::equationsOf(const std::vector<Partial>& partials) co
     return equations;
 }
 
-std::vector<double> PartialFit::residualOf(const std::vector<Partial>& partials) const {
+std::vector<double> PartialFit::residual(const std::vector<Partial>& partials) const {
     std::vector<double> residuals(samples_.begin(), samples_.end());
     for (const Partial& p : partials) subtract(residuals, p, rateHz_);
     return residuals;
 }
 
-double PartialFit::residualEnergyOf(const std::vector<Partial>& partials) const {
-    return energyOf(residualOf(partials));
+double PartialFit::residualEnergy(const std::vector<Partial>& partials) const {
+    return signalEnergy(residual(partials));
 }
 
 // The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2, below its frequency.
 void PartialFit::addHighestPeak() {
-    const std::vector<double> residuals = residualOf(partials_);
+    const std::vector<double> residuals = residual(partials_);
     const double peak = 2.0 * pi * highestPeakHz(residuals, rateHz_, minHz, 0.5 * rateHz_);
     Partial best;
     double maxRemoved = -1.0;
@@ -166,7 +166,7 @@ void PartialFit::addHighestPeak() {
 void PartialFit::solveLinear() {
     for (Partial& p : partials_) p.cosine = p.sine = 0.0;
     const std::vector<double> amplitudes =
-        equationsOf(partials_).subset(0, parametersPerPartial, 2).step(1e-12);
+        makeEquations(partials_).subset(0, parametersPerPartial, 2).step(1e-12);
     for (std::size_t k = 0; k < partials_.size() && !amplitudes.empty(); ++k)
         partials_[k].cosine = amplitudes[2 * k], partials_[k].sine = amplitudes[2 * k + 1];
 }
@@ -177,7 +177,7 @@ double PartialFit::clampedOmega(double omega, double rateHz) noexcept {
 double PartialFit::clampedTau(double tau) noexcept { return std::clamp(tau, minTau, maxTau); }
 
 bool PartialFit::refine() {
-    const auto stepped = [this](std::vector<Partial> partials, const std::vector<double>& step) {
+    const auto takeStep = [this](std::vector<Partial> partials, const std::vector<double>& step) {
         for (std::size_t k = 0; k < partials.size(); ++k) {
             const double* const change = &step[parametersPerPartial * k];
             Partial& p = partials[k];
@@ -187,16 +187,16 @@ bool PartialFit::refine() {
         return partials;
     };
     return minimise(
-        partials_, [this](const auto& partials) { return residualEnergyOf(partials); },
-        [this](const auto& partials) { return equationsOf(partials); }, stepped);
+        partials_, [this](const auto& partials) { return residualEnergy(partials); },
+        [this](const auto& partials) { return makeEquations(partials); }, takeStep);
 }
 
-PartialError PartialFit::errorOf(std::size_t partial) const {
-    const NormalEquations equations = equationsOf(partials_);
+PartialError PartialFit::stdError(std::size_t partial) const {
+    const NormalEquations equations = makeEquations(partials_);
     if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
-    return {equations.errorOf(parametersPerPartial * partial + 2, variance),
-            equations.errorOf(parametersPerPartial * partial + 3, variance)};
+    return {equations.stdError(parametersPerPartial * partial + 2, variance),
+            equations.stdError(parametersPerPartial * partial + 3, variance)};
 }
 
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz) {

@@ -14,12 +14,12 @@ namespace physvib {
 /// a model's derivatives J and its residual r over the samples. Message thread (M) only (allocates).
 class NormalEquations {
 public:
-    static constexpr std::size_t block = 256; ///< rows per call, contiguous in memory for fast products
-    using Column = std::array<double, block>;
+    static constexpr std::size_t blockRows = 256; ///< rows per call, contiguous in memory for fast products
+    using Column = std::array<double, blockRows>;
 
     explicit NormalEquations(std::size_t size);
 
-    /// Adds as many rows as `residuals` has, at most `block`: the residual, and its derivative by each
+    /// Adds as many rows as `residuals` has, at most `blockRows`: the residual, and its derivative by each
     /// parameter.
     void add(const std::vector<Column>& columns, std::span<const double> residuals);
 
@@ -32,7 +32,7 @@ public:
 
     /// Standard error of a parameter under white noise of `variance` (Cramer-Rao bound); infinite if it is
     /// undetermined.
-    double errorOf(std::size_t parameter, double variance) const;
+    double stdError(std::size_t parameter, double variance) const;
 
     std::size_t size() const noexcept { return rightSide_.size(); }
 
@@ -40,20 +40,20 @@ private:
     std::vector<double> matrix_, rightSide_; // row by row; only the lower triangle is used
 };
 
-/// Improves `model` until the energy no longer falls; false if no step lowered it. `energyOf(model)` is
-/// minimised, `equationsOf(model)` returns its NormalEquations, `stepped(model, step)` the model after a
+/// Improves `model` until the energy no longer falls; false if no step lowered it. `computeEnergy(model)` is
+/// minimised, `makeEquations(model)` returns its NormalEquations, `takeStep(model, step)` the model after a
 /// step.
 template <class Model, class Energy, class Equations, class Step>
-bool minimise(Model& model, Energy energyOf, Equations equationsOf, Step stepped) {
+bool minimise(Model& model, Energy computeEnergy, Equations makeEquations, Step takeStep) {
     constexpr int maxSteps = 40;
     constexpr double minRelativeGain = 1e-12; // relative gain of a step that ends the search
-    double energy = energyOf(model), lambda = 1e-3;
-    NormalEquations equations = equationsOf(model);
+    double energy = computeEnergy(model), lambda = 1e-3;
+    NormalEquations equations = makeEquations(model);
     bool hasMoved = false;
     for (int i = 0; i < maxSteps && lambda < 1e9; ++i) {
         const std::vector<double> step = equations.step(lambda);
-        Model trial = step.empty() ? model : stepped(model, step);
-        const double newEnergy = step.empty() ? energy : energyOf(trial);
+        Model trial = step.empty() ? model : takeStep(model, step);
+        const double newEnergy = step.empty() ? energy : computeEnergy(trial);
         if (!(newEnergy < energy)) {
             lambda *= 10.0;
             continue;
@@ -64,7 +64,7 @@ bool minimise(Model& model, Energy energyOf, Equations equationsOf, Step stepped
         hasMoved = true;
         if (hasConverged) break;
         lambda *= 0.1;
-        equations = equationsOf(model);
+        equations = makeEquations(model);
     }
     return hasMoved;
 }
@@ -76,7 +76,7 @@ struct Partial {
     double cosine = 0.0, sine = 0.0;
 
     double amplitude() const noexcept { return std::hypot(cosine, sine); }
-    double at(double seconds) const noexcept {
+    double value(double seconds) const noexcept {
         return std::exp(-tau * seconds) *
                (cosine * std::cos(omega * seconds) + sine * std::sin(omega * seconds));
     }
@@ -117,16 +117,16 @@ public:
     bool refine();
 
     const std::vector<Partial>& partials() const noexcept { return partials_; }
-    double residualEnergy() const { return residualEnergyOf(partials_); }
-    PartialError errorOf(std::size_t partial) const;
+    double residualEnergy() const { return residualEnergy(partials_); }
+    PartialError stdError(std::size_t partial) const;
 
     static double clampedOmega(double omega, double rateHz) noexcept; ///< limited to what a fit may use
     static double clampedTau(double tau) noexcept;
 
 private:
-    NormalEquations equationsOf(const std::vector<Partial>& partials) const;
-    std::vector<double> residualOf(const std::vector<Partial>& partials) const;
-    double residualEnergyOf(const std::vector<Partial>& partials) const;
+    NormalEquations makeEquations(const std::vector<Partial>& partials) const;
+    std::vector<double> residual(const std::vector<Partial>& partials) const;
+    double residualEnergy(const std::vector<Partial>& partials) const;
 
     std::span<const double> samples_;
     double rateHz_;
@@ -143,18 +143,18 @@ class DecayingPhasor {
 public:
     /// The first sample lies at `seconds`.
     DecayingPhasor(double omega, double tau, double rateHz, double seconds = 0.0)
-        : turn_{at(omega, tau, 1.0 / rateHz)}
-        , current_{at(omega, tau, seconds)} {}
+        : rotation_{phasorAt(omega, tau, 1.0 / rateHz)}
+        , current_{phasorAt(omega, tau, seconds)} {}
     double cosine() const noexcept { return current_.re; }
     double sine() const noexcept { return current_.im; }
-    void next() noexcept { current_ = current_ * turn_; }
+    void next() noexcept { current_ = current_ * rotation_; }
 
 private:
-    static Complex<double> at(double omega, double tau, double seconds) {
+    static Complex<double> phasorAt(double omega, double tau, double seconds) {
         const double decay = std::exp(-tau * seconds);
         return {decay * std::cos(omega * seconds), decay * std::sin(omega * seconds)};
     }
-    Complex<double> turn_, current_;
+    Complex<double> rotation_, current_;
 };
 
 } // namespace physvib

@@ -33,7 +33,7 @@ inline Peak peakAt(std::span<const double> x, std::size_t i) {
 inline bool isPeak(std::span<const double> x, std::size_t i) { return x[i] > x[i - 1] && x[i] >= x[i + 1]; }
 
 /// All peaks above 0. Any thread (allocates).
-inline std::vector<Peak> peaksOf(std::span<const double> x) {
+inline std::vector<Peak> findPeaks(std::span<const double> x) {
     std::vector<Peak> all;
     for (std::size_t i = 1; i + 1 < x.size(); ++i)
         if (isPeak(x, i) && x[i] > 0.0) all.push_back(peakAt(x, i));

@@ -35,10 +35,10 @@ struct Smoothing {
     Smoothing(std::size_t samples, double rateHz)
         : reach{samples} {
         const auto steps = static_cast<double>(reach + 1);
-        const double turn = 0.5 * std::numbers::pi / steps, perSecond = turn * rateHz;
+        const double phaseStep = 0.5 * std::numbers::pi / steps, perSecond = phaseStep * rateHz;
         double area = 0.0;
         for (std::size_t i = 0; i <= 2 * reach; ++i) {
-            const double phase = turn * (static_cast<double>(i) - static_cast<double>(reach)),
+            const double phase = phaseStep * (static_cast<double>(i) - static_cast<double>(reach)),
                          c = std::cos(phase), s = std::sin(phase);
             value.push_back(c * c * c * c);
             slope.push_back(-4.0 * perSecond * c * c * c * s);
@@ -53,8 +53,7 @@ struct Smoothing {
 };
 
 /// `kernel` * x at every `step`-th sample, where the kernel fits completely.
-std::vector<double> convolved(std::span<const double> x, const std::vector<double>& kernel,
-                              std::size_t step) {
+std::vector<double> convolve(std::span<const double> x, const std::vector<double>& kernel, std::size_t step) {
     std::vector<double> all;
     for (std::size_t n = kernel.size(); n <= x.size(); n += step) {
         double sum = 0.0;
@@ -64,7 +63,7 @@ std::vector<double> convolved(std::span<const double> x, const std::vector<doubl
     return all;
 }
 
-Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) {
+Eigen::Map<const Eigen::ArrayXd> asArray(const std::vector<double>& x) {
     return {x.data(), static_cast<Eigen::Index>(x.size())};
 }
 
@@ -78,26 +77,26 @@ std::optional<Eigen::Vector3d> fitResonance(const std::vector<double>& value,
     constexpr double minResidualShare = 0.02; // of the rms: limits the weight of small residuals
     const Eigen::Index rows = static_cast<Eigen::Index>(value.size()) - lag;
     if (rows < 100) return std::nullopt; // too few for three coefficients
-    Eigen::MatrixX3d all(rows + lag, 3);
-    all << mapped(slope), mapped(value), Eigen::ArrayXd::Ones(rows + lag);
-    Eigen::RowVector3d scale = (all.colwise().squaredNorm() / static_cast<double>(rows)).cwiseSqrt();
+    Eigen::MatrixX3d basis(rows + lag, 3);
+    basis << asArray(slope), asArray(value), Eigen::ArrayXd::Ones(rows + lag);
+    Eigen::RowVector3d scale = (basis.colwise().squaredNorm() / static_cast<double>(rows)).cwiseSqrt();
     if (!(scale.minCoeff() > 0.0)) return std::nullopt;
-    all.array().rowwise() /= scale.array();
-    const Eigen::VectorXd target = -mapped(bend).tail(rows);
+    basis.array().rowwise() /= scale.array();
+    const Eigen::VectorXd target = -asArray(bend).tail(rows);
     Eigen::ArrayXd weights = Eigen::ArrayXd::Ones(rows);
     Eigen::Vector3d found;
     for (int round = 0; round < rounds; ++round) {
-        const Eigen::Matrix3Xd past = (all.topRows(rows).array().colwise() * weights).matrix().transpose();
-        found = (past * all.bottomRows(rows)).fullPivLu().solve(past * target);
-        const Eigen::ArrayXd residuals = (target - all.bottomRows(rows) * found).array().abs();
+        const Eigen::Matrix3Xd past = (basis.topRows(rows).array().colwise() * weights).matrix().transpose();
+        found = (past * basis.bottomRows(rows)).fullPivLu().solve(past * target);
+        const Eigen::ArrayXd residuals = (target - basis.bottomRows(rows) * found).array().abs();
         weights = 1.0 / residuals.max(minResidualShare * std::sqrt(residuals.square().mean()));
         if (!weights.allFinite()) return std::nullopt;
     }
     return (found.array() / scale.transpose().array()).matrix();
 }
 
-double skewnessOf(const std::vector<double>& x) {
-    const auto deviations = mapped(x) - mapped(x).mean();
+double computeSkewness(const std::vector<double>& x) {
+    const auto deviations = asArray(x) - asArray(x).mean();
     return deviations.cube().mean() / std::pow(deviations.square().mean(), 1.5);
 }
 
@@ -110,9 +109,9 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
     if (reach < minReachSamples || samples.size() < 100 * reach) return std::nullopt;
     const Smoothing smoothing{reach, rateHz};
     const std::size_t step = std::max<std::size_t>(1, reach / 8);
-    const auto value = convolved(samples, smoothing.value, step),
-               slope = convolved(samples, smoothing.slope, step),
-               bend = convolved(samples, smoothing.bend, step);
+    const auto value = convolve(samples, smoothing.value, step),
+               slope = convolve(samples, smoothing.slope, step),
+               bend = convolve(samples, smoothing.bend, step);
     const auto coefficients =
         fitResonance(value, slope, bend, static_cast<Eigen::Index>(2 * reach / step + 2));
     if (!coefficients) return std::nullopt;
@@ -127,7 +126,7 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
         pulses.heights.push_back(
             (bend[n] + (*coefficients)[0] * slope[n] + (*coefficients)[1] * value[n] + (*coefficients)[2]) /
             unitHeight);
-    pulses.skewness = skewnessOf(pulses.heights);
+    pulses.skewness = computeSkewness(pulses.heights);
     if (pulses.skewness < 0.0) { // recorded with inverted polarity
         for (double& height : pulses.heights) height = -height;
         pulses.skewness = -pulses.skewness;
@@ -138,7 +137,7 @@ std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double
 /// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits.
 std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
     const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
-    return convolved(samples, Smoothing{std::max(reach, minReachSamples), rateHz}.slope, 1);
+    return convolve(samples, Smoothing{std::max(reach, minReachSamples), rateHz}.slope, 1);
 }
 
 /// Estimates from the pulses of a scrape.
@@ -164,7 +163,7 @@ constexpr double maxHeightSpread = 0.8; // coefficient of variation of heights: 
                                         // ringing of another partial above 1
 
 /// RMS of the negative values: noise is symmetric, pulses are positive.
-double noiseOf(std::span<const double> x) {
+double noiseRms(std::span<const double> x) {
     double sum = 0.0, count = 0.0;
     for (const double height : x)
         if (height < 0.0) sum += height * height, count += 1.0;
@@ -197,14 +196,14 @@ ProminentPeaks prominentPeaks(const std::vector<Peak>& peaks, double noise) {
     return prominent;
 }
 
-double spreadOf(const std::vector<Peak>& peaks) {
+double heightSpread(const std::vector<Peak>& peaks) {
     double sum = 0.0, squares = 0.0;
     for (const Peak& peak : peaks) sum += peak.height, squares += peak.height * peak.height;
     return std::sqrt(std::max(0.0, squares * static_cast<double>(peaks.size()) / (sum * sum) - 1.0));
 }
 
 /// Spacings of consecutive peaks, without pauses, which are longer than random spacings.
-std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
+std::vector<double> findGaps(const std::vector<Peak>& peaks) {
     constexpr double pauseMedians = 4.0; // medians
     std::vector<double> gaps;
     for (std::size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i].position - peaks[i - 1].position);
@@ -215,12 +214,12 @@ std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
     return gaps;
 }
 
-double meanOf(const std::vector<double>& x) {
+double meanValue(const std::vector<double>& x) {
     return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
-double unevennessOf(const std::vector<double>& gaps) {
-    const double mean = meanOf(gaps);
+double gapUnevenness(const std::vector<double>& gaps) {
+    const double mean = meanValue(gaps);
     double sum = 0.0;
     for (const double gap : gaps) sum += (gap / mean - 1.0) * (gap / mean - 1.0);
     return std::sqrt(sum / static_cast<double>(gaps.size()));
@@ -237,16 +236,16 @@ std::optional<GrainTrain> grainTrainAt(std::span<const double> samples, double r
                                        double halfWidthSeconds) {
     const auto pulses = scrapePulses(samples, rateHz, halfWidthSeconds);
     if (!pulses || !(pulses->skewness >= minSkewness)) return std::nullopt;
-    const ProminentPeaks prominent = prominentPeaks(peaksOf(pulses->heights), noiseOf(pulses->heights));
-    if (prominent.peaks.size() < minGrains || spreadOf(prominent.peaks) > maxHeightSpread)
+    const ProminentPeaks prominent = prominentPeaks(findPeaks(pulses->heights), noiseRms(pulses->heights));
+    if (prominent.peaks.size() < minGrains || heightSpread(prominent.peaks) > maxHeightSpread)
         return std::nullopt;
     GrainTrain train;
     train.frequencyHz = pulses->frequencyHz;
     train.decayPerSecond = pulses->decayPerSecond;
     train.grainCount = prominent.peaks.size();
-    const std::vector<double> gaps = gapsOf(prominent.peaks);
-    train.perSecond = pulses->heightsPerSecond / meanOf(gaps);
-    train.unevenness = unevennessOf(gaps);
+    const std::vector<double> gaps = findGaps(prominent.peaks);
+    train.perSecond = pulses->heightsPerSecond / meanValue(gaps);
+    train.unevenness = gapUnevenness(gaps);
     const double weakShare = std::clamp((prominent.threshold / prominent.mean - GrainChance::minStrength) /
                                             GrainChance::strengthRange,
                                         0.0, 0.95);
@@ -281,7 +280,7 @@ std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rat
 constexpr double minSeconds = 0.5, maxSeconds = 8.0;
 constexpr std::size_t maxSamples = 400'000; // a second of computing, 50 MB
 
-std::vector<double> middleOf(const std::vector<float>& x, double rateHz) {
+std::vector<double> middlePart(const std::vector<float>& x, double rateHz) {
     const std::size_t size = std::min({x.size(), maxSamples, static_cast<std::size_t>(maxSeconds * rateHz)}),
                       from = (x.size() - size) / 2;
     const auto begin = x.begin() + static_cast<std::ptrdiff_t>(from);
@@ -353,7 +352,7 @@ Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double 
         return Failure{std::move(error)};
     if (isSilent(samples)) return Failure{"expected a scrape, found silence"};
     if (auto error = clippingError(samples, rateHz); !error.empty()) return Failure{std::move(error)};
-    const std::vector<double> x = middleOf(samples, rateHz);
+    const std::vector<double> x = middlePart(samples, rateHz);
     const auto train = grainTrain(x, rateHz);
     const bool isRandom = train && train->isRandom(), isCounted = isRandom || (train && train->isEven());
     ScrapedTexture result;

@@ -62,9 +62,9 @@ private:
     [[gnu::noinline]] void forward(b2Contact* contact, const b2ContactImpulse* impulse);
     class Call;
     template <class Listener>
-    static Listener* skipInactive(Listener* found, Listener* WorldListener::*next);
+    static Listener* skipInactive(Listener* current, Listener* WorldListener::*next);
     template <class Listener>
-    bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
+    bool isReachedBy(Listener* current, Listener* WorldListener::*next) const;
 
     ContactEvents& events_;
     WorldBodies& bodies_;
@@ -73,7 +73,7 @@ private:
     // active, and nothing to forward to: no other listener, or Box2D's own, which does nothing
     bool isAlone_ = false;
     b2DestructionListener* chainedDestruction_ = nullptr;
-    const void* callFor_ = nullptr; // object of the call that is being forwarded
+    const void* forwardedObject_ = nullptr; // object of the call that is being forwarded
 };
 
 namespace {
@@ -108,7 +108,7 @@ bool isFiltered(const b2World& world, const b2Fixture& source) {
     return hasOthers;
 }
 
-std::optional<EngineNote> noteOf(const b2World& world, const b2Fixture& source) {
+std::optional<EngineNote> findNote(const b2World& world, const b2Fixture& source) {
     const b2Body& body = *source.GetBody();
     if (!body.IsEnabled()) return EngineNote::disabled;
     if (source.IsSensor()) return EngineNote::sensor;
@@ -124,7 +124,7 @@ void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCoun
         for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
             if (const std::int32_t slot = fixtures.find(idOf(*f));
                 slot != FixtureTable::none && fixtures.isSource(slot))
-                if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
+                if (const auto note = findNote(world, *f)) counts.note(*note, fixtures[slot].id);
 }
 
 } // namespace
@@ -172,7 +172,7 @@ SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values,
     if (fixture.GetBody()->GetWorld() != world_)
         return {-1, "fixture: expected one of the world attached to"};
     // a fixture that reuses the address of a destroyed one gets new state
-    parts_->listener->finder().slotOf(fixture);
+    parts_->listener->finder().findSlot(fixture);
     return parts_->events.set(idOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
 
@@ -235,8 +235,8 @@ void Attachment::releaseDestroyedFixtures() {
     parts_->listener->finder().clearCache();
     parts_->bodies.invalidate();
     for (std::int32_t slot = 0; slot < parts_->events.fixtures().size(); ++slot)
-        if (const FixtureEntry& known = parts_->events.fixtures()[slot];
-            known.isUsed() && !parts_->bodies.has(known.body.body))
+        if (const FixtureEntry& entry = parts_->events.fixtures()[slot];
+            entry.isUsed() && !parts_->bodies.has(entry.body.body))
             parts_->events.release(slot);
 }
 
@@ -268,17 +268,17 @@ const ImpactModel& Attachment::impactModel() const noexcept { return parts_->eve
 class WorldListener::Call {
 public:
     Call(WorldListener& listener, const void* object) noexcept
-        : callFor_(listener.callFor_)
-        , outer_(std::exchange(listener.callFor_, object))
-        , isFirst_(outer_ != object) {}
-    ~Call() { callFor_ = outer_; }
+        : forwardedObject_(listener.forwardedObject_)
+        , outerObject_(std::exchange(listener.forwardedObject_, object))
+        , isFirst_(outerObject_ != object) {}
+    ~Call() { forwardedObject_ = outerObject_; }
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
     explicit operator bool() const noexcept { return isFirst_; }
 
 private:
-    const void*& callFor_;
-    const void* outer_;
+    const void*& forwardedObject_;
+    const void* outerObject_;
     bool isFirst_;
 };
 
@@ -333,7 +333,7 @@ void WorldListener::SayGoodbye(b2Joint* joint) {
 void WorldListener::SayGoodbye(b2Fixture* fixture) {
     const Call call{*this, fixture};
     if (!call) return;
-    if (const std::int32_t slot = finder_ ? finder_->slotOf(*fixture) : FixtureTable::none;
+    if (const std::int32_t slot = finder_ ? finder_->findSlot(*fixture) : FixtureTable::none;
         slot != FixtureTable::none) {
         finder_->clearCache();
         bodies_.invalidate(fixture->GetBody());
@@ -344,34 +344,34 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
 
 // The first listener that is active: skips those of ended attachments.
 template <class Listener>
-Listener* WorldListener::skipInactive(Listener* found, Listener* WorldListener::*next) {
-    for (auto* inactive = dynamic_cast<WorldListener*>(found); inactive != nullptr && !inactive->finder_;
-         inactive = dynamic_cast<WorldListener*>(found))
-        found = inactive->*next;
-    return found;
+Listener* WorldListener::skipInactive(Listener* current, Listener* WorldListener::*next) {
+    for (auto* inactive = dynamic_cast<WorldListener*>(current); inactive != nullptr && !inactive->finder_;
+         inactive = dynamic_cast<WorldListener*>(current))
+        current = inactive->*next;
+    return current;
 }
 
-// True if calls to `found` reach this listener through attachments that were made later.
+// True if calls to `current` reach this listener through attachments that were made later.
 template <class Listener>
-bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next) const {
-    if (found == this) return true; // the usual case
-    for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr;
+bool WorldListener::isReachedBy(Listener* current, Listener* WorldListener::*next) const {
+    if (current == this) return true; // the usual case
+    for (auto* link = dynamic_cast<WorldListener*>(current); link != nullptr;
          link = dynamic_cast<WorldListener*>(link->*next))
         if (link == this) return true;
     return false;
 }
 
 void WorldListener::install(b2World& world) {
-    if (b2ContactListener* found = world.GetContactManager().m_contactListener;
-        !isReachedBy(found, &WorldListener::chained_)) {
-        chained_ = skipInactive(found, &WorldListener::chained_);
+    if (b2ContactListener* current = world.GetContactManager().m_contactListener;
+        !isReachedBy(current, &WorldListener::chained_)) {
+        chained_ = skipInactive(current, &WorldListener::chained_);
         isAlone_ = finder_ && (chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener));
         world.SetContactListener(this);
         if (finder_) finder_->clearCache();
     }
-    if (b2DestructionListener* found = destructionListenerOf(world);
-        !isReachedBy(found, &WorldListener::chainedDestruction_)) {
-        chainedDestruction_ = skipInactive(found, &WorldListener::chainedDestruction_);
+    if (b2DestructionListener* current = destructionListenerOf(world);
+        !isReachedBy(current, &WorldListener::chainedDestruction_)) {
+        chainedDestruction_ = skipInactive(current, &WorldListener::chainedDestruction_);
         world.SetDestructionListener(this);
     }
 }

@@ -18,7 +18,7 @@ bool isSolid(const b2Contact& contact) {
 const b2Body& bodyA(const b2Contact& contact) { return *contact.GetFixtureA()->GetBody(); }
 const b2Body& bodyB(const b2Contact& contact) { return *contact.GetFixtureB()->GetBody(); }
 
-std::uint64_t partOf(const b2Contact& contact) noexcept {
+std::uint64_t partHash(const b2Contact& contact) noexcept {
     const auto child = [](int index) {
         return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
     };
@@ -45,7 +45,7 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 
 } // namespace
 
-std::int32_t CollisionFinder::slotOf(const b2Fixture& fixture) {
+std::int32_t CollisionFinder::findSlot(const b2Fixture& fixture) {
     const std::int32_t slot = events_.fixtures().find(idOf(fixture));
     if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == idOf(*fixture.GetBody()))
         return slot;
@@ -55,7 +55,7 @@ std::int32_t CollisionFinder::slotOf(const b2Fixture& fixture) {
 }
 
 CollisionFinder::CachedContact* CollisionFinder::cacheRegistered(const b2Contact& contact) {
-    const std::int32_t a = slotOf(*contact.GetFixtureA()), b = slotOf(*contact.GetFixtureB());
+    const std::int32_t a = findSlot(*contact.GetFixtureA()), b = findSlot(*contact.GetFixtureB());
     if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
     return &cacheEntry(contact, {.a = a, .b = b});
 }
@@ -63,14 +63,14 @@ CollisionFinder::CachedContact* CollisionFinder::cacheRegistered(const b2Contact
 CollisionFinder::CachedContact& CollisionFinder::cacheEntry(const b2Contact& contact, Pair pair) {
     std::int32_t index = cacheIndexOf_.find(idOf(contact));
     if (index == IntegerMap::none) {
-        if (free_.empty()) addPlaces(2 * cachedContacts_.size());
-        index = free_.back();
-        free_.pop_back();
+        if (freeIndices_.empty()) growCache(2 * cachedContacts_.size());
+        index = freeIndices_.back();
+        freeIndices_.pop_back();
         cacheIndexOf_.set(idOf(contact), index);
     }
     CachedContact& entry = cachedContacts_[static_cast<std::size_t>(index)];
     entry = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
-             0,        pairKey(pair.a, pair.b), partOf(contact),       entry.after};
+             0,        pairKey(pair.a, pair.b), partHash(contact),     entry.nextIndex};
     return entry;
 }
 
@@ -79,28 +79,28 @@ void CollisionFinder::dropEntry(const b2Contact& contact) noexcept {
     if (index == IntegerMap::none) return;
     cacheIndexOf_.erase(idOf(contact));
     cachedContacts_[static_cast<std::size_t>(index)].contact = nullptr;
-    free_.push_back(index);
+    freeIndices_.push_back(index);
 }
 
 // The lowest place is taken first, so that those in use lie together.
-void CollisionFinder::addPlaces(std::size_t all) {
-    free_.reserve(all);
-    for (std::size_t index = all; index > cachedContacts_.size(); --index)
-        free_.push_back(static_cast<std::int32_t>(index - 1));
-    cachedContacts_.resize(all);
+void CollisionFinder::growCache(std::size_t capacity) {
+    freeIndices_.reserve(capacity);
+    for (std::size_t index = capacity; index > cachedContacts_.size(); --index)
+        freeIndices_.push_back(static_cast<std::int32_t>(index - 1));
+    cachedContacts_.resize(capacity);
     justBegun_ = nullptr; // it may have moved
 }
 
 void CollisionFinder::clearCache() noexcept {
     cachedContacts_.clear();
-    free_.clear();
-    addPlaces(cachedContacts_.capacity()); // nothing is allocated
+    freeIndices_.clear();
+    growCache(cachedContacts_.capacity()); // nothing is allocated
     cacheIndexOf_.clear();
 }
 
 std::int32_t CollisionFinder::registeredSlot(const b2Fixture& fixture) {
-    const std::int32_t slot = slotOf(fixture); // a fixture that reuses the address of a destroyed one gets
-                                               // new state
+    const std::int32_t slot = findSlot(fixture); // a fixture that reuses the address of a destroyed one gets
+                                                 // new state
     const BodyFacts body = factsOf(*fixture.GetBody());
     return slot == FixtureTable::none ? events_.findOrAdd(idOf(fixture), body)
                                       : events_.updateBody(slot, body);
@@ -111,17 +111,17 @@ CollisionFinder::CachedContact& CollisionFinder::registeredEntry(const b2Contact
     return cacheEntry(contact, {.a = a, .b = b});
 }
 
-void CollisionFinder::begin(const b2Contact& contact, bool isFollowed) {
+void CollisionFinder::begin(const b2Contact& contact, bool isPreSolveNext) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
     CachedContact& entry = registeredEntry(contact);
     entry.pair.number = events_.recorder().begin(entry.pair.a, entry.pair.b);
-    justBegun_ = isFollowed ? &entry : nullptr;
+    justBegun_ = isPreSolveNext ? &entry : nullptr;
 }
 
 void CollisionFinder::end(const b2Contact& contact) {
     newPoints_.forget(contact);
-    CachedContact* const entry = entryOf(contact);
-    const Pair pair = entry != nullptr ? pairOf(*entry) : Pair{};
+    CachedContact* const entry = findEntry(contact);
+    const Pair pair = entry != nullptr ? numberedPair(*entry) : Pair{};
     dropEntry(contact);
     if (entry == nullptr) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
@@ -134,9 +134,9 @@ void CollisionFinder::end(const b2Contact& contact) {
     }
 }
 
-void CollisionFinder::updateNewPoints(const b2Contact& contact, const b2Manifold& before) {
+void CollisionFinder::updateNewPoints(const b2Contact& contact, const b2Manifold& oldManifold) {
     CachedContact* const newEntry = std::exchange(justBegun_, nullptr);
-    if (const unsigned newMask = newPoints_.update(contact, before, events_.recorder().isStepping());
+    if (const unsigned newMask = newPoints_.update(contact, oldManifold, events_.recorder().isStepping());
         newMask != 0)
         checkApproach(contact, newMask,
                       newEntry != nullptr && newEntry->contact == &contact ? newEntry : nullptr);
@@ -153,7 +153,7 @@ void CollisionFinder::checkApproach(const b2Contact& contact, unsigned newMask, 
             fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
     if (!events_.recorder().isCollision(gravityScaleOf(contact), fastest))
         return countBelowThreshold(contact, fastest);
-    const Pair& pair = pairOf(newEntry != nullptr ? *newEntry : registeredEntry(contact));
+    const Pair& pair = numberedPair(newEntry != nullptr ? *newEntry : registeredEntry(contact));
     if (events_.recorder().findCollision(pair) != nullptr) return;
     if (Collision* collision = events_.recorder().addCollision(pair, fastest))
         describe(contact, manifold, newMask, *collision);
@@ -161,7 +161,7 @@ void CollisionFinder::checkApproach(const b2Contact& contact, unsigned newMask, 
 
 void CollisionFinder::countBelowThreshold(const b2Contact& contact, double approachMetresPerSecond) {
     if (!events_.recorder().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    if (const CachedContact* const entry = entryOf(contact)) // two thirds of it make a collision
+    if (const CachedContact* const entry = findEntry(contact)) // two thirds of it make a collision
         events_.recorder().countBelowThreshold(entry->pair.a, entry->pair.b, 1.5 * approachMetresPerSecond);
 }
 
@@ -190,10 +190,10 @@ void CollisionFinder::describe(const b2Contact& contact, const b2WorldManifold& 
 // lengths of that one. Outside a reported step the time is not known: 0.
 double CollisionFinder::touchFractionOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.recorder().isStepping()) return 0.0;
-    const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
+    const double step = sweeps_.stepSeconds(), lastStep = sweeps_.lastStepSeconds();
     // no contact is older than a step
-    const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before));
-    const double length = seconds < 0.0 ? before : now;
+    const double seconds = fractionOf(contact) * step - std::min(secondsAgo, std::max(step, lastStep));
+    const double length = seconds < 0.0 ? lastStep : step;
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }
 
@@ -221,9 +221,9 @@ class SolvedContact {
 public:
     explicit SolvedContact(const b2Contact& contact) noexcept
         : manifold_{*contact.GetManifold()}
-        , isTurned_{manifold_.type == b2Manifold::e_faceB}
-        , first_{isTurned_ ? *contact.GetFixtureB() : *contact.GetFixtureA()}
-        , second_{isTurned_ ? *contact.GetFixtureA() : *contact.GetFixtureB()} {
+        , isFaceOfB_{manifold_.type == b2Manifold::e_faceB}
+        , first_{isFaceOfB_ ? *contact.GetFixtureB() : *contact.GetFixtureA()}
+        , second_{isFaceOfB_ ? *contact.GetFixtureA() : *contact.GetFixtureB()} {
         if (manifold_.type != b2Manifold::e_circles) {
             normal_ = b2Mul(first_.GetBody()->GetTransform().q, manifold_.localNormal);
             return;
@@ -235,9 +235,9 @@ public:
         normal_.Normalize();
     }
 
-    b2Vec2 normal() const noexcept { return isTurned_ ? -normal_ : normal_; } ///< from A to B
+    b2Vec2 normal() const noexcept { return isFaceOfB_ ? -normal_ : normal_; } ///< from A to B
     bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
-    bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
+    bool isFaceOfB() const noexcept { return isFaceOfB_; } ///< the face is B's
     const b2Fixture& first() const noexcept { return first_; }
     const b2Fixture& second() const noexcept { return second_; }
 
@@ -246,13 +246,13 @@ public:
     b2Vec2 centreB() const noexcept {
         return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[0].localPoint);
     }
-    b2Vec2 pointOfDiscs() const noexcept {
+    b2Vec2 discPoint() const noexcept {
         const b2Vec2 onA = centreA() + first_.GetShape()->m_radius * normal_,
                      onB = centreB() - second_.GetShape()->m_radius * normal_;
         return 0.5F * (onA + onB);
     }
     /// Fills in a point on a face, whose place is computed when it is asked for.
-    void note(int i, FaceTouch& touch) const noexcept {
+    void fillTouch(int i, FaceTouch& touch) const noexcept {
         touch.face = frameOf(first_);
         touch.other = frameOf(second_);
         touch.normal = toVector(manifold_.localNormal);
@@ -277,18 +277,18 @@ public:
 
 private:
     const b2Manifold& manifold_;
-    bool isTurned_;
+    bool isFaceOfB_;
     const b2Fixture &first_, &second_; // the face and what touches it, or A and B
     b2Vec2 normal_;
 };
 
 /// Position of the point on a disc's circumference in that direction, and its speed if the direction rotates
 /// at `radiansPerSecond`; 0 on a corner.
-SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSecond) {
+SurfacePath rimPath(const b2Fixture& disc, b2Vec2 direction, float radiansPerSecond) {
     const b2Shape& shape = *disc.GetShape();
     if (shape.m_type != b2Shape::e_circle) return {};
-    return aroundDisc(shape.m_radius, frameOf(disc).turnedBack(toVector(direction)),
-                      radiansPerSecond - disc.GetBody()->GetAngularVelocity());
+    return discPath(shape.m_radius, frameOf(disc).turnedBack(toVector(direction)),
+                    radiansPerSecond - disc.GetBody()->GetAngularVelocity());
 }
 
 } // namespace
@@ -298,32 +298,32 @@ void CollisionFinder::record(const b2Contact& contact, const b2ContactImpulse& i
                              CachedContact& entry) {
     CollisionRecorder& recorder = events_.recorder();
     const unsigned newMask = newPoints_.markSolved(contact); // the points are old from the next step on
-    const Pair& pair = pairOf(entry);
+    const Pair& pair = numberedPair(entry);
     const TouchingPairs::Pair& stored = recorder[pair];
     entry.loadIndex = std::max(stored.loadIndex, 0);
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
-    const bool isOfSource = (traits & FixtureTable::source) != 0;
-    const bool isRelevant = isOfSource || stored.lastIndex != TouchingPairs::none;
+    const bool hasSource = (traits & FixtureTable::source) != 0;
+    const bool isRelevant = hasSource || stored.lastIndex != TouchingPairs::none;
     Collision* const collision = newMask != 0 ? recorder.findCollision(pair) : nullptr;
     if (!isRelevant && collision == nullptr) return;
-    const unsigned collisions = collision != nullptr ? newMask : 0U;
+    const unsigned collisionMask = collision != nullptr ? newMask : 0U;
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
-        isLoaded = isLoaded || !isIn(collisions, i);
-        if (!isIn(collisions, i)) continue;
+        isLoaded = isLoaded || !isIn(collisionMask, i);
+        if (!isIn(collisionMask, i)) continue;
         collision->normalNewtonSeconds += static_cast<double>(impulse.normalImpulses[i]);
         collision->tangentialNewtonSeconds += static_cast<double>(impulse.tangentImpulses[i]);
     }
     const SolvedContact solved{contact};
     if (isLoaded && isRelevant)
-        if (auto* place = recorder.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
+        if (auto* place = recorder.push(pair, stored, hasSource, solved.push(impulse, collisionMask))) {
             if (solved.isDiscs())
-                place->set(toVector(solved.pointOfDiscs()));
+                place->set(toVector(solved.discPoint()));
             else
-                solved.note(0, place->setFace());
+                solved.fillTouch(0, place->setFace());
         }
     if (LastingContacts::isRelevant(traits)) // a source touches a rough surface
-        reportPoints(contact, impulse, collisions, entry);
+        reportPoints(contact, impulse, collisionMask, entry);
 }
 
 /// Reports one point on a face to LastingContacts, with the motion of both bodies.
@@ -331,7 +331,7 @@ inline void CollisionFinder::reportFace(const b2Contact& contact, const b2Contac
                                         const CachedContact& entry, const FaceTouch& touch) {
     FacePoint& facePoint = events_.lasting().touchFace();
     const SolvedContact solved{contact};
-    const bool isTurned = solved.isTurned();
+    const bool isFaceOfB = solved.isFaceOfB();
     const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
     facePoint.touch = touch;
     facePoint.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
@@ -339,8 +339,8 @@ inline void CollisionFinder::reportFace(const b2Contact& contact, const b2Contac
     facePoint.faceRadiansPerSecond = face.GetAngularVelocity();
     facePoint.otherRadiansPerSecond = other.GetAngularVelocity();
     facePoint.normalNewtonSeconds = impulse.normalImpulses[i];
-    facePoint.isFaceOfB = isTurned;
-    facePoint.isDiscRough = events_.fixtures().isRough(isTurned ? entry.pair.a : entry.pair.b) &&
+    facePoint.isFaceOfB = isFaceOfB;
+    facePoint.isDiscRough = events_.fixtures().isRough(isFaceOfB ? entry.pair.a : entry.pair.b) &&
                             solved.second().GetType() == b2Shape::e_circle;
     facePoint.a = entry.pair.a;
     facePoint.b = entry.pair.b;
@@ -352,11 +352,11 @@ inline void CollisionFinder::reportFace(const b2Contact& contact, const b2Contac
 // needed; in a shaken box of a hundred bodies, half of the contacts need one. Rare cases are tail calls, so
 // that the common case saves no registers.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    CachedContact& next = cachedContacts_.data()[next_];
-    if (!next.matches(contact) || newPoints_.mayContain(contact)) [[unlikely]]
+    CachedContact& expected = cachedContacts_.data()[expectedIndex_];
+    if (!expected.matches(contact) || newPoints_.mayContain(contact)) [[unlikely]]
         return recordOutOfOrder(contact, impulse);
-    last_ = std::exchange(next_, next.after);
-    recordCached(contact, impulse, next);
+    solvedIndex_ = std::exchange(expectedIndex_, expected.nextIndex);
+    recordCached(contact, impulse, expected);
 }
 
 void CollisionFinder::recordOutOfOrder(const b2Contact& contact, const b2ContactImpulse& impulse) {
@@ -370,22 +370,22 @@ void CollisionFinder::recordOutOfOrder(const b2Contact& contact, const b2Contact
     if (index == IntegerMap::none || !cachedContacts_.data()[index].matches(contact)) [[unlikely]]
         return recordUncached(contact, impulse);
     CachedContact& entry = cachedContacts_.data()[index];
-    cachedContacts_.data()[last_].after = static_cast<std::uint32_t>(index);
-    last_ = static_cast<std::uint32_t>(index);
-    next_ = entry.after;
+    cachedContacts_.data()[solvedIndex_].nextIndex = static_cast<std::uint32_t>(index);
+    solvedIndex_ = static_cast<std::uint32_t>(index);
+    expectedIndex_ = entry.nextIndex;
     recordCached(contact, impulse, entry);
 }
 
 void CollisionFinder::recordNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    CachedContact* const entry = events_.recorder().hasSources() ? entryOf(contact) : nullptr;
+    CachedContact* const entry = events_.recorder().hasSources() ? findEntry(contact) : nullptr;
     if (entry == nullptr) {
         newPoints_.markSolved(contact);
         return;
     }
     const auto index = static_cast<std::uint32_t>(entry - cachedContacts_.data());
-    entry->after = std::exchange(cachedContacts_[last_].after, index); // between two others
-    next_ = entry->after;
-    last_ = index;
+    entry->nextIndex = std::exchange(cachedContacts_[solvedIndex_].nextIndex, index); // between two others
+    expectedIndex_ = entry->nextIndex;
+    solvedIndex_ = index;
     record(contact, impulse, *entry);
 }
 
@@ -397,14 +397,14 @@ void CollisionFinder::recordUncached(const b2Contact& contact, const b2ContactIm
 inline void CollisionFinder::recordCached(const b2Contact& contact, const b2ContactImpulse& impulse,
                                           CachedContact& entry) {
     CollisionRecorder& recorder = events_.recorder();
-    TransmittedImpulses::Contact* const steady = recorder.loads().findSteady(entry.pair, entry.loadIndex);
+    TransmittedImpulses::Contact* const steady = recorder.impulses().findSteady(entry.pair, entry.loadIndex);
     const unsigned traits = events_.fixtures().traits(entry.pair.a) | events_.fixtures().traits(entry.pair.b);
     if (steady == nullptr || (traits & FixtureTable::source) == 0) return record(contact, impulse, entry);
     if (contact.GetManifold()->type == b2Manifold::e_circles)
         return recordDiscs(contact, impulse, entry, *steady);
     const SolvedContact solved{contact};
     FaceTouch& touch = recorder.push(*steady, solved.push(impulse, 0U)).setFace();
-    solved.note(0, touch);
+    solved.fillTouch(0, touch);
     if (LastingContacts::isRelevant(traits)) reportSteadyPoints(contact, impulse, entry, touch);
 }
 
@@ -412,7 +412,7 @@ inline void CollisionFinder::recordCached(const b2Contact& contact, const b2Cont
 void CollisionFinder::recordDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
                                   const CachedContact& entry, TransmittedImpulses::Contact& steady) {
     const SolvedContact solved{contact};
-    events_.recorder().push(steady, solved.push(impulse, 0U)).set(toVector(solved.pointOfDiscs()));
+    events_.recorder().push(steady, solved.push(impulse, 0U)).set(toVector(solved.discPoint()));
     if (events_.lasting().isRelevant(entry.pair.a, entry.pair.b)) reportDiscs(contact, impulse, entry);
 }
 
@@ -423,16 +423,16 @@ void CollisionFinder::reportSteadyPoints(const b2Contact& contact, const b2Conta
         reportPoints(contact, impulse, 1U, entry);
 }
 
-/// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
+/// Reports the points to LastingContacts, except those in `collisionMask` (a bit each), which belong to a
 /// collision.
 void CollisionFinder::reportPoints(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                   unsigned collisions, const CachedContact& entry) {
+                                   unsigned collisionMask, const CachedContact& entry) {
     const SolvedContact solved{contact};
     for (int i = 0; i < impulse.count; ++i) {
-        if (isIn(collisions, i)) continue;
+        if (isIn(collisionMask, i)) continue;
         if (solved.isDiscs()) return reportDiscs(contact, impulse, entry);
         FaceTouch touch;
-        solved.note(i, touch);
+        solved.fillTouch(i, touch);
         reportFace(contact, impulse, i, entry, touch);
     }
 }
@@ -446,16 +446,16 @@ void CollisionFinder::reportDiscs(const b2Contact& contact, const b2ContactImpul
     const b2Body &a = *discA.GetBody(), &b = *discB.GetBody();
     const b2Vec2 normal = solved.normal(), centreA = solved.centreA(), centreB = solved.centreB(),
                  velocityA = a.GetLinearVelocityFromWorldPoint(centreA),
-                 velocityB = b.GetLinearVelocityFromWorldPoint(centreB), point = solved.pointOfDiscs(),
+                 velocityB = b.GetLinearVelocityFromWorldPoint(centreB), point = solved.discPoint(),
                  slip = b.GetLinearVelocityFromWorldPoint(point) - a.GetLinearVelocityFromWorldPoint(point);
     const float distance = b2Distance(centreA, centreB);
-    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
-    const b2Vec2 moved = velocityA + discA.GetShape()->m_radius * b2Cross(turn, normal);
+    const float spin = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
+    const b2Vec2 moved = velocityA + discA.GetShape()->m_radius * b2Cross(spin, normal);
     lasting.touch({entry.pair.a, entry.pair.b, entry.part ^ contact.GetManifold()->points[0].id.key,
                    static_cast<double>(impulse.normalImpulses[0]),
                    static_cast<double>(b2Dot(slip, b2Cross(normal, 1.0F))), toVector(point), toVector(moved),
-                   lasting.isRough(entry.pair.a) ? around(discA, normal, turn) : SurfacePath{},
-                   lasting.isRough(entry.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
+                   lasting.isRough(entry.pair.a) ? rimPath(discA, normal, spin) : SurfacePath{},
+                   lasting.isRough(entry.pair.b) ? rimPath(discB, -normal, spin) : SurfacePath{}},
                   entry.key);
 }
 

@@ -25,25 +25,25 @@ public:
     NewContactPoints() { entries_.reserve(expectedContacts); }
 
     /// In PreSolve: true if all points are old, as is usual. Then update() need not be called.
-    bool areOld(const b2Contact& contact, const b2Manifold& before) const noexcept {
-        return isSame(before, *contact.GetManifold()) && !mayContain(contact);
+    bool areOld(const b2Contact& contact, const b2Manifold& oldManifold) const noexcept {
+        return isSame(oldManifold, *contact.GetManifold()) && !mayContain(contact);
     }
 
     /// In PreSolve: updates a contact and returns its new points, one bit each. Outside a reported step,
     /// whose end is not known, a point with an impulse is old at once.
-    unsigned update(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
-        const b2Manifold& now = *contact.GetManifold();
+    unsigned update(const b2Contact& contact, const b2Manifold& oldManifold, bool isStepping) {
+        const b2Manifold& manifold = *contact.GetManifold();
         int index = find(contact);
         if (!isStepping && index >= 0 && entries_[static_cast<std::size_t>(index)].isSolved) {
             drop(static_cast<std::size_t>(index));
             index = -1;
         }
-        if (index < 0 && isSame(before, now)) return 0U;
+        if (index < 0 && isSame(oldManifold, manifold)) return 0U;
         // then all of its points are still new
         const bool isWaiting = index >= 0 && !entries_[static_cast<std::size_t>(index)].isSolved;
-        for (int i = 0; i < now.pointCount; ++i) {
-            const std::uint32_t id = now.points[i].id.key;
-            if (!isWaiting && hasPoint(before, id)) continue;
+        for (int i = 0; i < manifold.pointCount; ++i) {
+            const std::uint32_t id = manifold.points[i].id.key;
+            if (!isWaiting && hasPoint(oldManifold, id)) continue;
             if (index < 0) {
                 index = static_cast<int>(entries_.size());
                 entries_.push_back({idOf(contact), {}, 0, false});
@@ -54,7 +54,7 @@ public:
             if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
                 entry.ids[static_cast<std::size_t>(entry.count++)] = id;
         }
-        return index < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(index)], now);
+        return index < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(index)], manifold);
     }
 
     /// False: the contact has no new points. True: it may have some.
@@ -88,10 +88,10 @@ private:
         return false;
     }
     /// True if both have the same points in the same order.
-    static bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
-        if (before.pointCount < now.pointCount) return false;
-        for (int i = 0; i < now.pointCount; ++i)
-            if (before.points[i].id.key != now.points[i].id.key) return false;
+    static bool isSame(const b2Manifold& oldManifold, const b2Manifold& manifold) noexcept {
+        if (oldManifold.pointCount < manifold.pointCount) return false;
+        for (int i = 0; i < manifold.pointCount; ++i)
+            if (oldManifold.points[i].id.key != manifold.points[i].id.key) return false;
         return true;
     }
 
@@ -136,24 +136,24 @@ public:
     CollisionFinder(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
         , sweeps_(sweeps) {
-        addPlaces(expectedContacts);
+        growCache(expectedContacts);
     }
 
     /// The slot of a fixture, FixtureTable::none if it is not registered. A fixture that reuses the address
     /// of a destroyed one, on another body, counts as not registered.
-    std::int32_t slotOf(const b2Fixture& fixture);
+    std::int32_t findSlot(const b2Fixture& fixture);
 
     /// Drops the cached fixtures of all contacts: contacts may have ended, or fixtures been destroyed,
     /// without a callback.
     void clearCache() noexcept;
 
-    /// In BeginContact. `isFollowed`: the next callback is this contact's PreSolve.
-    void begin(const b2Contact& contact, bool isFollowed);
+    /// In BeginContact. `isPreSolveNext`: the next callback is this contact's PreSolve.
+    void begin(const b2Contact& contact, bool isPreSolveNext);
     void end(const b2Contact& contact); ///< in EndContact
     /// In PreSolve, after the game's own listener, which may disable the contact.
-    void onPreSolve(const b2Contact& contact, const b2Manifold& before) {
-        if (!newPoints_.areOld(contact, before)) [[unlikely]]
-            updateNewPoints(contact, before);
+    void onPreSolve(const b2Contact& contact, const b2Manifold& oldManifold) {
+        if (!newPoints_.areOld(contact, oldManifold)) [[unlikely]]
+            updateNewPoints(contact, oldManifold);
     }
     void onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse);
 
@@ -166,26 +166,26 @@ private:
     struct alignas(64) CachedContact {      // cached, to save a search for both fixtures in every step
         const b2Contact* contact = nullptr; // null: the place is free
         const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
-        Pair pair{};                // its number is none until it is needed
-        std::int32_t loadIndex = 0; // of the pair's load, when last used
-        std::uint64_t key = 0;      // of the pair
-        std::uint64_t part = 0;     // hash of which parts of the two surfaces (segments of a chain) touch
-        std::uint32_t after = 0;    // index of the contact solved after this one in the last step
+        Pair pair{};                 // its number is none until it is needed
+        std::int32_t loadIndex = 0;  // of the pair's load, when last used
+        std::uint64_t key = 0;       // of the pair
+        std::uint64_t part = 0;      // hash of which parts of the two surfaces (segments of a chain) touch
+        std::uint32_t nextIndex = 0; // index of the contact solved after this one in the last step
         bool matches(const b2Contact& other) const noexcept {
             return contact == &other && fixtureA == other.GetFixtureA() && fixtureB == other.GetFixtureB();
         }
     };
-    CachedContact* entryOf(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
+    CachedContact* findEntry(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
         const std::int32_t index = cacheIndexOf_.find(idOf(contact));
         if (index == IntegerMap::none || !cachedContacts_[static_cast<std::size_t>(index)].matches(contact))
             [[unlikely]]
             return cacheRegistered(contact);
         return &cachedContacts_[static_cast<std::size_t>(index)];
     }
-    [[gnu::noinline]] void updateNewPoints(const b2Contact& contact, const b2Manifold& before);
+    [[gnu::noinline]] void updateNewPoints(const b2Contact& contact, const b2Manifold& oldManifold);
     void checkApproach(const b2Contact& contact, unsigned newMask, CachedContact* newEntry);
     [[gnu::noinline]] CachedContact* cacheRegistered(const b2Contact& contact);
-    [[gnu::always_inline]] const Pair& pairOf(CachedContact& entry) {
+    [[gnu::always_inline]] const Pair& numberedPair(CachedContact& entry) {
         CollisionRecorder& recorder = events_.recorder();
         if (!recorder.isKnown(entry.pair)) [[unlikely]]
             setNumber(entry.pair);
@@ -199,7 +199,7 @@ private:
     CachedContact& registeredEntry(const b2Contact& contact);
     CachedContact& cacheEntry(const b2Contact& contact, Pair pair);
     void dropEntry(const b2Contact& contact) noexcept;
-    void addPlaces(std::size_t all);
+    void growCache(std::size_t capacity);
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned newMask,
                   Collision& collision) const;
     [[gnu::noinline]] void recordOutOfOrder(const b2Contact& contact, const b2ContactImpulse& impulse);
@@ -212,7 +212,7 @@ private:
     [[gnu::noinline]] void record(const b2Contact& contact, const b2ContactImpulse& impulse,
                                   CachedContact& entry);
     [[gnu::noinline]] void reportPoints(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                        unsigned collisions, const CachedContact& entry);
+                                        unsigned collisionMask, const CachedContact& entry);
     [[gnu::noinline]] void reportSteadyPoints(const b2Contact& contact, const b2ContactImpulse& impulse,
                                               const CachedContact& entry, const FaceTouch& touch);
     void reportDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const CachedContact& entry);
@@ -225,10 +225,10 @@ private:
     BodySweeps& sweeps_;
     NewContactPoints newPoints_;
     std::vector<CachedContact> cachedContacts_; // contacts that touch, and free places
-    std::vector<std::int32_t> free_;
-    CachedContact* justBegun_ = nullptr;        // the contact that just began, until its PreSolve
-    IntegerMap cacheIndexOf_{expectedContacts}; // by contact
-    std::uint32_t last_ = 0, next_ = 0;         // contacts solved last, and expected next
+    std::vector<std::int32_t> freeIndices_;
+    CachedContact* justBegun_ = nullptr;                // the contact that just began, until its PreSolve
+    IntegerMap cacheIndexOf_{expectedContacts};         // by contact
+    std::uint32_t solvedIndex_ = 0, expectedIndex_ = 0; // contacts solved last, and expected next
 };
 
 } // namespace physvib

@@ -26,9 +26,9 @@ struct Listener {
     using Member = b2DestructionListener* b2World::*;
     friend Member member(Listener);
 };
-template <class Of, typename Of::Member Pointer>
+template <class Tag, typename Tag::Member Pointer>
 struct Reveal {
-    friend typename Of::Member member(Of) { return Pointer; }
+    friend typename Tag::Member member(Tag) { return Pointer; }
 };
 // Names in an explicit instantiation are exempt from access control (C++20 [temp.spec]): no cast, no assumed
 // layout.
@@ -50,8 +50,8 @@ inline b2DestructionListener* destructionListenerOf(b2World& world) noexcept {
 
 /// The address of a body, fixture or contact, as the number by which later stages identify it.
 template <class T>
-std::uint64_t idOf(const T& thing) noexcept {
-    return reinterpret_cast<std::uintptr_t>(&thing);
+std::uint64_t idOf(const T& object) noexcept {
+    return reinterpret_cast<std::uintptr_t>(&object);
 }
 inline const b2Body& bodyOf(std::uint64_t id) noexcept {
     return *reinterpret_cast<const b2Body*>(static_cast<std::uintptr_t>(id));
@@ -91,8 +91,8 @@ public:
         bool isKnown = true; // usually bodies and order are those of the last step
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
             if (body->GetType() == b2_staticBody) {
-                isKnown &= next->key == (idOf(*body) | isStatic);
-                next++->key = idOf(*body) | isStatic;
+                isKnown &= next->key == (idOf(*body) | staticBit);
+                next++->key = idOf(*body) | staticBit;
                 continue;
             }
             isKnown &= next->key == idOf(*body);
@@ -105,7 +105,7 @@ public:
         if (isKnown && next->key == 0) return;
         for (; next != sweeps_.data() + sweeps_.size(); ++next) next->key = 0;
         ++listVersion_;
-        index();
+        indexBodies();
     }
 
     /// A number that changes whenever beginStep() has found other bodies, or another order.
@@ -135,20 +135,20 @@ public:
     /// Hash of a world's list of bodies and their order (different lists collide with a probability of
     /// 2^-64).
     static std::uint64_t listHashOf(const b2World& world) noexcept {
-        std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
+        std::uint64_t hash = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
-            sum = (sum ^ idOf(*body)) * 0x9E3779B97F4A7C15U;
-        return sum;
+            hash = (hash ^ idOf(*body)) * 0x9E3779B97F4A7C15U;
+        return hash;
     }
 
     /// Velocity before the step; for a body that was created later, its present one.
-    BodyMotion start(const b2Body& body) const noexcept {
+    BodyMotion startMotion(const b2Body& body) const noexcept {
         const Sweep* sweep = find(body);
         return sweep == nullptr ? motionOf(body) : sweep->start;
     }
 
 private:
-    static constexpr std::uint64_t isStatic = 1; // added to the address, which is even
+    static constexpr std::uint64_t staticBit = 1; // added to the address, which is even
     struct Sweep {
         std::uint64_t key = 0; // the body's address, used as such only; 0: none
         b2Vec2 centre;
@@ -158,10 +158,10 @@ private:
         const std::int32_t i = indices_.find(idOf(body));
         return i == IntegerMap::none ? nullptr : &sweeps_[static_cast<std::size_t>(i)];
     }
-    void index() {
+    void indexBodies() {
         indices_.clear();
         for (std::size_t i = 0; sweeps_[i].key != 0; ++i)
-            if ((sweeps_[i].key & isStatic) == 0) indices_.set(sweeps_[i].key, static_cast<std::int32_t>(i));
+            if ((sweeps_[i].key & staticBit) == 0) indices_.set(sweeps_[i].key, static_cast<std::int32_t>(i));
     }
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
@@ -185,7 +185,7 @@ public:
     /// another one costs one pass over the world's list.
     void invalidate(const b2Body* a = nullptr, const b2Body* b = nullptr) noexcept {
         isListUnchanged_ = isIndexCurrent_ = false;
-        existing_ = {a, b};
+        knownBodies_ = {a, b};
     }
     /// Replaces invalidate() right after BodySweeps::beginStep(), which knows whether the list has changed.
     void beginStep() noexcept {
@@ -195,7 +195,7 @@ public:
     }
     bool has(std::uint64_t body) const {
         if (!isIndexCurrent_) {
-            for (const b2Body* const present : existing_)
+            for (const b2Body* const present : knownBodies_)
                 if (present != nullptr && idOf(*present) == body) return true;
             refreshIndex();
         }
@@ -209,18 +209,18 @@ public:
         return has(body) ? motionOf(bodyOf(body)) : BodyMotion{};
     }
     BodyMotion motionBefore(std::uint64_t body) const override {
-        return has(body) ? sweeps_.start(bodyOf(body)) : BodyMotion{};
+        return has(body) ? sweeps_.startMotion(bodyOf(body)) : BodyMotion{};
     }
     Vector2 centre(std::uint64_t body) const override {
         return has(body) ? toVector(bodyOf(body).GetWorldCenter()) : Vector2{};
     }
-    Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const override {
-        return has(body) ? Vector3(toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y}))) : ofBody;
+    Vector3 toWorld(std::uint64_t body, Vector2 local) const override {
+        return has(body) ? Vector3(toVector(bodyOf(body).GetWorldPoint({local.x, local.y}))) : local;
     }
     double inertia(std::uint64_t body) const override {
         if (!has(body)) return 0.0;
-        const b2Body& of = bodyOf(body);
-        return of.GetInertia() - of.GetMass() * of.GetLocalCenter().LengthSquared();
+        const b2Body& b = bodyOf(body);
+        return b.GetInertia() - b.GetMass() * b.GetLocalCenter().LengthSquared();
     }
 
 private:
@@ -239,7 +239,7 @@ private:
 
     const b2World& world_;
     const BodySweeps& sweeps_;
-    std::array<const b2Body*, 2> existing_{};
+    std::array<const b2Body*, 2> knownBodies_{};
     mutable bool isIndexCurrent_ = false;
     bool isListUnchanged_ = false;             // nothing has been destroyed since the sweeps' beginStep()
     mutable std::uint64_t indexedVersion_ = 0; // the sweeps' version of the indexed list; 0: not known

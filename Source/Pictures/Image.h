@@ -18,10 +18,10 @@ int roundToInt(Number value) noexcept {
     return static_cast<int>(std::lround(value));
 }
 
-struct Spot {
+struct Point {
     float x = 0.0f, y = 0.0f;
 
-    float distanceTo(Spot other) const noexcept { return std::hypot(other.x - x, other.y - y); }
+    float distanceTo(Point other) const noexcept { return std::hypot(other.x - x, other.y - y); }
 };
 
 /// A rectangle with sides parallel to the picture's; width and height are 0 or more. Any thread.
@@ -31,12 +31,12 @@ struct Rectangle {
 
     T right() const noexcept { return x + width; }
     T bottom() const noexcept { return y + height; }
-    Spot centre() const noexcept {
+    Point centre() const noexcept {
         return {static_cast<float>(x) + 0.5f * static_cast<float>(width),
                 static_cast<float>(y) + 0.5f * static_cast<float>(height)};
     }
     bool empty() const noexcept { return !(width > T{}) || !(height > T{}); }
-    bool contains(Spot p) const noexcept {
+    bool contains(Point p) const noexcept {
         return p.x >= static_cast<float>(x) && p.y >= static_cast<float>(y) &&
                p.x < static_cast<float>(right()) && p.y < static_cast<float>(bottom());
     }
@@ -113,7 +113,7 @@ struct Rectangle {
 using Area = Rectangle<int>;
 using Box = Rectangle<float>;
 
-inline Box boxAround(Spot centre, float width, float height) noexcept {
+inline Box boxAround(Point centre, float width, float height) noexcept {
     return {centre.x - 0.5f * width, centre.y - 0.5f * height, width, height};
 }
 
@@ -127,7 +127,7 @@ struct Transform {
         return {c, -s, s, c, 0.0f, 0.0f};
     }
     Transform translated(float x, float y) const noexcept { return {xx, xy, yx, yy, dx + x, dy + y}; }
-    Transform translated(Spot by) const noexcept { return translated(by.x, by.y); }
+    Transform translated(Point by) const noexcept { return translated(by.x, by.y); }
     Transform scaled(float x, float y) const noexcept {
         return {x * xx, x * xy, y * yx, y * yy, x * dx, y * dy};
     }
@@ -135,7 +135,7 @@ struct Transform {
         return {n.xx * xx + n.xy * yx, n.xx * xy + n.xy * yy,        n.yx * xx + n.yy * yx,
                 n.yx * xy + n.yy * yy, n.xx * dx + n.xy * dy + n.dx, n.yx * dx + n.yy * dy + n.dy};
     }
-    Spot apply(Spot p) const noexcept { return {xx * p.x + xy * p.y + dx, yx * p.x + yy * p.y + dy}; }
+    Point apply(Point p) const noexcept { return {xx * p.x + xy * p.y + dx, yx * p.x + yy * p.y + dy}; }
 };
 
 /// An outline of lines and curves. Filling closes its parts; overlaps are filled once. One thread at a time.
@@ -144,19 +144,19 @@ public:
     enum class Kind { move, line, conic, cubic }; ///< steps of 1, 1, 2 and 3 points
     struct Part {
         std::vector<Kind> steps;
-        std::vector<Spot> points;
+        std::vector<Point> points;
         bool isClosed = false;
     };
 
     Path& startNewSubPath(float x, float y) { return startNewSubPath({x, y}); }
-    Path& startNewSubPath(Spot p) {
+    Path& startNewSubPath(Point p) {
         parts_.push_back({{Kind::move}, {p}});
         return *this;
     }
     Path& lineTo(float x, float y) { return lineTo({x, y}); }
-    Path& lineTo(Spot p) { return add(Kind::line, {p}); }
-    Path& conicTo(Spot control, Spot end) { return add(Kind::conic, {control, end}); }
-    Path& cubicTo(Spot first, Spot second, Spot end) { return add(Kind::cubic, {first, second, end}); }
+    Path& lineTo(Point p) { return add(Kind::line, {p}); }
+    Path& conicTo(Point control, Point end) { return add(Kind::conic, {control, end}); }
+    Path& cubicTo(Point first, Point second, Point end) { return add(Kind::cubic, {first, second, end}); }
     Path& closeSubPath() {
         parts_.back().isClosed = true;
         return *this;
@@ -171,7 +171,7 @@ public:
     void move(const Transform& transform);
 
 private:
-    Path& add(Kind kind, std::initializer_list<Spot> points) {
+    Path& add(Kind kind, std::initializer_list<Point> points) {
         parts_.back().steps.push_back(kind);
         parts_.back().points.insert(parts_.back().points.end(), points);
         return *this;

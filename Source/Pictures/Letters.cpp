@@ -18,18 +18,18 @@ constexpr std::array<std::array<const char*, 2>, 5> fontFiles{
      {"NanumGothic.ttf", "NanumGothicBold.ttf"},
      {"NotoSansCJK-Regular.ttc", "NotoSansCJK-Bold.ttc"}}};
 
-Spot spotOf(const FT_Vector& p) {
+Point point(const FT_Vector& p) {
     return {static_cast<float>(p.x) / 64.0f, -static_cast<float>(p.y) / 64.0f};
 }
 
 const FT_Outline_Funcs intoPath{
-    [](const FT_Vector* to, void* path) { return static_cast<Path*>(path)->startNewSubPath(spotOf(*to)), 0; },
-    [](const FT_Vector* to, void* path) { return static_cast<Path*>(path)->lineTo(spotOf(*to)), 0; },
+    [](const FT_Vector* to, void* path) { return static_cast<Path*>(path)->startNewSubPath(point(*to)), 0; },
+    [](const FT_Vector* to, void* path) { return static_cast<Path*>(path)->lineTo(point(*to)), 0; },
     [](const FT_Vector* control, const FT_Vector* to, void* path) {
-        return static_cast<Path*>(path)->conicTo(spotOf(*control), spotOf(*to)), 0;
+        return static_cast<Path*>(path)->conicTo(point(*control), point(*to)), 0;
     },
     [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* path) {
-        return static_cast<Path*>(path)->cubicTo(spotOf(*first), spotOf(*second), spotOf(*to)), 0;
+        return static_cast<Path*>(path)->cubicTo(point(*first), point(*second), point(*to)), 0;
     },
     0,
     0};
@@ -59,15 +59,15 @@ struct Letters::Fonts {
             }
     }
     ~Fonts() {
-        for (const auto& some : faces)
-            for (FT_Face face : some) FT_Done_Face(face);
+        for (const auto& group : faces)
+            for (FT_Face face : group) FT_Done_Face(face);
     }
 
     static void find(const std::filesystem::path& folder,
                      std::array<std::array<std::filesystem::path, 2>, fontFiles.size()>& found) {
-        std::error_code none;
-        for (std::filesystem::recursive_directory_iterator file{folder, none}, end; !none && file != end;
-             file.increment(none))
+        std::error_code error;
+        for (std::filesystem::recursive_directory_iterator file{folder, error}, end; !error && file != end;
+             file.increment(error))
             for (std::size_t font = 0; font < fontFiles.size(); ++font)
                 for (std::size_t bold = 0; bold < 2; ++bold)
                     if (found[font][bold].empty() && file->path().filename() == fontFiles[font][bold])
@@ -78,28 +78,28 @@ struct Letters::Fonts {
 
     /// Calls `visit(face, x)` for each letter, which is loaded then; returns where the line ends.
     template <class Visit>
-    float forEachLetter(std::string_view words, float height, bool bold, Visit visit) const {
+    float forEachLetter(std::string_view text, float height, bool bold, Visit visit) const {
         float x = 0.0f;
-        FT_Face before = nullptr;
-        FT_UInt last = 0;
-        while (!words.empty() && !facesOf(bold).empty()) {
-            const auto letter = firstCharacter(words);
-            words.remove_prefix(std::max<std::size_t>(letter.bytes, 1));
+        FT_Face lastFace = nullptr;
+        FT_UInt lastGlyph = 0;
+        while (!text.empty() && !facesOf(bold).empty()) {
+            const auto letter = firstCharacter(text);
+            text.remove_prefix(std::max<std::size_t>(letter.bytes, 1));
             FT_Face face = facesOf(bold).front();
-            for (FT_Face one : facesOf(bold))
-                if (FT_Get_Char_Index(one, letter.code) != 0) {
-                    face = one;
+            for (FT_Face candidate : facesOf(bold))
+                if (FT_Get_Char_Index(candidate, letter.code) != 0) {
+                    face = candidate;
                     break;
                 }
             const FT_UInt glyph = FT_Get_Char_Index(face, letter.code);
             FT_Set_Char_Size(face, 0, std::lround(64.0f * emSize(face, height)), 72, 72);
             FT_Vector kerning{};
-            if (face == before) FT_Get_Kerning(face, last, glyph, FT_KERNING_UNFITTED, &kerning);
+            if (face == lastFace) FT_Get_Kerning(face, lastGlyph, glyph, FT_KERNING_UNFITTED, &kerning);
             if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
             x += static_cast<float>(kerning.x) / 64.0f;
             visit(face, x);
             x += static_cast<float>(face->glyph->linearHoriAdvance) / 65536.0f;
-            before = face, last = glyph;
+            lastFace = face, lastGlyph = glyph;
         }
         return x;
     }
@@ -117,13 +117,13 @@ Letters::~Letters() = default;
 
 bool Letters::empty() const noexcept { return fonts_->faces[0].empty() && fonts_->faces[1].empty(); }
 
-float Letters::width(std::string_view words, float height, bool bold) const {
-    return fonts_->forEachLetter(words, height, bold, [](FT_Face, float) {});
+float Letters::width(std::string_view text, float height, bool bold) const {
+    return fonts_->forEachLetter(text, height, bold, [](FT_Face, float) {});
 }
 
-Path Letters::outline(std::string_view words, float height, bool bold) const {
+Path Letters::outline(std::string_view text, float height, bool bold) const {
     Path line;
-    fonts_->forEachLetter(words, height, bold, [&](FT_Face face, float x) {
+    fonts_->forEachLetter(text, height, bold, [&](FT_Face face, float x) {
         Path letter;
         if (face->glyph->format == FT_GLYPH_FORMAT_OUTLINE)
             FT_Outline_Decompose(&face->glyph->outline, &intoPath, &letter);

@@ -21,9 +21,9 @@ public:
     Letters& operator=(const Letters&) = delete;
 
     /// `height` is that of a line, from the highest to the lowest letter. In pixels.
-    float width(std::string_view words, float height, bool bold) const;
+    float width(std::string_view text, float height, bool bold) const;
     /// Outline of a line of text whose baseline begins at (0, 0).
-    Path outline(std::string_view words, float height, bool bold) const;
+    Path outline(std::string_view text, float height, bool bold) const;
     /// Distance from the top of a line to its baseline, in pixels.
     float ascent(float height, bool bold) const;
     bool empty() const noexcept; ///< no font was found

@@ -16,7 +16,7 @@ constexpr int maxCorners = 1000,
               maxPartPixels = 128;           // of an outline: if it has more, it is filled in pieces
 constexpr std::size_t maxStrokeSteps = 1000; // steps at once: an outline has at most 32767 points
 
-FT_Vector fixed(Spot p) {
+FT_Vector toFtVector(Point p) {
     const auto part = [](float value) {
         return static_cast<FT_Pos>(
             std::lround(64.0f * (value > maxCoordinatePixels    ? maxCoordinatePixels
@@ -36,11 +36,11 @@ struct Outline {
 
     void add(const Path& path, const Transform& transform) {
         for (const Path::Part& part : path.parts()) {
-            std::size_t at = 0;
+            std::size_t position = 0;
             for (const Path::Kind kind : part.steps) {
                 const auto count = std::max<std::size_t>(static_cast<std::size_t>(kind), 1);
                 for (std::size_t i = 0; i < count; ++i) {
-                    points.push_back(fixed(transform.apply(part.points[at++])));
+                    points.push_back(toFtVector(transform.apply(part.points[position++])));
                     tags.push_back(i + 1 == count              ? FT_CURVE_TAG_ON
                                    : kind == Path::Kind::cubic ? FT_CURVE_TAG_CUBIC
                                                                : FT_CURVE_TAG_CONIC);
@@ -86,7 +86,7 @@ struct Painter::Raster {
         const bool isPlain = g.inner == g.outer;
         for (const auto& [y, span] : spans)
             for (int x = span.x; x < span.x + span.len; ++x) {
-                const Spot pixel{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+                const Point pixel{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
                 const Colour colour =
                     isPlain
                         ? g.inner
@@ -113,8 +113,8 @@ struct Painter::Raster {
         params.user = this;
         params.clip_box = {part.x, part.y, part.right(), part.bottom()};
         spans.clear();
-        const bool isTried = outline.n_points < maxCorners || part.width <= maxPartPixels;
-        if (isTried && FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
+        const bool fitsMemory = outline.n_points < maxCorners || part.width <= maxPartPixels;
+        if (fitsMemory && FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
         if (part.width == 1) return;
         const Area left = part.removeFromLeft(part.width / 2);
         fill(painter, outline, left);
@@ -136,50 +136,50 @@ struct Painter::Raster {
     // A long part is stroked in pieces.
     void stroke(Painter& painter, const Path::Part& part, const Transform& transform) {
         const bool isLong = part.steps.size() > maxStrokeSteps, closes = part.isClosed && !isLong;
-        FT_Vector p[3]{fixed(transform.apply(part.points[0]))}; // the last is where the line is
+        FT_Vector p[3]{toFtVector(transform.apply(part.points[0]))}; // the last is where the line is
         const FT_Vector start = p[0];
-        FT_Vector at = start;
-        begin(at, !closes);
+        FT_Vector position = start;
+        begin(position, !closes);
         for (std::size_t step = 1, next = 1; step < part.steps.size(); ++step) {
             const auto count = static_cast<std::size_t>(part.steps[step]); // of points: see Kind
-            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(transform.apply(part.points[next++]));
-            add(at, p, count);
-            at = p[count - 1];
+            for (std::size_t i = 0; i < count; ++i) p[i] = toFtVector(transform.apply(part.points[next++]));
+            add(position, p, count);
+            position = p[count - 1];
             if (step % maxStrokeSteps != 0) continue;
             end(painter);
-            begin(at, true);
+            begin(position, true);
         }
-        if (part.isClosed && isLong) add(at, &start, 1);
+        if (part.isClosed && isLong) add(position, &start, 1);
         end(painter);
     }
 
 private:
-    void begin(FT_Vector at, bool isOpen) {
-        FT_Stroker_BeginSubPath(stroker, &at, isOpen);
-        isBegun_ = false;
+    void begin(FT_Vector position, bool isOpen) {
+        FT_Stroker_BeginSubPath(stroker, &position, isOpen);
+        hasLength_ = false;
     }
-    void add(FT_Vector at, const FT_Vector* p, std::size_t count) {
-        FT_Vector to[3]{};
-        std::copy_n(p, count, to);
-        for (std::size_t i = 0; i < count; at = to[i++]) isBegun_ |= isApart(at, to[i], count);
+    void add(FT_Vector last, const FT_Vector* p, std::size_t count) {
+        FT_Vector points[3]{};
+        std::copy_n(p, count, points);
+        for (std::size_t i = 0; i < count; last = points[i++]) hasLength_ |= differ(last, points[i], count);
         if (count == 1)
-            FT_Stroker_LineTo(stroker, &to[0]);
+            FT_Stroker_LineTo(stroker, &points[0]);
         else if (count == 2)
-            FT_Stroker_ConicTo(stroker, &to[0], &to[1]);
+            FT_Stroker_ConicTo(stroker, &points[0], &points[1]);
         else
-            FT_Stroker_CubicTo(stroker, &to[0], &to[1], &to[2]);
+            FT_Stroker_CubicTo(stroker, &points[0], &points[1], &points[2]);
     }
     // FreeType's stroker skips lines without length; a path of them alone makes it write outside its memory.
     void end(Painter& painter) {
-        if (!isBegun_) return FT_Stroker_Rewind(stroker);
+        if (!hasLength_) return FT_Stroker_Rewind(stroker);
         FT_Stroker_EndSubPath(stroker);
         fillStroke(painter);
     }
-    static bool isApart(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
+    static bool differ(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
         const FT_Pos minDistance = count == 1 ? 1 : 2; // in 64ths of a pixel; 2 for curves
         return std::abs(a.x - b.x) >= minDistance || std::abs(a.y - b.y) >= minDistance;
     }
-    bool isBegun_ = false;
+    bool hasLength_ = false;
 };
 
 Painter::Painter(Image& image)
@@ -254,7 +254,7 @@ Path& Path::addRoundedRectangle(Box box, float radius) {
 
 void Path::move(const Transform& transform) {
     for (Part& part : parts_)
-        for (Spot& p : part.points) p = transform.apply(p);
+        for (Point& p : part.points) p = transform.apply(p);
 }
 
 namespace {

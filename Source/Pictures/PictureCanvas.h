@@ -15,7 +15,7 @@ namespace physvib::picture {
 
 /// From `inner` at the centre to `outer` at `radius` and beyond.
 struct RadialGradient {
-    Spot centre;
+    Point centre;
     float radius = 1.0f;
     Colour inner, outer;
 };
@@ -44,7 +44,7 @@ public:
     void drawRounded(Box box, float radius, float width) {
         strokePath(Path{}.addRoundedRectangle(box, radius), width);
     }
-    void drawLine(Spot from, Spot to, float width) {
+    void drawLine(Point from, Point to, float width) {
         strokePath(Path{}.startNewSubPath(from).lineTo(to), width);
     }
     void blend(int x, int y, Colour colour); ///< one pixel of the image

@@ -42,16 +42,16 @@ constexpr int headingHeight = 24, axisHeight = 22;
 constexpr int peakWidth = 92; ///< right of every lane: its peak in dBFS
 
 /// The label of an actuator: the caller's, else A..Z for up to 26, else its number.
-std::string labelOf(const PictureInput& input, int channel);
+std::string actuatorLabel(const PictureInput& input, int channel);
 
 /// The built-in name of a part of a body; empty of others.
 std::string_view builtInPart(PartNumber part) noexcept;
 
 /// The label beside a lane: with the built-in part of a body that the actuator is on ("A thumb").
-std::string laneLabelOf(const PictureInput& input, int channel);
+std::string laneLabel(const PictureInput& input, int channel);
 
 /// The area of a lane in `row`: between the labels, as wide as they need within reason, and the peak.
-Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);
+Area laneArea(const Canvas& canvas, const PictureInput& input, Area row);
 
 /// Height of the lanes of `channels` channels; each is lower if there are more.
 int lanesHeight(int channels) noexcept;
@@ -59,7 +59,7 @@ int lanesHeight(int channels) noexcept;
 /// The amplitude scale that all lanes of a window share, as text.
 std::string fullScaleText(const WaveformEnvelope& wave);
 
-std::vector<int> allChannelsOf(const WaveformEnvelope& wave);
+std::vector<int> allChannels(const WaveformEnvelope& wave);
 
 /// Lanes of `channels` from top to bottom in `axis.lane`, labels and peaks beside them; above 16 strips whose
 /// brightness is the level, labelled in groups.
@@ -90,7 +90,7 @@ public:
         : area_(area)
         , rgb_(3 * static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height), 0.0f) {}
 
-    void add(Spot centre, float radius, float strength, Colour colour) {
+    void add(Point centre, float radius, float strength, Colour colour) {
         if (!area_.toFloat().expanded(radius).contains(centre))
             return; // first, because a coordinate far outside would overflow an int
         const Area box = boxAround(centre, 2.0f * radius, 2.0f * radius).outerPixels().intersection(area_);
@@ -141,7 +141,7 @@ private:
 struct FieldMap {
     Box field;
     double pixelsPerMetre;
-    Spot spotAt(double xMetres, double yMetres) const {
+    Point pointAt(double xMetres, double yMetres) const {
         return {field.x + pixels(xMetres), field.bottom() - pixels(yMetres)};
     }
     float pixels(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
@@ -151,15 +151,15 @@ struct FieldMap {
 FieldMap fittedFieldMap(const PictureInput& input, Area room);
 
 /// A place of the field. A layout in space is seen obliquely: nearer places are further down and to the left.
-Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
+Point project(const PictureInput& input, const FieldMap& map, double x, double y, double z);
 
 /// Where actuator `channel` stands, the layout being mapped on the field.
-Spot placeOf(const PictureInput& input, const FieldMap& map, int channel);
+Point channelPoint(const PictureInput& input, const FieldMap& map, int channel);
 
 /// All bodies that are present, and the joints between them, at `input.poses`; nothing without a scene.
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map);
 
 /// A badge per actuator, within `panel`.
-void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel);
+void drawActuators(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel);
 
 } // namespace physvib::picture

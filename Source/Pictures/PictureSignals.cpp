@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t maxZoomLanes = 8;
 
 std::vector<int> loudestChannels(const WaveformEnvelope& wave) {
-    auto channels = allChannelsOf(wave);
+    auto channels = allChannels(wave);
     std::ranges::stable_sort(channels, std::greater{}, [&](int c) { return wave.peak(c); });
     channels.resize(std::min(channels.size(), maxZoomLanes));
     std::ranges::sort(channels);
@@ -28,8 +28,8 @@ void drawChannels(const Canvas& canvas, const PictureInput& input, const std::ve
     area.removeFromTop(6);
     if (input.waveform == nullptr) return canvas.heading("CHANNELS", "no sound", heading);
     canvas.heading("CHANNELS", fullScaleText(*input.waveform), heading);
-    drawLanes(canvas, input, *input.waveform, allChannelsOf(*input.waveform),
-              {0.0, input.durationSeconds, laneOf(canvas, input, area)}, grid);
+    drawLanes(canvas, input, *input.waveform, allChannels(*input.waveform),
+              {0.0, input.durationSeconds, laneArea(canvas, input, area)}, grid);
 }
 
 } // namespace
@@ -54,7 +54,7 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel) {
     const double onset = static_cast<double>(strongest->timeNs) * 1e-9;
     const double from = static_cast<double>(zoom.firstFrame()) / rate - onset;
     const Axis axis{1e3 * from, 1e3 * (from + static_cast<double>(zoom.frameCount()) / rate),
-                    laneOf(canvas, input, panel.withTrimmedTop(6))};
+                    laneArea(canvas, input, panel.withTrimmedTop(6))};
     const auto grid = ticks(axis.from, axis.to, 10);
     drawLanes(canvas, input, zoom, shown, axis, grid);
     axis.drawGrid(canvas, {0.0}, palette::highlight.withAlpha(0.6f));
@@ -71,7 +71,7 @@ void drawSignals(const Canvas& canvas, const PictureInput& input, const HitColou
     auto heading = panel.removeFromTop(headingHeight);
     panel.removeFromTop(6);
     const auto axisRow = panel.removeFromBottom(axisHeight);
-    const Axis hits{0.0, input.durationSeconds, laneOf(canvas, input, panel)};
+    const Axis hits{0.0, input.durationSeconds, laneArea(canvas, input, panel)};
     canvas.heading("HITS", {}, heading);
     heading = heading.withLeft(hits.lane.x);
     const auto meaning = std::string("height: amplitude in dBFS, colour: ") + colours.meaning();
@@ -95,21 +95,21 @@ void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, A
     const auto middle = static_cast<float>(lane.y) + 0.5f * static_cast<float>(lane.height);
     const float gain = scale > 0.0f ? (0.5f * static_cast<float>(lane.height) - 1.0f) / scale : 0.0f;
     const float step = static_cast<float>(lane.width) / WaveformEnvelope::columns;
-    std::vector<Spot> below;
+    std::vector<Point> below;
     Path outline;
     SampleRange before = wave.column(channel, 0);
     for (int i = 0; i < WaveformEnvelope::columns; ++i) {
         const auto now = wave.column(channel, i);
         const float high = std::max(now.highest, before.lowest), low = std::min(now.lowest, before.highest);
         const float x = static_cast<float>(lane.x) + (static_cast<float>(i) + 0.5f) * step;
-        const Spot top{x, middle - gain * high - 0.4f};
+        const Point top{x, middle - gain * high - 0.4f};
         below.push_back({x, middle - gain * low + 0.4f});
         i == 0 ? outline.startNewSubPath(top) : outline.lineTo(top);
         before = now;
     }
     for (auto point = below.rbegin(); point != below.rend(); ++point) outline.lineTo(*point);
     outline.closeSubPath();
-    canvas.graphics.setColour(palette::enchanter(channel));
+    canvas.graphics.setColour(palette::actuator(channel));
     canvas.graphics.fillPath(outline);
     // The line keeps steep slopes as visible as flat ones.
     canvas.graphics.strokePath(outline, 0.8f);
@@ -129,7 +129,7 @@ void drawStrip(const Canvas& canvas, const WaveformEnvelope& wave, int channel, 
         const double level =
             decibels(std::max(std::abs(range.lowest), std::abs(range.highest)) / wave.peak());
         const auto alpha = static_cast<float>(std::pow(std::max(0.0, 1.0 - level / stripFloorDb), 1.5));
-        canvas.graphics.setColour(palette::enchanter(channel).withAlpha(std::min(alpha, 1.0f)));
+        canvas.graphics.setColour(palette::actuator(channel).withAlpha(std::min(alpha, 1.0f)));
         canvas.graphics.fillRect({static_cast<float>(lane.x) + static_cast<float>(i) * step,
                                   static_cast<float>(lane.y), step, static_cast<float>(lane.height)});
     }
@@ -144,8 +144,8 @@ void drawLabelAndPeak(const Canvas& canvas, std::string_view label, Colour colou
 }
 
 Area panelRowOf(const Canvas& canvas, const PictureInput& input, Area lane) {
-    return {lane.x - laneOf(canvas, input, {}).x, lane.y,
-            laneOf(canvas, input, {}).x + lane.width + peakWidth, lane.height};
+    return {lane.x - laneArea(canvas, input, {}).x, lane.y,
+            laneArea(canvas, input, {}).x + lane.width + peakWidth, lane.height};
 }
 
 void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
@@ -158,7 +158,7 @@ void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEn
         canvas.well(lane);
         Axis{axis.from, axis.to, lane}.drawGrid(canvas, grid, palette::line);
         drawWave(canvas, wave, channel, lane);
-        drawLabelAndPeak(canvas, laneLabelOf(input, channel), palette::enchanter(channel), true,
+        drawLabelAndPeak(canvas, laneLabel(input, channel), palette::actuator(channel), true,
                          wave.peak(channel), panelRowOf(canvas, input, row), lane);
     }
 }
@@ -176,8 +176,8 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
         const int end = std::min(i + group, count);
         float peak = 0.0f;
         for (int k = i; k < end; ++k) peak = std::max(peak, wave.peak(channels[static_cast<std::size_t>(k)]));
-        const auto first = labelOf(input, channels[static_cast<std::size_t>(i)]);
-        const auto last = labelOf(input, channels[static_cast<std::size_t>(end) - 1]);
+        const auto first = actuatorLabel(input, channels[static_cast<std::size_t>(i)]);
+        const auto last = actuatorLabel(input, channels[static_cast<std::size_t>(end) - 1]);
         drawLabelAndPeak(canvas, end - i > 1 ? first + "\xe2\x80\x93" + last : first, palette::muted, false,
                          peak, panelRowOf(canvas, input, rowsOf(axis.lane, i, end, count)), axis.lane);
     }
@@ -185,7 +185,7 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
 
 } // namespace
 
-std::vector<int> allChannelsOf(const WaveformEnvelope& wave) {
+std::vector<int> allChannels(const WaveformEnvelope& wave) {
     std::vector<int> channels(static_cast<std::size_t>(wave.channels()));
     std::iota(channels.begin(), channels.end(), 0);
     return channels;
@@ -203,7 +203,7 @@ std::string fullScaleText(const WaveformEnvelope& wave) {
     return "full height \xc2\xb1" + number(wave.peak(), 3) + " = " + decibelText(wave.peak());
 }
 
-std::string labelOf(const PictureInput& input, int channel) {
+std::string actuatorLabel(const PictureInput& input, int channel) {
     const auto index = static_cast<std::size_t>(channel);
     if (index < input.labels.size()) return cleanLine(input.labels[index]);
     return input.layout.count <= 26 ? std::string(1, static_cast<char>('A' + channel))
@@ -215,16 +215,16 @@ std::string_view builtInPart(PartNumber part) noexcept {
     return found == bodyParts.end() ? std::string_view{} : *found;
 }
 
-std::string laneLabelOf(const PictureInput& input, int channel) {
-    const std::string label = labelOf(input, channel);
+std::string laneLabel(const PictureInput& input, int channel) {
+    const std::string label = actuatorLabel(input, channel);
     const auto part = builtInPart(input.layout.places[static_cast<std::size_t>(channel)].part);
     return part.empty() || part == label ? label : label + " " + std::string{part};
 }
 
-Area laneOf(const Canvas& canvas, const PictureInput& input, Area row) {
+Area laneArea(const Canvas& canvas, const PictureInput& input, Area row) {
     int widest = 38;
     for (int c = 0; c < input.layout.count; ++c)
-        widest = std::max(widest, canvas.textWidth(laneLabelOf(input, c), smallText, true));
+        widest = std::max(widest, canvas.textWidth(laneLabel(input, c), smallText, true));
     return row.withTrimmedLeft(std::min(widest, 130) + 14).withTrimmedRight(peakWidth);
 }
 
@@ -377,9 +377,9 @@ bool HitColours::classifyByBodyPart(const PictureInput& input) {
     for (const int channel : channels) {
         const PartNumber part = places[static_cast<std::size_t>(channel)].part;
         const auto name = builtInPart(part);
-        rules_.push_back({0.0, endless, anyDecay, palette::enchanter(channel), part});
+        rules_.push_back({0.0, endless, anyDecay, palette::actuator(channel), part});
         classes_.push_back(
-            {name.empty() ? labelOf(input, channel) : std::string{name}, palette::enchanter(channel)});
+            {name.empty() ? actuatorLabel(input, channel) : std::string{name}, palette::actuator(channel)});
     }
     if (!channels.empty()) meaning_ = "part of the body";
     return !channels.empty();

@@ -14,18 +14,18 @@ FieldMap fittedFieldMap(const PictureInput& input, Area room) {
     return {room.toFloat().withSizeKeepingCentre(std::max(w, 1.0f), std::max(h, 1.0f)), scale};
 }
 
-Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z) {
+Point project(const PictureInput& input, const FieldMap& map, double x, double y, double z) {
     constexpr double obliqueFactor = 0.35;
     const double obliqueShift = isFlat(input.layout) ? 0.0 : obliqueFactor * z;
-    return map.spotAt(x - obliqueShift, y - obliqueShift);
+    return map.pointAt(x - obliqueShift, y - obliqueShift);
 }
 
-Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
+Point channelPoint(const PictureInput& input, const FieldMap& map, int channel) {
     const auto& place = input.layout.places[static_cast<std::size_t>(channel)];
     const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.5; };
-    return spotOf(input, map, share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
-                  share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres,
-                  share(place.zMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres);
+    return project(input, map, share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
+                   share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres,
+                   share(place.zMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres);
 }
 
 namespace {
@@ -60,7 +60,7 @@ void drawBody(const Canvas& canvas, const Scene& scene, const BodyDescription& b
               const FieldMap& map) {
     const float brightness = body.type == BodyType::dynamicBody ? 0.9f : 0.6f;
     const auto transform = Transform::rotation(static_cast<float>(-pose.angleRadians))
-                               .translated(map.spotAt(pose.xMetres, pose.yMetres));
+                               .translated(map.pointAt(pose.xMetres, pose.yMetres));
     for (const auto& fixture : body.fixtures)
         drawFixture(
             canvas, fixture,
@@ -70,8 +70,8 @@ void drawBody(const Canvas& canvas, const Scene& scene, const BodyDescription& b
 
 void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map) {
     canvas.graphics.setColour(palette::text.withAlpha(0.6f));
-    canvas.graphics.strokePath(jointOutline<Path>(joint.joint, map.spotAt(joint.aMetres.x, joint.aMetres.y),
-                                                  map.spotAt(joint.bMetres.x, joint.bMetres.y)),
+    canvas.graphics.strokePath(jointOutline<Path>(joint.joint, map.pointAt(joint.aMetres.x, joint.aMetres.y),
+                                                  map.pointAt(joint.bMetres.x, joint.bMetres.y)),
                                jointPixels);
 }
 
@@ -79,7 +79,7 @@ void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map
 
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     if (input.scene == nullptr) return;
-    const Painter::ClipScope whole(canvas.graphics);
+    const Painter::ClipScope clipScope(canvas.graphics);
     canvas.graphics.reduceClip(map.field.expanded(wallPixels).rounded());
     const auto bodies = allBodies(*input.scene);
     const auto& poses = input.poses.bodies;
@@ -105,12 +105,12 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
     for (const auto& event : input.events) {
         const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudestDb) / 40.0);
         if (level <= 0.0f) continue;
-        const auto spot = spotOf(input, map, event.x, event.y, event.z);
+        const auto point = project(input, map, event.x, event.y, event.z);
         if (isHit(event))
-            hits.add(spot, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level,
+            hits.add(point, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level,
                      colours.colourOf(event));
         else
-            traces.add(spot, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
+            traces.add(point, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
                        colours.colourOf(event)); // together they form a line
     }
     traces.draw(canvas.graphics);
@@ -118,7 +118,7 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
 }
 
 /// A channel's level in the strongest hit; the loudest channel has 1. 0 if the picture has no sound.
-float shareOf(const PictureInput& input, int channel) {
+float relativeLevel(const PictureInput& input, int channel) {
     const bool hasSound =
         input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
     return hasSound ? input.zoom->peak(channel) / input.zoom->peak() : 0.0f;
@@ -126,9 +126,9 @@ float shareOf(const PictureInput& input, int channel) {
 
 void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     for (int c = 0; c < input.layout.count; ++c) {
-        const auto centre = placeOf(input, map, c);
-        const float share = shareOf(input, c) * shareOf(input, c), radius = 20.0f + 60.0f * share;
-        const auto colour = palette::enchanter(c);
+        const auto centre = channelPoint(input, map, c);
+        const float share = relativeLevel(input, c) * relativeLevel(input, c), radius = 20.0f + 60.0f * share;
+        const auto colour = palette::actuator(c);
         canvas.graphics.setGradient(
             {centre, radius, colour.withAlpha(0.45f * share), colour.withAlpha(0.0f)});
         canvas.graphics.fillEllipse(boxAround(centre, 2.0f * radius, 2.0f * radius));
@@ -138,12 +138,12 @@ void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& 
 // Rings where a hit struck, and a line to each actuator, as wide and bright as the level that it plays.
 void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
                    const CollisionEvent& hit) {
-    const auto centre = spotOf(input, map, hit.x, hit.y, hit.z);
+    const auto centre = project(input, map, hit.x, hit.y, hit.z);
     for (int c = 0; c < input.layout.count; ++c) {
-        const float share = shareOf(input, c);
+        const float share = relativeLevel(input, c);
         if (share <= 0.0f) continue;
-        canvas.graphics.setColour(palette::enchanter(c).withAlpha(0.65f * share));
-        canvas.graphics.drawLine(centre, placeOf(input, map, c), 0.8f + 2.2f * share);
+        canvas.graphics.setColour(palette::actuator(c).withAlpha(0.65f * share));
+        canvas.graphics.drawLine(centre, channelPoint(input, map, c), 0.8f + 2.2f * share);
     }
     for (int ring = 1; ring <= 3; ++ring) {
         const auto r = 9.0f * static_cast<float>(ring);
@@ -179,7 +179,7 @@ float closestPairPixels(const PictureInput& input, const FieldMap& map) {
     float closest = 400.0f; // pixels; also for a single actuator
     for (int a = 0; a < input.layout.count; ++a)
         for (int b = a + 1; b < input.layout.count; ++b)
-            closest = std::min(closest, placeOf(input, map, a).distanceTo(placeOf(input, map, b)));
+            closest = std::min(closest, channelPoint(input, map, a).distanceTo(channelPoint(input, map, b)));
     return closest;
 }
 
@@ -194,19 +194,19 @@ void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour c
 } // namespace
 
 // Badges are as large as the closest pair allows; without room for labels they are dots.
-void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
+void drawActuators(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
     const float closest = closestPairPixels(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
     for (int c = 0; c < input.layout.count; ++c) {
-        const auto centre = placeOf(input, map, c);
-        const auto label = labelOf(input, c);
+        const auto centre = channelPoint(input, map, c);
+        const auto label = actuatorLabel(input, c);
         const float width =
             std::max(size, static_cast<float>(canvas.textWidth(label, smallText, true)) + 14.0f);
         if (size >= 21.0f && width <= std::max(size, 0.8f * closest)) {
             const auto within = panel.reduced(6).toFloat();
             drawBadge(canvas, label, boxAround(centre, width, size).constrainedWithin(within),
-                      palette::enchanter(c));
+                      palette::actuator(c));
         } else {
-            canvas.graphics.setColour(palette::enchanter(c));
+            canvas.graphics.setColour(palette::actuator(c));
             canvas.graphics.fillEllipse(boxAround(centre, 0.7f * size, 0.7f * size));
         }
     }
@@ -221,7 +221,7 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
     const auto map = fittedFieldMap(input, panel.reduced(22, 22));
     const auto* const strongest = strongestEvent(input.events);
     {
-        const Painter::ClipScope whole(canvas.graphics);
+        const Painter::ClipScope clipScope(canvas.graphics);
         canvas.graphics.reduceClip(clipArea);
         canvas.well(map.field.rounded());
         canvas.graphics.setColour(palette::line);
@@ -230,7 +230,7 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
         drawBodies(canvas, input, map);
         drawGlows(canvas, input, colours, map, clipArea);
         if (strongest) drawStrongest(canvas, input, map, *strongest);
-        drawEnchanters(canvas, input, map, clipArea);
+        drawActuators(canvas, input, map, clipArea);
     }
     auto remark =
         shortNumber(input.fieldWidthMetres) + " \xc3\x97 " + shortNumber(input.fieldHeightMetres) + " m";

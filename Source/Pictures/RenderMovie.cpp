@@ -15,7 +15,7 @@ namespace {
 constexpr int margin = 16, headerHeight = 40, lanesHeightPixels = 150;
 constexpr double glowSeconds = 0.5; // after which an impact's light is gone
 constexpr double fadePerSecond = 7.0;
-constexpr float floorDb = 40.0f; // an impact weaker than the strongest by this has no light
+constexpr float rangeDb = 40.0f; // an impact weaker than the strongest by this has no light
 
 std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
@@ -26,36 +26,36 @@ struct RenderMovie::Parts {
     const PictureInput& input;
     Letters letters;
     HitColours colours;
-    Image still{width, height};
+    Image background{width, height};
     Area header, world, lanes;
     Axis time;
-    double loudest = 0.0; // dB
+    double loudestDb = 0.0; // dB
 
     explicit Parts(const PictureInput& picture)
         : input{picture}
         , colours{picture} {
-        Area page = still.bounds().reduced(margin, 0);
+        Area page = background.bounds().reduced(margin, 0);
         header = page.removeFromTop(headerHeight + 6).withTrimmedTop(6);
         lanes =
             page.removeFromBottom(lanesHeightPixels + headingHeight + axisHeight + 12).withTrimmedBottom(8);
         world = page.withTrimmedBottom(4);
         if (const auto* const strongest = strongestEvent(input.events))
-            loudest = decibels(strongest->amplitude);
-        Painter painter{still};
+            loudestDb = decibels(strongest->amplitude);
+        Painter painter{background};
         painter.fillAll(palette::ground);
         const Canvas canvas{painter, letters};
         canvas.text(cleanLine(input.title), header, Align::left, palette::text, largeText, true);
-        drawStillLanes(canvas);
+        drawBackgroundLanes(canvas);
     }
 
-    void drawStillLanes(const Canvas& canvas) {
+    void drawBackgroundLanes(const Canvas& canvas) {
         Area area = lanes;
         const Area heading = area.removeFromTop(headingHeight), axisRow = area.removeFromBottom(axisHeight);
-        time = {0.0, input.durationSeconds, laneOf(canvas, input, area)};
+        time = {0.0, input.durationSeconds, laneArea(canvas, input, area)};
         const auto grid = ticks(0.0, input.durationSeconds, 10);
         canvas.heading("ACTUATORS", input.waveform != nullptr ? fullScaleText(*input.waveform) : "", heading);
         if (input.waveform != nullptr)
-            drawLanes(canvas, input, *input.waveform, allChannelsOf(*input.waveform), time, grid);
+            drawLanes(canvas, input, *input.waveform, allChannels(*input.waveform), time, grid);
         time.drawLabels(canvas, grid, "s", axisRow);
     }
 
@@ -78,8 +78,8 @@ struct RenderMovie::Parts {
     void drawHalos(const Canvas& canvas, const FieldMap& map, double seconds) const {
         for (int c = 0; c < input.layout.count; ++c) {
             const float level = std::sqrt(levelAt(c, seconds)), radius = 18.0f + 60.0f * level;
-            const Spot centre = placeOf(input, map, c);
-            const Colour colour = palette::enchanter(c);
+            const Point centre = channelPoint(input, map, c);
+            const Colour colour = palette::actuator(c);
             canvas.graphics.setGradient(
                 {centre, radius, colour.withAlpha(0.7f * level), colour.withAlpha(0.0f)});
             canvas.graphics.fillEllipse(boxAround(centre, 2.0f * radius, 2.0f * radius));
@@ -91,10 +91,10 @@ struct RenderMovie::Parts {
         for (const CollisionEvent& event : input.events) {
             const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
             if (age < 0.0 || age > glowSeconds) continue;
-            const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDb;
+            const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudestDb) / rangeDb;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));
-            light.add(spotOf(input, map, event.x, event.y, event.z),
+            light.add(project(input, map, event.x, event.y, event.z),
                       (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade,
                       1.8f * level * level * fade, colours.colourOf(event));
         }
@@ -105,13 +105,13 @@ struct RenderMovie::Parts {
         const double seconds = static_cast<double>(momentNs) * 1e-9;
         const FieldMap map = fittedFieldMap(moving, world.reduced(14, 14));
         {
-            const Painter::ClipScope whole(canvas.graphics);
+            const Painter::ClipScope clipScope(canvas.graphics);
             canvas.graphics.reduceClip(world);
             canvas.well(map.field.rounded());
             drawHalos(canvas, map, seconds);
             drawBodies(canvas, moving, map);
             drawImpacts(canvas, map, momentNs);
-            drawEnchanters(canvas, moving, map, world);
+            drawActuators(canvas, moving, map, world);
         }
         canvas.text(clockText(seconds), header, Align::right, palette::highlight, mediumText, true);
         const float x = time.x(std::min(seconds, time.to));
@@ -133,7 +133,7 @@ std::int64_t RenderMovie::count() const noexcept {
 }
 
 Image RenderMovie::draw(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene) const {
-    Image image = parts_->still;
+    Image image = parts_->background;
     Painter painter{image};
     PictureInput moving = parts_->input;
     moving.poses = poses;

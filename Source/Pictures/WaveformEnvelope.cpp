@@ -19,14 +19,14 @@ WaveformEnvelope::WaveformEnvelope(int channels, std::int64_t firstFrame, std::i
 void WaveformEnvelope::add(const float* const* block, int frames) {
     const std::int64_t blockStart = processedFrames_ - firstFrame_;
     processedFrames_ += frames;
-    std::int64_t at = std::max<std::int64_t>(blockStart, 0);
+    std::int64_t next = std::max<std::int64_t>(blockStart, 0);
     const std::int64_t end = std::min(blockStart + frames, frameCount_);
-    while (at < end) {
-        const std::int64_t column = at * columns / frameCount_;
+    while (next < end) {
+        const std::int64_t column = next * columns / frameCount_;
         // the next column begins at a frame that is rounded up, so every frame has one column
         const std::int64_t runEnd = std::min(end, ((column + 1) * frameCount_ + columns - 1) / columns);
-        for (int c = 0; c < channels(); ++c) addRun(c, column, block[c] + (at - blockStart), runEnd - at);
-        at = runEnd;
+        for (int c = 0; c < channels(); ++c) addRun(c, column, block[c] + (next - blockStart), runEnd - next);
+        next = runEnd;
     }
 }
 

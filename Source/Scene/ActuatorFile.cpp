@@ -22,15 +22,15 @@ constexpr std::string_view resonanceField = "resonance_hz", qualityField = "q", 
 
 // Kinds of fields that may be null, which means that the value is not known.
 struct BandOrNull {};
-struct FigureOrNull {
+struct NumberOrNull {
     double min, max;
 };
 
-std::optional<double> readCustom(const JsonField& json, const FigureOrNull& kind) {
+std::optional<double> readCustom(const JsonField& json, const NumberOrNull& kind) {
     return json.isNull() ? std::nullopt : std::optional{json.numberWithin(kind.min, kind.max)};
 }
-OrderedJson writeCustom(const FigureOrNull&, const std::optional<double>& figure) {
-    return figure ? OrderedJson(*figure) : OrderedJson();
+OrderedJson writeCustom(const NumberOrNull&, const std::optional<double>& number) {
+    return number ? OrderedJson(*number) : OrderedJson();
 }
 
 std::optional<FrequencyBand> readCustom(const JsonField& json, const BandOrNull&) {
@@ -51,21 +51,21 @@ OrderedJson writeCustom(const BandOrNull&, const std::optional<FrequencyBand>& b
 
 void visitFields(auto& v, FieldsOf<ActuatorProfile>) {
     using P = ActuatorProfile;
-    const auto figure = [&v](std::string_view name, auto member, double min, double max) {
-        v.field(name, member, FigureOrNull{min, max});
+    const auto number = [&v](std::string_view name, auto member, double min, double max) {
+        v.field(name, member, NumberOrNull{min, max});
     };
     v.version("physvib_actuator", actuatorFormatVersion);
     v.field("name", &P::name, kinds::name);
     v.field("description", &P::description, kinds::text);
     v.field("source", &P::source, kinds::text);
     v.field("kind", &P::kind, kinds::OneOf{kindNames});
-    figure(resonanceField, &P::resonanceHz, limits::minMeasuredHz, limits::maxFrequencyHz);
-    figure(qualityField, &P::q, limits::minQ, limits::maxQ);
+    number(resonanceField, &P::resonanceHz, limits::minMeasuredHz, limits::maxFrequencyHz);
+    number(qualityField, &P::q, limits::minQ, limits::maxQ);
     v.field(bandField, &P::band, BandOrNull{});
-    figure("drive_limit_v", &P::driveLimitVolts, 0.001, 1000.0);
-    figure("rise_time_s", &P::riseSeconds, 1e-5, 10.0);
-    figure("full_scale_g", &P::fullScaleG, 1e-4, 1000.0);
-    figure("delay_s", &P::delaySeconds, 0.0, 10.0);
+    number("drive_limit_v", &P::driveLimitVolts, 0.001, 1000.0);
+    number("rise_time_s", &P::riseSeconds, 1e-5, 10.0);
+    number("full_scale_g", &P::fullScaleG, 1e-4, 1000.0);
+    number("delay_s", &P::delaySeconds, 0.0, 10.0);
 }
 
 std::string equaliserError(const ActuatorProfile& profile) {
@@ -88,7 +88,7 @@ Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
     return loadText(path, limits::maxActuatorFileBytes, readActuator);
 }
 
-std::string actuatorJson(const ActuatorProfile& profile) { return jsonLines(writeTable(profile)); }
+std::string actuatorJson(const ActuatorProfile& profile) { return prettyJson(writeTable(profile)); }
 
 const std::vector<ActuatorProfile>& builtInActuators() {
     static const std::vector<ActuatorProfile> profiles = readEmbedded(embeddedActuators(), readActuator);

@@ -136,11 +136,11 @@ inline std::string readCell(const KindColumn& column, std::string_view cell, Col
 }
 
 inline std::string readCell(const MaterialColumn& column, std::string_view cell, CollisionEvent& event) {
-    column.field(event) = soundNumberOf(cell);
+    column.field(event) = toSoundNumber(cell);
     return {};
 }
 inline std::string readCell(const PartColumn& column, std::string_view cell, CollisionEvent& event) {
-    column.field(event) = partNumberOf(cell);
+    column.field(event) = toPartNumber(cell);
     return {};
 }
 

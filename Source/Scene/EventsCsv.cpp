@@ -234,7 +234,7 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
         if (!text) return Failure{text.error};
         return readEventsCsv(text.value, name);
     }
-    const auto file = openRegular(path, limits::maxEventsFileBytes);
+    const auto file = openRegularFile(path, limits::maxEventsFileBytes);
     if (!file) return Failure{file.error};
     std::FILE* const stream = file.value.stream.get();
     const auto reader = [&] { return Reader(stream, name, limits::maxEventRows); };

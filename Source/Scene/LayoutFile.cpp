@@ -41,28 +41,28 @@ struct PlacedActuator {
 void visitFields(auto& v, FieldsOf<PlacedActuator>) {
     constexpr auto description = &PlacedActuator::description;
     constexpr auto place = &PlacedActuator::place;
-    v.field("label", in(description, &ActuatorDescription::label), kinds::text, Need::filled);
-    v.field("x_m", in(place, &ActuatorPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
-    v.field("y_m", in(place, &ActuatorPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
-    v.field("z_m", in(place, &ActuatorPlace::zMetres),
-            kinds::within(-limits::maxExtentMetres, limits::maxExtentMetres), Need::optional);
-    v.field("part", in(description, &ActuatorDescription::part), kinds::name, Need::optional);
-    v.field("actuator", in(description, &ActuatorDescription::actuator), kinds::text, Need::filled);
-    v.field("full_scale_g", in(description, &ActuatorDescription::fullScaleG),
-            kinds::within(limits::minFullScaleG, limits::maxFullScaleG), Need::filled);
+    v.field("label", nest(description, &ActuatorDescription::label), kinds::text, Need::filled);
+    v.field("x_m", nest(place, &ActuatorPlace::xMetres), kinds::upTo(v.object.extentWidthMetres));
+    v.field("y_m", nest(place, &ActuatorPlace::yMetres), kinds::upTo(v.object.extentHeightMetres));
+    v.field("z_m", nest(place, &ActuatorPlace::zMetres),
+            kinds::range(-limits::maxExtentMetres, limits::maxExtentMetres), Need::optional);
+    v.field("part", nest(description, &ActuatorDescription::part), kinds::name, Need::optional);
+    v.field("actuator", nest(description, &ActuatorDescription::actuator), kinds::text, Need::filled);
+    v.field("full_scale_g", nest(description, &ActuatorDescription::fullScaleG),
+            kinds::range(limits::minFullScaleG, limits::maxFullScaleG), Need::filled);
 }
 
 ActuatorDescription readPlacedActuator(const JsonField& json, const LayoutDescription& layout,
                                        ActuatorPlace& place) {
-    PlacedActuator placed{{}, {}, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
-    readTable(json, placed);
-    const std::string& label = placed.description.label;
+    PlacedActuator entry{{}, {}, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
+    readTable(json, entry);
+    const std::string& label = entry.description.label;
     if (json.has("label") && label.empty()) json["label"].fail("expected a label, found an empty string");
     if (!label.empty() && isLabelUsed(layout.actuators, label))
         json["label"].fail("expected a label of its own, found " + inQuotes(label) + " again");
-    place = placed.place;
-    place.part = partNumberOf(placed.description.part);
-    return placed.description;
+    place = entry.place;
+    place.part = toPartNumber(entry.description.part);
+    return entry.description;
 }
 
 void readActuators(const JsonField& list, LayoutDescription& layout) {
@@ -83,7 +83,7 @@ struct Extent {}; // kind of the field extent_m
 std::pair<double, double> readCustom(const JsonField& json, const Extent&) {
     if (const std::size_t size = json.arraySize(); size != 2)
         json.fail("expected [width, height], found " + std::to_string(size) + " items");
-    constexpr auto range = kinds::within(limits::minExtentMetres, limits::maxExtentMetres);
+    constexpr auto range = kinds::range(limits::minExtentMetres, limits::maxExtentMetres);
     return {range(json.item(0)), range(json.item(1))};
 }
 OrderedJson writeCustom(const Extent&, const auto& lengths) { return lengths; }
@@ -94,8 +94,8 @@ void visitFields(auto& v, FieldsOf<LayoutDescription>) {
     constexpr auto geometry = &LayoutDescription::geometry;
     v.field("name", &LayoutDescription::name, kinds::text, Need::filled);
     v.field("extent_m",
-            both(in(geometry, &ActuatorLayout::extentWidthMetres),
-                 in(geometry, &ActuatorLayout::extentHeightMetres)),
+            memberPair(nest(geometry, &ActuatorLayout::extentWidthMetres),
+                       nest(geometry, &ActuatorLayout::extentHeightMetres)),
             Extent{});
     v.part("enchanters");
 }
@@ -153,12 +153,12 @@ std::string layoutJson(const LayoutDescription& layout) {
     for (const auto& [name, value] : json.items()) {
         text += (text.size() > 1 ? ",\n  \"" : "\n  \"") + name + "\": ";
         if (!value.is_array() || value.front().is_number()) {
-            text += jsonLine(value);
+            text += compactJson(value);
             continue;
         }
         text += "[";
         for (std::size_t j = 0; j < value.size(); ++j)
-            text += (j > 0 ? ",\n    " : "\n    ") + jsonLine(value[j]);
+            text += (j > 0 ? ",\n    " : "\n    ") + compactJson(value[j]);
         text += "\n  ]";
     }
     return text + "\n}\n";

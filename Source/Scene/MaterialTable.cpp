@@ -44,7 +44,7 @@ Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
 std::string materialsJson(const MaterialTable& table) {
     OrderedJson root = {{materialsVersionField, materialsFormatVersion}};
     root.update(detail::fieldsJson(table, table.materials));
-    return jsonLines(root);
+    return prettyJson(root);
 }
 
 const std::vector<MaterialTable>& builtInMaterials() {

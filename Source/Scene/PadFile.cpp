@@ -12,30 +12,30 @@ const std::vector<EmbeddedFile>& embeddedPads(); // Source/Scene/Pads/*.json, in
 
 void visitFields(auto& v, FieldsOf<PadMotor>) {
     using M = PadMotor;
-    v.field("threshold", &M::threshold, kinds::within(0.0, 0.9));
-    v.field("half", &M::half, kinds::within(0.01, 0.99));
-    v.field("full", &M::full, kinds::within(0.02, 1.0));
-    v.field("rise_s", &M::riseSeconds, kinds::within(0.001, 2.0));
-    v.field("fall_s", &M::fallSeconds, kinds::within(0.001, 2.0));
+    v.field("threshold", &M::threshold, kinds::range(0.0, 0.9));
+    v.field("half", &M::half, kinds::range(0.01, 0.99));
+    v.field("full", &M::full, kinds::range(0.02, 1.0));
+    v.field("rise_s", &M::riseSeconds, kinds::range(0.001, 2.0));
+    v.field("fall_s", &M::fallSeconds, kinds::range(0.001, 2.0));
 }
 
 void visitFields(auto& v, FieldsOf<PadProfile>) {
     using P = PadProfile;
     const auto law = [&v](std::string_view name, auto member, const auto& kind) {
-        v.field(name, in(&P::law, member), kind);
+        v.field(name, nest(&P::law, member), kind);
     };
     v.version("physvib_pad", padFormatVersion);
     v.field("name", &P::name, kinds::name);
     v.field("description", &P::description, kinds::text);
     v.field("source", &P::source, kinds::text);
-    law("commands_per_s", &PadLaw::commandsPerSecond, kinds::within(5.0, 500.0));
-    law("lead_s", &PadLaw::leadSeconds, kinds::within(0.0, 0.2));
-    law("split_hz", &PadLaw::splitHz, kinds::within(1.0, 10'000.0));
-    law("side", &PadLaw::side, kinds::within(0.0, 1.0));
-    law("floor", &PadLaw::floor, kinds::within(1e-4, 1.0));
-    law("exponent", &PadLaw::exponent, kinds::within(0.1, 4.0));
-    law("low", &PadLaw::low, kinds::Object<PadMotor>{});
-    law("high", &PadLaw::high, kinds::Object<PadMotor>{});
+    law("commands_per_s", &PadModel::commandsPerSecond, kinds::range(5.0, 500.0));
+    law("lead_s", &PadModel::leadSeconds, kinds::range(0.0, 0.2));
+    law("split_hz", &PadModel::splitHz, kinds::range(1.0, 10'000.0));
+    law("side", &PadModel::placeWeight, kinds::range(0.0, 1.0));
+    law("floor", &PadModel::floor, kinds::range(1e-4, 1.0));
+    law("exponent", &PadModel::exponent, kinds::range(0.1, 4.0));
+    law("low", &PadModel::low, kinds::Object<PadMotor>{});
+    law("high", &PadModel::high, kinds::Object<PadMotor>{});
 }
 
 namespace {
@@ -60,7 +60,7 @@ Result<PadProfile> readPad(std::string_view text, std::string_view name) {
                     [](const Json& root) { return readPadRoot(JsonField(root, {})); });
 }
 
-std::string padJson(const PadProfile& profile) { return jsonLines(writeTable(profile)); }
+std::string padJson(const PadProfile& profile) { return prettyJson(writeTable(profile)); }
 
 const std::vector<PadProfile>& builtInPads() {
     static const std::vector<PadProfile> profiles = readEmbedded(embeddedPads(), readPad);
@@ -83,9 +83,9 @@ namespace {
 /// Computes the commands of a controller's motors without real time; input in time order.
 class OfflinePad {
 public:
-    OfflinePad(const PadLaw& law, const PhantomPanner& panner)
+    OfflinePad(const PadModel& law, const PhantomPanner& panner)
         : motors_{law}
-        , gripPanner_{PadMotors::gripsOf(panner)}
+        , gripPanner_{PadMotors::makeGripPanner(panner)}
         , leadNs_{static_cast<std::int64_t>(1e9 * law.leadSeconds)} {}
 
     void process(const CollisionEvent& event) {
@@ -93,7 +93,7 @@ public:
         motors_.strike(event, gripPanner_);
     }
     void process(const RenderControl& control) {
-        if (control.panner != nullptr) gripPanner_ = PadMotors::gripsOf(*control.panner);
+        if (control.panner != nullptr) gripPanner_ = PadMotors::makeGripPanner(*control.panner);
         if (control.kind != RenderControl::Kind::stopAll) return;
         runUntil(control.timeNs);
         motors_.stop(control.timeNs);
@@ -103,7 +103,7 @@ public:
         addIfChanged({endNs, 0.0, 0.0});
         return std::move(commands_);
     }
-    std::uint64_t lost() const { return motors_.lost(); }
+    std::uint64_t drops() const { return motors_.lost(); }
 
 private:
     void runUntil(std::int64_t ns) {
@@ -121,9 +121,9 @@ private:
 
 } // namespace
 
-std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
+std::vector<PadCommand> padCommands(const PadModel& law, std::span<const CollisionEvent> events,
                                     std::span<const RenderControl> controls, const PhantomPanner& panner,
-                                    std::int64_t endNs, std::uint64_t* lost) {
+                                    std::int64_t endNs, std::uint64_t* drops) {
     OfflinePad pad{law, panner};
     auto control = controls.begin();
     for (const CollisionEvent& event : events) {
@@ -133,7 +133,7 @@ std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const Collision
     }
     for (; control != controls.end() && control->timeNs <= endNs; ++control) pad.process(*control);
     auto commands = pad.finish(endNs);
-    if (lost) *lost = pad.lost();
+    if (drops) *drops = pad.drops();
     return commands;
 }
 

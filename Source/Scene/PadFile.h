@@ -19,7 +19,7 @@ struct PadProfile {
     std::string name;
     std::string description;
     std::string source; ///< source of the figures
-    PadLaw law;
+    PadModel law;
     bool operator==(const PadProfile&) const = default;
 };
 
@@ -37,11 +37,11 @@ const std::vector<PadProfile>& builtInPads();
 Result<PadProfile> findPad(const std::string& nameOrPath);
 
 /// The motor commands from 0 to `endNs`, where the motors stop, without repetitions. `events` are panned by
-/// `panner` and its changes in `controls`; of other controls only stopAll has an effect. `lost` gets the
+/// `panner` and its changes in `controls`; of other controls only stopAll has an effect. `drops` gets the
 /// number of events that were dropped because too many sounded at once. Any thread.
-std::vector<PadCommand> padCommands(const PadLaw& law, std::span<const CollisionEvent> events,
+std::vector<PadCommand> padCommands(const PadModel& law, std::span<const CollisionEvent> events,
                                     std::span<const RenderControl> controls, const PhantomPanner& panner,
-                                    std::int64_t endNs, std::uint64_t* lost = nullptr);
+                                    std::int64_t endNs, std::uint64_t* drops = nullptr);
 
 /// The commands as CSV `time_s,low,high`; times as in event lists, commands from 0 to 1. Any thread.
 std::string motorsCsv(const std::vector<PadCommand>& commands, const Provenance& provenance);

@@ -56,7 +56,7 @@ private:
 inline constexpr std::string_view partNamePrefix = "part-"; // before the number of a part without a name
 
 /// The number of the part that a file calls `name`; 0 if it has none. Any thread.
-inline PartNumber partNumberOf(std::string_view name) noexcept {
+inline PartNumber toPartNumber(std::string_view name) noexcept {
     if (name.starts_with(partNamePrefix))
         if (const auto number = parseNumber<PartNumber>(name.substr(partNamePrefix.size())).value_or(0);
             number > 0)
@@ -69,7 +69,7 @@ class PartNames {
 public:
     /// Ignores a name that would be read as another part.
     void add(std::string_view name) {
-        if (const PartNumber part = partNumberOf(name); part == partNamed(name)) names_.add(part, name);
+        if (const PartNumber part = toPartNumber(name); part == partNamed(name)) names_.add(part, name);
     }
 
     /// The part's text in files: a name that was added, a built-in name (chest), or else its number
@@ -93,7 +93,7 @@ inline constexpr std::string_view soundNamePrefix = "sound-"; // before the numb
                                                               // name
 
 /// The number of the sound that a list calls `name`; 0 if it has none. Any thread.
-inline SoundNumber soundNumberOf(std::string_view name) noexcept {
+inline SoundNumber toSoundNumber(std::string_view name) noexcept {
     if (name.empty()) return 0;
     const auto numberAfter = [name](std::string_view prefix) {
         return name.starts_with(prefix) ? parseNumber<SoundNumber>(name.substr(prefix.size())).value_or(0)
@@ -139,7 +139,7 @@ public:
 
     /// Ignores the name of a material that would be read as another sound.
     void add(std::string_view name) {
-        if (const SoundNumber sound = soundOfMaterial(name); soundNumberOf(name) == sound)
+        if (const SoundNumber sound = soundOfMaterial(name); toSoundNumber(name) == sound)
             names_.add(sound, name);
     }
     bool has(SoundNumber sound) const { return names_.find(sound) != nullptr; }

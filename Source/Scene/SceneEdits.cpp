@@ -29,7 +29,7 @@ void changeFixtures(Scene& scene, const std::string& body, int fixture, Change c
 
 } // namespace
 
-void describeEdit(Scene& scene, const Action& action) {
+void recordEdit(Scene& scene, const Action& action) {
     if (const auto* material = std::get_if<MaterialAction>(&action))
         changeFixtures(scene, material->body, material->fixture,
                        [material](FixtureDescription& f) { f.material = material->material; });
@@ -50,7 +50,7 @@ void describeEdit(Scene& scene, const Action& action) {
 namespace {
 
 void applyEdit(Scene& scene, const Action& action) {
-    describeEdit(scene, action);
+    recordEdit(scene, action);
     if (const auto* removal = std::get_if<RemoveAction>(&action))
         std::erase_if(scene.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
     if (const auto* join = std::get_if<JoinAction>(&action)) scene.joints.push_back(join->joint);

@@ -63,7 +63,7 @@ struct SceneRun {
 
 /// Applies an action that changes fixtures' materials, sounds, textures, haptic sources or a body to the
 /// description of the scene, in its bodies or live inputs; others change nothing. Any thread.
-void describeEdit(Scene& scene, const Action& action);
+void recordEdit(Scene& scene, const Action& action);
 
 /// True if an action changes the scene permanently and not only its motion. Any thread.
 bool isLasting(const Action& action);
@@ -72,7 +72,7 @@ bool isLasting(const Action& action);
 /// different one, so that no action repairs the error of another. Any thread.
 std::size_t independentActions(std::span<const Action> actions);
 
-/// Applies actions in order like describeEdit(), and also adds and removes bodies and joints. An action that
+/// Applies actions in order like recordEdit(), and also adds and removes bodies and joints. An action that
 /// would make the scene invalid changes nothing. Any thread.
 void editScene(Scene& scene, std::span<const Action> actions);
 

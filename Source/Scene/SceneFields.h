@@ -23,7 +23,7 @@ struct Bounds {
 /// Range of the number of items of a list.
 constexpr Bounds items(std::size_t min, std::size_t max) { return {{}, {}, min, max}; }
 constexpr Bounds upTo(double max) { return {0.0, max}; }
-constexpr Bounds within(double reach) { return {-reach, reach}; }
+constexpr Bounds absMax(double max) { return {-max, max}; }
 
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T:
 ///   field(name, member, Bounds, Need)   text, boolean, number, Vector or struct, or an optional or list of
@@ -33,12 +33,12 @@ constexpr Bounds within(double reach) { return {-reach, reach}; }
 ///   material(name, member)              an index into Scene::materials, in files a name; required
 ///   variant(name, member, names)        the name of the alternative, whose fields are in the same object
 inline constexpr Bounds anyText{};
-inline constexpr Bounds positionBounds = within(sceneLimits::maxPositionMetres);
-inline constexpr Bounds angleBounds = within(sceneLimits::maxAngleRadians);
-inline constexpr Bounds speedBounds = within(sceneLimits::maxSpeedMetresPerSecond);
-inline constexpr Bounds spinBounds = within(sceneLimits::maxSpinRadiansPerSecond);
+inline constexpr Bounds positionBounds = absMax(sceneLimits::maxPositionMetres);
+inline constexpr Bounds angleBounds = absMax(sceneLimits::maxAngleRadians);
+inline constexpr Bounds speedBounds = absMax(sceneLimits::maxSpeedMetresPerSecond);
+inline constexpr Bounds spinBounds = absMax(sceneLimits::maxSpinRadiansPerSecond);
 inline constexpr Bounds sizeBounds{sceneLimits::minSizeMetres, sceneLimits::maxSizeMetres};
-inline constexpr Bounds accelerationBounds = within(sceneLimits::maxAccelerationMetresPerSecond2);
+inline constexpr Bounds accelerationBounds = absMax(sceneLimits::maxAccelerationMetresPerSecond2);
 inline constexpr Bounds torqueBounds = upTo(sceneLimits::maxTorqueNewtonMetres);
 inline constexpr Bounds fixtureBounds = upTo(static_cast<double>(sceneLimits::maxFixturesPerBody - 1));
 
@@ -122,7 +122,7 @@ void visitFields(auto& v, FieldsOf<RevoluteJoint>) {
 }
 void visitFields(auto& v, FieldsOf<WheelJoint>) {
     v.field("anchor_m", &WheelJoint::anchorMetres, positionBounds);
-    v.field("axis", &WheelJoint::axis, within(1.0), Need::optional);
+    v.field("axis", &WheelJoint::axis, absMax(1.0), Need::optional);
     v.field("suspension_hz", &WheelJoint::suspensionHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &WheelJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
     v.field("travel_m", &WheelJoint::travelMetres, positionBounds, Need::optional);
@@ -145,7 +145,7 @@ void visitFields(auto& v, FieldsOf<WeldJoint>) {
 
 void visitFields(auto& v, FieldsOf<SliderJoint>) {
     v.field("anchor_m", &SliderJoint::anchorMetres, positionBounds);
-    v.field("axis", &SliderJoint::axis, within(1.0), Need::optional);
+    v.field("axis", &SliderJoint::axis, absMax(1.0), Need::optional);
     v.field("travel_m", &SliderJoint::travelMetres, positionBounds, Need::optional);
     v.field("motor_m_per_s", &SliderJoint::motorMetresPerSecond, speedBounds, Need::optional);
     v.field("max_force_n", &SliderJoint::maxForceNewtons, upTo(sceneLimits::maxForceNewtons), Need::optional);
@@ -170,7 +170,7 @@ void visitFields(auto& v, FieldsOf<TiltAction>) {
 }
 void visitFields(auto& v, FieldsOf<ImpulseAction>) {
     v.field("body", &ImpulseAction::body, anyText);
-    v.field("impulse_ns", &ImpulseAction::impulseNewtonSeconds, within(sceneLimits::maxImpulseNewtonSeconds));
+    v.field("impulse_ns", &ImpulseAction::impulseNewtonSeconds, absMax(sceneLimits::maxImpulseNewtonSeconds));
     v.field("point_m", &ImpulseAction::pointMetres, positionBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<VelocityAction>) {

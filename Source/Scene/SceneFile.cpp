@@ -32,7 +32,7 @@ struct Variable {
     std::vector<Choice> choices;
 };
 
-std::size_t checkedSize(const JsonField& list, std::size_t max) {
+std::size_t checkSize(const JsonField& list, std::size_t max) {
     const std::size_t size = list.arraySize();
     if (size < 1 || size > max)
         list.fail("expected 1 to " + std::to_string(max) + " items, found " + std::to_string(size));
@@ -49,7 +49,7 @@ Variable readVariable(const JsonField& json, const Json& value) {
     json.expectObject({"name", "default", "choices"});
     Variable variable{{json["name"].text(), json["default"].text(), {}}, {}};
     const JsonField list = json["choices"];
-    for (std::size_t i = 0, size = checkedSize(list, limits::maxChoices); i < size; ++i) {
+    for (std::size_t i = 0, size = checkSize(list, limits::maxChoices); i < size; ++i) {
         variable.choices.push_back(readChoice(list.item(i), value["choices"][i]));
         variable.description.choices.push_back(variable.choices.back().value);
     }
@@ -58,7 +58,7 @@ Variable readVariable(const JsonField& json, const Json& value) {
 
 std::vector<Variable> readVariables(const JsonField& json, const Json& list) {
     std::vector<Variable> variables;
-    for (std::size_t i = 0, size = checkedSize(json, limits::maxVariables); i < size; ++i)
+    for (std::size_t i = 0, size = checkSize(json, limits::maxVariables); i < size; ++i)
         variables.push_back(readVariable(json.item(i), list[i]));
     return variables;
 }
@@ -72,7 +72,7 @@ void applySettings(std::vector<Variable>& variables, const SceneSettings& settin
             for (const Variable& v : variables) names.push_back(v.description.name);
             throw JsonError(
                 {}, "no variable " + inQuotes(name) +
-                        (names.empty() ? ", the scene has none" : ", expected one of " + listed(names)));
+                        (names.empty() ? ", the scene has none" : ", expected one of " + nameList(names)));
         }
         variable->description.value = value;
     }
@@ -82,12 +82,12 @@ const Choice& selectedChoice(const Variable& variable) {
     const auto& [name, value, choices] = variable.description;
     const auto found = std::ranges::find(choices, value);
     if (found == choices.end())
-        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + listed(choices) +
+        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + nameList(choices) +
                                 ", found " + inQuotes(value));
     return variable.choices[static_cast<std::size_t>(found - choices.begin())];
 }
 
-Json::json_pointer checkedPointer(const Json& root, const std::string& text, const std::string& path) {
+Json::json_pointer checkPointer(const Json& root, const std::string& text, const std::string& path) {
     try {
         const Json::json_pointer pointer(text);
         if (!pointer.empty() && root.contains(pointer)) return pointer;
@@ -98,7 +98,7 @@ Json::json_pointer checkedPointer(const Json& root, const std::string& text, con
 
 void applyChoice(Json& root, const Choice& choice) {
     for (const auto& item : choice.replacements->items())
-        root[checkedPointer(root, item.key(), choice.path)] = item.value();
+        root[checkPointer(root, item.key(), choice.path)] = item.value();
 }
 
 /// Removes "variables" from `root`, and applies the replacements ("set") of the chosen values:
@@ -114,8 +114,7 @@ std::vector<SceneVariable> applyVariables(Json& root, const SceneSettings& setti
     std::vector<SceneVariable> description;
     for (const Variable& variable : variables) {
         for (const Choice& choice : variable.choices) // choices that are not set are checked, too
-            for (const auto& item : choice.replacements->items())
-                checkedPointer(root, item.key(), choice.path);
+            for (const auto& item : choice.replacements->items()) checkPointer(root, item.key(), choice.path);
         applyChoice(root, selectedChoice(variable));
         description.push_back(variable.description);
     }
@@ -144,7 +143,7 @@ Result<Scene> readScene(std::string_view text, std::string_view name, const Scen
 std::string sceneJson(const Scene& scene) {
     OrderedJson root = {{sceneVersionField, sceneFormatVersion}};
     root.update(detail::fieldsJson(scene, scene.materials));
-    return jsonLines(root);
+    return prettyJson(root);
 }
 
 Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
@@ -183,7 +182,7 @@ constexpr std::array<std::pair<std::string_view, FileKind>, 4> kindFields{
 
 FileKind fileKind(const std::filesystem::path& path) {
     std::string head(headBytes, '\0');
-    if (const auto file = openRegular(path, std::numeric_limits<std::size_t>::max()))
+    if (const auto file = openRegularFile(path, std::numeric_limits<std::size_t>::max()))
         head.resize(std::fread(head.data(), 1, head.size(), file.value.stream.get()));
     for (const auto& [field, kind] : kindFields)
         if (head.find(field) != std::string::npos) return kind;

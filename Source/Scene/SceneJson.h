@@ -149,7 +149,7 @@ private:
 
 template <class T>
 void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials) {
-    if (std::is_same_v<T, Normalisation> && json.isString("auto")) return; // all members stay nullopt
+    if (std::is_same_v<T, Normalisation> && json.equals("auto")) return; // all members stay nullopt
     FieldReader<T> reader(json, out, materials);
     visitFields(reader, FieldsOf<T>{});
     reader.finish();

@@ -29,7 +29,7 @@ std::string countError(const std::string& what, std::size_t max, std::size_t fou
     return what + ": expected at most " + std::to_string(max) + " in all, found " + std::to_string(found);
 }
 
-std::size_t chainEdgesOf(const BodyDescription& body) {
+std::size_t countChainEdges(const BodyDescription& body) {
     std::size_t edges = 0;
     for (const FixtureDescription& fixture : body.fixtures)
         if (const auto* chain = std::get_if<ChainShape>(&fixture.shape))
@@ -42,12 +42,12 @@ struct Totals {
     void add(const BodyDescription& body, std::size_t times = 1) {
         bodies += times;
         fixtures += times * body.fixtures.size();
-        edges += times * chainEdgesOf(body);
+        edges += times * countChainEdges(body);
     }
     void remove(const BodyDescription& body) {
         bodies -= 1;
         fixtures -= body.fixtures.size();
-        edges -= chainEdgesOf(body);
+        edges -= countChainEdges(body);
     }
     std::string error() const {
         for (std::string error :
@@ -114,20 +114,20 @@ std::string checkOutline(const BoxShape&) { return {}; }
 
 // Box2D computes the inertia about the origin and subtracts the part due to the centre's distance, in single
 // precision: for a small shape far from the origin the result would be 0.
-std::string checkCentre(const BodyWithPath& placed, const Scene& scene) {
+std::string checkCentre(const BodyWithPath& entry, const Scene& scene) {
     constexpr double farthestRadii = 100.0;
-    if (placed.body->type != BodyType::dynamicBody) return {};
-    const BodyMoments moments = bodyMoments(*placed.body, scene);
+    if (entry.body->type != BodyType::dynamicBody) return {};
+    const BodyMoments moments = bodyMoments(*entry.body, scene);
     const double radius = std::sqrt(moments.inertiaKgSquareMetres / moments.massKg);
     const double distance = portable::hypot(moments.centreMetres.x, moments.centreMetres.y);
     if (distance <= farthestRadii * radius) return {};
-    return placed.path + ".fixtures: expected a centre of mass nearer to the body's origin";
+    return entry.path + ".fixtures: expected a centre of mass nearer to the body's origin";
 }
 
-std::string checkBody(const BodyWithPath& placed) {
-    const BodyDescription& body = *placed.body;
+std::string checkBody(const BodyWithPath& entry) {
+    const BodyDescription& body = *entry.body;
     for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
-        const std::string path = itemPath(placed.path + ".fixtures", i);
+        const std::string path = itemPath(entry.path + ".fixtures", i);
         const Shape& shape = body.fixtures[i].shape;
         const std::string error = std::visit([](const auto& s) { return checkOutline(s); }, shape);
         if (!error.empty()) return path + ".vertices_m: " + error;
@@ -294,14 +294,14 @@ public:
     }
 
     /// Checks every repetition, because each has its own name in camera and material actions.
-    std::string check(const BodyWithPath& placed) {
-        const SpawnAction spawn{*placed.body, {}};
-        if (placed.isLive) count(placed.body->name);
-        for (int k = 0; k < placed.times; ++k) {
-            const BodyDescription body = spawnedBody(spawn, k, placed.times);
+    std::string check(const BodyWithPath& entry) {
+        const SpawnAction spawn{*entry.body, {}};
+        if (entry.isLive) count(entry.body->name);
+        for (int k = 0; k < entry.times; ++k) {
+            const BodyDescription body = spawnedBody(spawn, k, entry.times);
             for (int i = 0; i < static_cast<int>(body.fixtures.size()); ++i)
                 if (mayBeSource(body, i))
-                    if (auto error = checkSource(body, i, placed.path); !error.empty()) return error;
+                    if (auto error = checkSource(body, i, entry.path); !error.empty()) return error;
         }
         return {};
     }
@@ -314,7 +314,7 @@ private:
         auto operator<=>(const NamedBody&) const = default;
     };
     void count(std::string_view name) { ++nameCounts_[name]; }
-    NamedBody latestOf(std::string_view name) const {
+    NamedBody latestBody(std::string_view name) const {
         const auto found = nameCounts_.find(name);
         return {name, found == nameCounts_.end() ? 1 : found->second};
     }
@@ -322,9 +322,9 @@ private:
     void noteAction(const Action& action) {
         if (const BodyDescription* body = bodyAddedBy(action)) count(body->name);
         if (const auto* camera = std::get_if<CameraAction>(&action))
-            if (camera->isOn) enabledSources_.emplace(latestOf(camera->body), camera->fixture);
+            if (camera->isOn) enabledSources_.emplace(latestBody(camera->body), camera->fixture);
         if (const auto* change = std::get_if<MaterialAction>(&action))
-            changes_[latestOf(change->body)].push_back(change);
+            changes_[latestBody(change->body)].push_back(change);
     }
 
     static const FixtureDescription& fixtureOf(const BodyDescription& body, int index) {
@@ -338,8 +338,8 @@ private:
 
     bool mayBeSource(const BodyDescription& body, int fixture) const {
         return fixtureOf(body, fixture).isCamera ||
-               enabledSources_.contains({latestOf(body.name), everyFixture}) ||
-               enabledSources_.contains({latestOf(body.name), fixture});
+               enabledSources_.contains({latestBody(body.name), everyFixture}) ||
+               enabledSources_.contains({latestBody(body.name), fixture});
     }
 
     std::string checkSource(const BodyDescription& body, int index, const std::string& path) const {
@@ -356,7 +356,7 @@ private:
 
     bool mayBeSilent(const BodyDescription& body, int index) const {
         if (isSilent(fixtureOf(body, index).material)) return true;
-        const auto changes = changes_.find(latestOf(body.name));
+        const auto changes = changes_.find(latestBody(body.name));
         if (changes == changes_.end()) return false;
         return std::ranges::any_of(changes->second, [&](const MaterialAction* change) {
             const bool concernsFixture = change->fixture == everyFixture || change->fixture == index;
@@ -383,8 +383,8 @@ private:
 /// voice may play: the first error, or empty. References must be valid.
 std::string checkSources(const Scene& scene) {
     SourceCheck sourceCheck(scene);
-    for (const BodyWithPath& placed : bodiesWithPaths(scene))
-        if (std::string error = sourceCheck.check(placed); !error.empty()) return error;
+    for (const BodyWithPath& entry : bodiesWithPaths(scene))
+        if (std::string error = sourceCheck.check(entry); !error.empty()) return error;
     return {};
 }
 
@@ -392,12 +392,12 @@ std::string checkSources(const Scene& scene) {
 
 std::string validate(const Scene& scene) {
     if (std::string error = checkRanges(scene); !error.empty()) return error;
-    const auto placed = bodiesWithPaths(scene);
+    const auto entries = bodiesWithPaths(scene);
     if (std::string error = checkTotals(scene); !error.empty()) return error;
     for (std::string error : {checkMaterialNames(scene.materials), checkUnique("bodies", scene.bodies),
                               checkUnique("joints", scene.joints)})
         if (!error.empty()) return error;
-    for (const BodyWithPath& body : placed)
+    for (const BodyWithPath& body : entries)
         for (std::string error : {checkBody(body), checkCentre(body, scene)})
             if (!error.empty()) return error;
     if (std::string error = References(scene).check(); !error.empty()) return error;
@@ -406,11 +406,10 @@ std::string validate(const Scene& scene) {
 
 std::vector<std::string> sceneWarnings(const Scene& scene) {
     std::vector<std::string> warnings;
-    for (const BodyWithPath& placed : bodiesWithPaths(scene)) {
-        if (placed.body->type != BodyType::dynamicBody) continue;
-        for (std::size_t i = 0; i < placed.body->fixtures.size(); ++i) {
-            auto warning =
-                sizeWarning(itemPath(placed.path + ".fixtures", i), placed.body->fixtures[i].shape);
+    for (const BodyWithPath& entry : bodiesWithPaths(scene)) {
+        if (entry.body->type != BodyType::dynamicBody) continue;
+        for (std::size_t i = 0; i < entry.body->fixtures.size(); ++i) {
+            auto warning = sizeWarning(itemPath(entry.path + ".fixtures", i), entry.body->fixtures[i].shape);
             if (!warning.empty()) warnings.push_back(std::move(warning));
         }
     }

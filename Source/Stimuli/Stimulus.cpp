@@ -9,13 +9,13 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) noexcept { return std::llround(seconds * 1e9); }
 
-CollisionEvent burstEvent(double fromSeconds, double seconds, const ActuatorPlace& at,
+CollisionEvent burstEvent(double fromSeconds, double seconds, const ActuatorPlace& point,
                           const Carrier& carrier) noexcept {
     return {.timeNs = nanoseconds(fromSeconds),
             .frequencyHz = carrier.frequencyHz,
             .amplitude = carrier.levelG,
-            .x = at.xMetres,
-            .y = at.yMetres,
+            .x = point.xMetres,
+            .y = point.yMetres,
             .durationNs = nanoseconds(seconds),
             .source = {}};
 }
@@ -59,8 +59,9 @@ Stimulus patternStimulus(const PulsePattern& pattern, int actuatorCount, const C
 
 Stimulus phantomStimulus(const FieldPlace& place, const ActuatorLayout& layout, PanningLaw law,
                          double exponent, const Carrier& carrier, double seconds) {
-    const ActuatorPlace at{place.x * layout.extentWidthMetres, (1.0 - place.y) * layout.extentHeightMetres};
-    return {{burstEvent(0.0, seconds, at, carrier)}, makePanner(layout, law, exponent), seconds};
+    const ActuatorPlace point{place.x * layout.extentWidthMetres,
+                              (1.0 - place.y) * layout.extentHeightMetres};
+    return {{burstEvent(0.0, seconds, point, carrier)}, makePanner(layout, law, exponent), seconds};
 }
 
 } // namespace physvib

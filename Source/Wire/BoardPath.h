@@ -25,11 +25,11 @@ class PathGains {
 public:
     using Gains = std::array<double, limits::board::channels>;
 
-    PathGains(const CollisionEvent& moving, std::int64_t lifeNs, int sampleRateHz) noexcept
-        : moving_{moving}
+    PathGains(const CollisionEvent& event, std::int64_t lifeNs, int sampleRateHz) noexcept
+        : event_{event}
         , rate_{static_cast<double>(sampleRateHz)}
-        , onset_{FrameClock{sampleRateHz}.at(moving.timeNs)}
-        , endFrame_{FrameClock{sampleRateHz}.at(moving.timeNs + lifeNs).frame - onset_.frame} {}
+        , onset_{FrameClock{sampleRateHz}.at(event.timeNs)}
+        , endFrame_{FrameClock{sampleRateHz}.at(event.timeNs + lifeNs).frame - onset_.frame} {}
 
     /// `seconds` after the onset. `gainsAt(event)` returns the panner's Gains.
     template <class GainsAt>
@@ -37,39 +37,39 @@ public:
         constexpr std::int64_t tile = limits::tileFrames;
         // frames here count from the onset's frame
         const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames);
-        const std::int64_t before = onset_.frame % tile;
-        const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;
-        enter(std::max<std::int64_t>(first, 0), std::min(first + tile, endFrame_), gainsAt);
+        const std::int64_t offset = onset_.frame % tile;
+        const std::int64_t first = (static_cast<std::int64_t>(frame) + offset) / tile * tile - offset;
+        enterTile(std::max<std::int64_t>(first, 0), std::min(first + tile, endFrame_), gainsAt);
         const double share =
-            to_ > from_ ? (frame - static_cast<double>(from_)) / static_cast<double>(to_ - from_) : 0.0;
+            end_ > start_ ? (frame - static_cast<double>(start_)) / static_cast<double>(end_ - start_) : 0.0;
         Gains gains;
         for (std::size_t j = 0; j < gains.size(); ++j)
-            gains[j] = std::lerp(fromGains_[j], toGains_[j], share);
+            gains[j] = std::lerp(startGains_[j], endGains_[j], share);
         return gains;
     }
 
 private:
     template <class GainsAt>
-    void enter(std::int64_t from, std::int64_t to, GainsAt& gainsAt) noexcept {
-        if (from == from_) return;
-        from_ = from, to_ = to;
-        fromGains_ = gainsAtFrame(from, gainsAt);
-        toGains_ = gainsAtFrame(to, gainsAt);
+    void enterTile(std::int64_t start, std::int64_t end, GainsAt& gainsAt) noexcept {
+        if (start == start_) return;
+        start_ = start, end_ = end;
+        startGains_ = gainsAtFrame(start, gainsAt);
+        endGains_ = gainsAtFrame(end, gainsAt);
     }
 
     template <class GainsAt>
     Gains gainsAtFrame(std::int64_t frame, GainsAt& gainsAt) const noexcept {
         const double ageNs = (static_cast<double>(frame) + onset_.leadFrames) / rate_ * 1e9;
-        const double share = std::min(1.0, ageNs / static_cast<double>(moving_.course.travelNs));
-        return gainsAt(movedAlong(moving_, share));
+        const double share = std::min(1.0, ageNs / static_cast<double>(event_.course.travelNs));
+        return gainsAt(movedAlong(event_, share));
     }
 
-    CollisionEvent moving_;
+    CollisionEvent event_;
     double rate_;
     FramePosition onset_;
     std::int64_t endFrame_;
-    std::int64_t from_ = -1, to_ = 0; // of the current tile
-    Gains fromGains_{}, toGains_{};
+    std::int64_t start_ = -1, end_ = 0; // of the current tile
+    Gains startGains_{}, endGains_{};
 };
 
 /// Estimated position of an event's time on the board's frames.
@@ -99,16 +99,16 @@ public:
                                                    ///< its proper time instead of the last one's end
 
     /// For a session that is rendered at `sampleRateHz`.
-    BoardPath(const CollisionEvent& moving, int sampleRateHz) noexcept
-        : moving_{moving}
-        , lifeNs_{boardLifetimeNs(moving)}
-        , gains_{moving, lifeNs_, sampleRateHz} {}
+    BoardPath(const CollisionEvent& event, int sampleRateHz) noexcept
+        : event_{event}
+        , lifeNs_{boardLifetimeNs(event)}
+        , gains_{event, lifeNs_, sampleRateHz} {}
 
     bool isOver() const noexcept { return nextNs_ >= lifeNs_; }
-    std::int64_t onsetNs() const noexcept { return moving_.timeNs; }
-    std::int64_t endNs() const noexcept { return moving_.timeNs + lifeNs_; }
+    std::int64_t onsetNs() const noexcept { return event_.timeNs; }
+    std::int64_t endNs() const noexcept { return event_.timeNs + lifeNs_; }
     /// Session time at which the next segment begins.
-    std::int64_t nextNs() const noexcept { return moving_.timeNs + nextNs_; }
+    std::int64_t nextNs() const noexcept { return event_.timeNs + nextNs_; }
 
     /// The next segment; nullopt if the tone is over. `gainsAt(event)` returns the panner's Gains.
     /// isHurried: at least minHurriedFrames long, to save line time, even if the line is then less accurate.
@@ -124,21 +124,21 @@ public:
         const int available = static_cast<int>(std::min<std::int64_t>(remaining, maxFrames));
         for (int k = 0; k < available; ++k) samples_[at(k)] = gains_.at(time.secondsAt(begin + k), gainsAt);
         const double toneSeconds =
-            time.secondsAt(begin) + static_cast<double>(moving_.course.toneAgeNs) * 1e-9;
-        const double level = amplitudeAfter(moving_, toneSeconds);
+            time.secondsAt(begin) + static_cast<double>(event_.course.toneAgeNs) * 1e-9;
+        const double level = amplitudeAfter(event_, toneSeconds);
         const int exact = longestChord(available, std::abs(level)),
                   frames = isHurried ? std::max(exact, std::min(available, minHurriedFrames)) : exact;
         isCoarse_ = frames > exact;
-        const double turns = moving_.frequencyHz * toneSeconds;
+        const double turns = event_.frequencyHz * toneSeconds;
         const std::uint32_t phase =
             isJoined_ ? joint_.phase : static_cast<std::uint32_t>(phaseAfter(turns) >> 32);
         const double errorTurns =
             std::clamp(std::remainder(turns - phase * turnUnit, 1.0), -maxSlipTurns, maxSlipTurns);
-        BoardSegment segment = chord(frames, level);
+        BoardSegment segment = makeSegment(frames, level);
         segment.frame = static_cast<std::uint32_t>(begin);
         segment.phase16 = static_cast<std::uint16_t>((phase + 0x8000u) >> 16);
         segment.turn = static_cast<std::uint32_t>(
-            std::llround((moving_.frequencyHz / time.framesPerSecond + errorTurns / frames) / turnUnit));
+            std::llround((event_.frequencyHz / time.framesPerSecond + errorTurns / frames) / turnUnit));
         nextJoint_ = {begin + frames, phase + segment.turn * segment.frames,
                       static_cast<std::int64_t>(time.secondsAt(begin + frames) * 1e9)};
         return segment;
@@ -157,8 +157,8 @@ public:
     /// Before the first segment: continues where `before` has ended, if both are parts of one tone.
     void continueFrom(const BoardPath& before) noexcept {
         const bool isContinuation =
-            before.endNs() == onsetNs() && before.moving_.frequencyHz == moving_.frequencyHz &&
-            before.moving_.course.toneAgeNs + before.lifeNs_ == moving_.course.toneAgeNs;
+            before.endNs() == onsetNs() && before.event_.frequencyHz == event_.frequencyHz &&
+            before.event_.course.toneAgeNs + before.lifeNs_ == event_.course.toneAgeNs;
         if (hasBegun_ || !isContinuation || !before.isOver() || !before.isJoined_) return;
         joint_ = {before.joint_.frame, before.joint_.phase, 0};
         isJoined_ = true;
@@ -180,10 +180,10 @@ private:
     };
     static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-    BoardSegment chord(int frames, double level) const noexcept {
+    BoardSegment makeSegment(int frames, double level) const noexcept {
         BoardSegment segment;
         segment.frames = static_cast<std::uint16_t>(frames);
-        segment.decay16 = boardDecay16(moving_.decayPerSecond);
+        segment.decay16 = boardDecay16(event_.decayPerSecond);
         for (std::size_t j = 0; j < segment.start.size(); ++j) {
             segment.start[j] = boardAmplitude(level * samples_[0][j]);
             segment.end[j] = boardAmplitude(level * samples_[at(frames - 1)][j]);
@@ -210,7 +210,7 @@ private:
         return true;
     }
 
-    CollisionEvent moving_;
+    CollisionEvent event_;
     std::int64_t lifeNs_, nextNs_ = 0; // nextNs_: since the onset
     PathGains gains_;
     bool hasBegun_ = false, isCoarse_ = false;
@@ -227,23 +227,23 @@ class BoardSteps {
 public:
     static constexpr int minMs = 20, maxMs = 60; ///< fewer than 50 per second, of 720 on the line
 
-    explicit BoardSteps(const CollisionEvent& moving) noexcept
-        : moving_{moving}
-        , stepNs_{lengthMs(moving.frequencyHz) * 1'000'000LL}
-        , endNs_{boardLifetimeNs(moving)} {}
+    explicit BoardSteps(const CollisionEvent& event) noexcept
+        : event_{event}
+        , stepNs_{lengthMs(event.frequencyHz) * 1'000'000LL}
+        , endNs_{boardLifetimeNs(event)} {}
 
     bool isOver() const noexcept { return doneNs_ >= endNs_; }
-    std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
+    std::int64_t nextNs() const noexcept { return event_.timeNs + doneNs_; }
 
     /// The next event, at the place where the tone is in the middle of it. Not if isOver().
     CollisionEvent next() noexcept {
         const std::int64_t lengthNs = std::min(stepNs_, endNs_ - doneNs_);
         const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(lengthNs);
         CollisionEvent step =
-            movedAlong(moving_, std::min(1.0, middle / static_cast<double>(moving_.course.travelNs)));
+            movedAlong(event_, std::min(1.0, middle / static_cast<double>(event_.course.travelNs)));
         step.timeNs = nextNs();
         step.durationNs = lengthNs;
-        step.course = {.toneAgeNs = moving_.course.toneAgeNs + doneNs_};
+        step.course = {.toneAgeNs = event_.course.toneAgeNs + doneNs_};
         doneNs_ += step.durationNs;
         return step;
     }
@@ -258,7 +258,7 @@ public:
     }
 
 private:
-    CollisionEvent moving_;
+    CollisionEvent event_;
     std::int64_t stepNs_, endNs_, doneNs_ = 0;
 };
 

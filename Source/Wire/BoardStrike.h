@@ -35,45 +35,45 @@ inline std::int16_t boardAmplitude(double amplitude) noexcept {
 }
 
 /// Amplitude of a tone after `seconds`, for events that continue one.
-inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept {
-    return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude;
+inline double amplitudeAfter(const CollisionEvent& event, double seconds) noexcept {
+    return seconds > 0.0 ? event.amplitude * shareLeft(event.decayPerSecond, seconds) : event.amplitude;
 }
 
 /// How long an event lasts, ns: to its end, or until it has decayed by limits::retireDecibels.
-inline std::int64_t boardLifetimeNs(const CollisionEvent& e) noexcept {
-    const auto end = static_cast<double>(e.durationNs > 0 ? e.durationNs : limits::maxTimeNs);
+inline std::int64_t boardLifetimeNs(const CollisionEvent& event) noexcept {
+    const auto end = static_cast<double>(event.durationNs > 0 ? event.durationNs : limits::maxTimeNs);
     constexpr double nepers = limits::retireDecibels / (20.0 * std::numbers::log10e);
-    return static_cast<std::int64_t>(e.decayPerSecond > 0.0 ? std::min(end, nepers / e.decayPerSecond * 1e9)
-                                                            : end);
+    return static_cast<std::int64_t>(
+        event.decayPerSecond > 0.0 ? std::min(end, nepers / event.decayPerSecond * 1e9) : end);
 }
 
 /// The longest duration that a strike can have on the link.
 constexpr std::int64_t longestStrikeNs = 65'535'000'000;
 
 /// True if one strike would end before the event does.
-inline bool outlastsStrike(const CollisionEvent& e) noexcept {
-    return e.durationNs > longestStrikeNs && boardLifetimeNs(e) > longestStrikeNs;
+inline bool outlastsStrike(const CollisionEvent& event) noexcept {
+    return event.durationNs > longestStrikeNs && boardLifetimeNs(event) > longestStrikeNs;
 }
 
 /// Rounded to the link's units; amplitudes are clamped to 8 times full scale. `gains`: the panner's, one per
 /// board channel. If the board cannot play the frequency, isPlayable refuses the result. An event that
 /// continues a tone has the tone's amplitude by then, but starts at phase 0. One that outlastsStrike is cut.
 /// Any thread.
-inline BoardEvent boardEventOf(const CollisionEvent& e,
+inline BoardEvent toBoardEvent(const CollisionEvent& event,
                                const std::array<double, limits::board::channels>& gains) noexcept {
     const auto rounded = [](double value, double low, double high) {
         return std::clamp(std::nearbyint(value), low, high);
     };
-    BoardEvent b;
-    b.frequency16 =
-        static_cast<std::uint16_t>(rounded(e.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
-    b.decay16 = boardDecay16(e.decayPerSecond);
-    if (e.durationNs > 0)
-        b.durationMs =
-            static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
-    const double amplitude = amplitudeAfter(e, static_cast<double>(e.course.toneAgeNs) * 1e-9);
-    for (std::size_t j = 0; j < gains.size(); ++j) b.amplitudes[j] = boardAmplitude(amplitude * gains[j]);
-    return b;
+    BoardEvent board;
+    board.frequency16 =
+        static_cast<std::uint16_t>(rounded(event.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
+    board.decay16 = boardDecay16(event.decayPerSecond);
+    if (event.durationNs > 0)
+        board.durationMs =
+            static_cast<std::uint16_t>(rounded(static_cast<double>(event.durationNs) * 1e-6, 1.0, 65535.0));
+    const double amplitude = amplitudeAfter(event, static_cast<double>(event.course.toneAgeNs) * 1e-9);
+    for (std::size_t j = 0; j < gains.size(); ++j) board.amplitudes[j] = boardAmplitude(amplitude * gains[j]);
+    return board;
 }
 
 /// Timing of the line at present.
@@ -100,12 +100,12 @@ public:
             if (strike.peak() <= weakest->peak()) return void(++thinned_);
             thin(weakest);
         }
-        const auto filled = strikes_.begin() + size_;
-        const auto after =
-            std::upper_bound(strikes_.begin(), filled, strike,
+        const auto oldEnd = strikes_.begin() + size_;
+        const auto position =
+            std::upper_bound(strikes_.begin(), oldEnd, strike,
                              [](const auto& a, const auto& b) { return a.onsetNs < b.onsetNs; });
-        std::copy_backward(after, filled, filled + 1);
-        *after = strike;
+        std::copy_backward(position, oldEnd, oldEnd + 1);
+        *position = strike;
         ++size_;
     }
 

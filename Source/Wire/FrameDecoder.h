@@ -24,8 +24,8 @@ public:
         return size == 0 ? std::span<const std::uint8_t>{} : check(size);
     }
 
-    std::uint32_t goodFrames() const noexcept { return good_; } ///< valid frames so far
-    std::uint32_t badFrames() const noexcept { return bad_; }   ///< invalid frames so far
+    std::uint32_t goodFrames() const noexcept { return goodFrames_; } ///< valid frames so far
+    std::uint32_t badFrames() const noexcept { return badFrames_; }   ///< invalid frames so far
 
 private:
     constexpr std::span<const std::uint8_t> check(std::size_t size) noexcept {
@@ -33,18 +33,18 @@ private:
         if (length >= 3) {
             const auto n = static_cast<std::size_t>(length) - 2;
             if (crc16({payload_.data(), n}) == (payload_[n] | payload_[n + 1] << 8)) {
-                ++good_;
+                ++goodFrames_;
                 return {payload_.data(), n};
             }
         }
-        ++bad_;
+        ++badFrames_;
         return {};
     }
 
     std::array<std::uint8_t, maxFrame - 1> frame_{};
     std::array<std::uint8_t, maxPayload> payload_{};
     std::size_t size_ = 0;
-    std::uint32_t good_ = 0, bad_ = 0;
+    std::uint32_t goodFrames_ = 0, badFrames_ = 0;
 };
 
 /// Detects repeated events of one connection, so that the board plays none twice. One thread.
@@ -55,14 +55,14 @@ public:
 
     /// False if the event was received before. `frame`: its onset; `now`: the frame that is rendered next.
     bool isNew(std::uint8_t sequence, std::uint32_t frame, std::uint32_t now) noexcept {
-        if (after(frame, now) < -maxLateFrames) return false; // sequence numbers may have wrapped
-        const auto gap = static_cast<std::uint8_t>(sequence - last_);
+        if (difference(frame, now) < -maxLateFrames) return false; // sequence numbers may have wrapped
+        const auto gap = static_cast<std::uint8_t>(sequence - lastSequence_);
         const bool isBehind = gap == 0 || gap >= 128; // or over 127 were lost, but then its onset is later
                                                       // than all so far
-        if (isBehind && hasNewest_ && after(frame, newest_) <= 0) return false;
+        if (isBehind && hasNewest_ && difference(frame, newestFrame_) <= 0) return false;
         lost_ += static_cast<std::uint8_t>(gap - 1);
-        last_ = sequence;
-        if (!hasNewest_ || after(frame, newest_) > 0) newest_ = frame;
+        lastSequence_ = sequence;
+        if (!hasNewest_ || difference(frame, newestFrame_) > 0) newestFrame_ = frame;
         hasNewest_ = true;
         return true;
     }
@@ -70,11 +70,11 @@ public:
     std::uint32_t lost() const noexcept { return lost_; } ///< gaps in the sequence
 
 private:
-    static constexpr std::int32_t after(std::uint32_t a, std::uint32_t b) noexcept {
+    static constexpr std::int32_t difference(std::uint32_t a, std::uint32_t b) noexcept {
         return static_cast<std::int32_t>(a - b);
     }
-    std::uint32_t lost_ = 0, newest_ = 0;
-    std::uint8_t last_ = 0xFF;
+    std::uint32_t lost_ = 0, newestFrame_ = 0;
+    std::uint8_t lastSequence_ = 0xFF;
     bool hasNewest_ = false;
 };
 

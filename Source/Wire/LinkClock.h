@@ -29,8 +29,8 @@ public:
 
     /// Extends the board's 32-bit frame counter, which wraps after 6.2 days. For the next `add`.
     double unwrappedFrame(std::uint32_t frame, std::uint8_t fraction) const noexcept {
-        const auto sinceLast = static_cast<std::int32_t>(frame - static_cast<std::uint32_t>(last_));
-        return static_cast<double>(isEmpty() ? frame : last_ + sinceLast) + fraction / 256.0;
+        const auto sinceLast = static_cast<std::int32_t>(frame - static_cast<std::uint32_t>(lastFrame_));
+        return static_cast<double>(isEmpty() ? frame : lastFrame_ + sinceLast) + fraction / 256.0;
     }
 
     /// A ping sent at `sentNs`, answered with the board's clock `boardFrames`, received at `receivedNs`.
@@ -38,7 +38,7 @@ public:
         if (count_ == 0) origin_ = {sentNs, boardFrames};
         points_[static_cast<std::size_t>(next_)] = {seconds(sentNs), (boardFrames - origin_.frames) / rate,
                                                     seconds(receivedNs)};
-        last_ = static_cast<std::int64_t>(boardFrames);
+        lastFrame_ = static_cast<std::int64_t>(boardFrames);
         next_ = (next_ + 1) % window;
         count_ = std::min(count_ + 1, window);
         estimate();
@@ -106,7 +106,7 @@ private:
     };
     Origin origin_;
     std::array<Point, static_cast<std::size_t>(window)> points_{};
-    std::int64_t last_ = 0; // frame of the newest ping
+    std::int64_t lastFrame_ = 0; // frame of the newest ping
     int count_ = 0, next_ = 0;
     double offset_ = 0.0, drift_ = 0.0;
 };

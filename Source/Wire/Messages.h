@@ -202,19 +202,19 @@ public:
     template <std::integral T>
     constexpr void operator()(T& value) {
         std::make_unsigned_t<T> bits = 0;
-        for (std::size_t i = 0; i < sizeof(T); ++i, ++at_)
-            if (at_ < in_.size())
+        for (std::size_t i = 0; i < sizeof(T); ++i, ++position_)
+            if (position_ < in_.size())
                 bits = static_cast<std::make_unsigned_t<T>>(
-                    bits | static_cast<std::make_unsigned_t<T>>(in_[at_]) << (8 * i));
+                    bits | static_cast<std::make_unsigned_t<T>>(in_[position_]) << (8 * i));
         value = static_cast<T>(bits);
     }
     constexpr bool isComplete(std::size_t allowedMissing = 0) const {
-        return at_ <= in_.size() + allowedMissing;
+        return position_ <= in_.size() + allowedMissing;
     }
 
 private:
     std::span<const std::uint8_t> in_;
-    std::size_t at_ = 0;
+    std::size_t position_ = 0;
 };
 
 /// Encodes the message for the line, with its final zero; returns the length. `out`: of maxFrame. Any thread.
@@ -254,7 +254,7 @@ constexpr bool fitsCompact(const BoardEvent& e) noexcept {
            });
 }
 
-constexpr CompactStrike compact(const Strike& strike) noexcept {
+constexpr CompactStrike toCompact(const Strike& strike) noexcept {
     const BoardEvent& e = strike.event;
     CompactStrike c{strike.sequence, static_cast<std::uint16_t>(e.frame), e.frequency16, e.decay16, {}};
     for (std::size_t j = 0; j < e.amplitudes.size(); ++j)

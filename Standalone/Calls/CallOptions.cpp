@@ -23,13 +23,12 @@ static_assert(defaultContactSoundDb == defaultContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene,
-                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP" + listed(clipEndings) +
+                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP" + nameList(clipEndings) +
                     ", or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
     addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
-    command.add("--layout", o.layout,
-                listedByNumber(layoutPresetNames) + ", study1, dualsense or a layout file");
+    command.add("--layout", o.layout, rangeList(layoutPresetNames) + ", study1, dualsense or a layout file");
     addField(command, o.field);
     addLaw(command, o.law);
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
@@ -141,10 +140,10 @@ Option& addLaw(OptionTable& command, PanningLaw& law) {
     const auto read = [&law](const std::string& word) {
         return panningLawNamed(word, law)
                    ? std::string{}
-                   : "expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(word);
+                   : "expected " + nameList(panningLawNames, " or ") + ", found " + inQuotes(word);
     };
     return command.addRead(stimulusOptions::law, std::string{nameOf(law)}, read,
-                           "panning law: " + listed(panningLawNames));
+                           "panning law: " + nameList(panningLawNames));
 }
 
 Option& addSounds(OptionTable& command, RecordedSounds& sounds, std::string helpText) {
@@ -208,7 +207,7 @@ Option& addMethod(OptionTable& command, RenderJob& job) {
 
 namespace {
 
-namespace words = stimulusOptions;
+namespace names = stimulusOptions;
 namespace ranges = parameterRanges;
 
 bool parsePair(const std::string& text, char separator, double& first, double& second) {
@@ -222,7 +221,7 @@ bool parsePair(const std::string& text, char separator, double& first, double& s
 }
 
 /// The place in "0.25,0.5"; for invalid text a place outside the field, which jobError() refuses.
-FieldPlace placeAt(const std::string& text) {
+FieldPlace parsePlace(const std::string& text) {
     FieldPlace place;
     return parsePair(text, ',', place.x, place.y) ? place : FieldPlace{-1.0, -1.0};
 }
@@ -240,29 +239,29 @@ GridPlace gridPlace(const StimulusOptions& o) {
 }
 
 /// The call's text for the option named `word`.
-const std::string& argumentOf(const StimulusOptions& o, std::string_view word) {
-    return word == words::at          ? o.place
-           : word == words::grid      ? o.grid
-           : word == words::cell      ? o.cell
-           : word == words::frequency ? o.frequency
+const std::string& findArgument(const StimulusOptions& o, std::string_view word) {
+    return word == names::place       ? o.place
+           : word == names::grid      ? o.grid
+           : word == names::cell      ? o.cell
+           : word == names::frequency ? o.frequency
                                       : o.pattern.label;
 }
 
 void declarePlace(OptionTable& command, StimulusOptions& o) {
-    command.add(words::at, o.place, "place on the field: right and down, from 0 to 1").as("X,Y");
-    command.add(words::grid, o.grid, "columns and rows of a grid, e.g. 7x5").as("CxR");
-    command.add(words::cell, o.cell, "row and column in the grid, from 1, row 1 above").as("r,c");
+    command.add(names::place, o.place, "place on the field: right and down, from 0 to 1").as("X,Y");
+    command.add(names::grid, o.grid, "columns and rows of a grid, e.g. 7x5").as("CxR");
+    command.add(names::cell, o.cell, "row and column in the grid, from 1, row 1 above").as("r,c");
     command
-        .add(words::points, o.points,
+        .add(names::points, o.points,
              "the grid's points: its outer ones on the corners, or the middles of cells")
         .oneOf({"corners", "middles"});
     addLaw(command, o.phantom.law);
-    command.add(words::exponent, o.phantom.exponent, "exponent of the law")
+    command.add(names::exponent, o.phantom.exponent, "exponent of the law")
         .in(ranges::exponent.min, ranges::exponent.max);
 }
 
 void declareCarrier(OptionTable& command, StimulusOptions& o) {
-    command.add(words::frequency, o.frequency, "Hz, or resonance: that of the layout's actuators");
+    command.add(names::frequency, o.frequency, "Hz, or resonance: that of the layout's actuators");
     command.add("--rate", o.sampleRateHz, "sample rate").in(limits::minSampleRateHz, limits::maxSampleRateHz);
 }
 
@@ -278,15 +277,15 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
     pattern.add("pattern", o.pattern.label, "actuators in the order of the pulses, and a pulse's ms")
         .required()
         .as("ABA-250");
-    pattern.add(words::gap, o.pattern.gapSeconds, "silence between pulses, s")
+    pattern.add(names::gap, o.pattern.gapSeconds, "silence between pulses, s")
         .in(ranges::gapSeconds.min, ranges::gapSeconds.max);
     wav.add("recording", o.phantom.recording, "one channel").required().as("FILE.wav");
-    phantom.add(words::seconds, o.phantom.seconds, "length").in(ranges::seconds.min, ranges::seconds.max);
-    phantom.add(words::decay, o.phantom.decayPerSecond, "decay of the amplitude, 1/s; 0: a burst")
+    phantom.add(names::seconds, o.phantom.seconds, "length").in(ranges::seconds.min, ranges::seconds.max);
+    phantom.add(names::decay, o.phantom.decayPerSecond, "decay of the amplitude, 1/s; 0: a burst")
         .in(ranges::decayPerSecond.min, ranges::decayPerSecond.max);
     phantom
         .add(
-            words::levelMeasure, o.levelMeasure,
+            names::levelMeasure, o.levelMeasure,
             "--level-g is the peak, or that of a burst of the same rms over the length, of a burst of 1 s of "
             "the same energy, or of a burst whose rms is that behind the hand-arm weighting of ISO 5349-1")
         .oneOf({levelMeasureNames.begin(), levelMeasureNames.end()});
@@ -294,9 +293,9 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
     for (OptionTable* const subcommand : {&pattern, &phantom}) declareCarrier(*subcommand, o);
     for (OptionTable* const subcommand : {&phantom, &wav}) declarePlace(*subcommand, o);
     for (OptionTable* const subcommand : {&pattern, &phantom, &wav}) {
-        subcommand->add(words::layout, o.job.layout,
-                        listedByNumber(layoutPresetNames) + ", study1 or a layout file");
-        subcommand->add(words::levelG, o.job.levelG, "peak acceleration at gain 1, in g")
+        subcommand->add(names::layout, o.job.layout,
+                        rangeList(layoutPresetNames) + ", study1 or a layout file");
+        subcommand->add(names::levelG, o.job.levelG, "peak acceleration at gain 1, in g")
             .in(ranges::levelG.min, ranges::levelG.max);
         subcommand->add("--out", o.wavPath, "32-bit float WAV, one channel per actuator, 1 = its full scale")
             .outputFile("FILE.wav");
@@ -307,7 +306,7 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
 Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptions& o) {
     StimulusJob job = o.job;
     job.frequencyHz = parseNumber<double>(o.frequency).value_or(0.0);
-    if (o.frequency == words::resonance) job.frequencyHz.reset();
+    if (o.frequency == names::resonance) job.frequencyHz.reset();
     job.stimulus = o.pattern;
     if (!command.isCalled("pattern")) {
         if (o.place.empty() == o.cell.empty())
@@ -318,10 +317,10 @@ Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptio
         if (o.place.empty())
             phantom.target = gridPlace(o);
         else
-            phantom.target = placeAt(o.place);
+            phantom.target = parsePlace(o.place);
     }
     const JobError error = jobError(job);
-    if (error) return Failure{error.text() + ", found " + inQuotes(argumentOf(o, error.option))};
+    if (error) return Failure{error.text() + ", found " + inQuotes(findArgument(o, error.option))};
     return job;
 }
 

@@ -17,15 +17,15 @@ namespace {
 constexpr double frequencyJnd = 0.18;
 
 /// One profile per actuator of the layout; none with --actuator none.
-Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const LayoutDescription& layout) {
+Result<std::vector<ActuatorProfile>> findProfiles(const RenderJob& o, const LayoutDescription& layout) {
     std::vector<ActuatorProfile> profiles;
     if (o.actuator == "none") return profiles;
-    for (const ActuatorDescription& enchanter : layout.actuators) {
+    for (const ActuatorDescription& actuator : layout.actuators) {
         const bool isNamedByLayout = o.actuator == "layout";
-        const std::string& name = isNamedByLayout ? enchanter.actuator : o.actuator;
+        const std::string& name = isNamedByLayout ? actuator.actuator : o.actuator;
         auto profile = name == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(name);
         if (!profile)
-            return Failure{(isNamedByLayout ? o.layout + ": actuator " + enchanter.label : "--actuator") +
+            return Failure{(isNamedByLayout ? o.layout + ": actuator " + actuator.label : "--actuator") +
                            ": " + profile.error};
         profiles.push_back(std::move(profile.value));
     }
@@ -82,21 +82,21 @@ Result<LayoutDescription> calibratedLayout(const RenderJob& o, LayoutDescription
 std::vector<std::string> calibrationWarnings(const RenderJob& o, const LayoutDescription& layout) {
     std::vector<std::string> warnings;
     if (o.actuator != "layout") return warnings;
-    const auto profiles = profilesOf(o, layout);
+    const auto profiles = findProfiles(o, layout);
     for (std::size_t j = 0; j < profiles.value.size(); ++j) {
         const auto& measured = profiles.value[j].fullScaleG;
-        const ActuatorDescription& enchanter = layout.actuators[j];
-        if (measured && !isNearlyEqual(*measured, enchanter.fullScaleG))
-            warnings.push_back(o.layout + ": actuator " + enchanter.label +
-                               ": levels are printed with full_scale_g " + numberText(enchanter.fullScaleG) +
-                               " of the layout; " + enchanter.actuator + " was measured as " +
+        const ActuatorDescription& actuator = layout.actuators[j];
+        if (measured && !isNearlyEqual(*measured, actuator.fullScaleG))
+            warnings.push_back(o.layout + ": actuator " + actuator.label +
+                               ": levels are printed with full_scale_g " + numberText(actuator.fullScaleG) +
+                               " of the layout; " + actuator.actuator + " was measured as " +
                                numberText(*measured));
     }
     return warnings;
 }
 
 Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescription& layout) {
-    auto profiles = profilesOf(o, layout);
+    auto profiles = findProfiles(o, layout);
     if (!profiles) return Failure{profiles.error};
     ActuatorChoice choice;
     for (std::size_t j = 0; j < profiles.value.size() && o.isEqualised; ++j) {
@@ -147,7 +147,7 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
                                ", nearer than one JND of " + fixedNumber(100.0 * frequencyJnd, 0) +
                                " % (Pongrac 2008)");
     }
-    const auto profiles = profilesOf(o, layout);
+    const auto profiles = findProfiles(o, layout);
     for (std::size_t j = 0; !o.isEqualised && profiles && j < profiles.value.size(); ++j) {
         const Resonator r = profiles.value[j].resonator();
         if (!r.isKnown() || decays.empty() || *decays.rbegin() <= r.ringDownPerSecond()) continue;
@@ -177,9 +177,9 @@ std::string couplingNote(const MeasuredCoupling& measured) {
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout) {
     const auto measured = loadCoupling(path);
     if (!measured) return Failure{measured.error};
-    if (const std::size_t found = measured.value.enchanters(), wanted = layout.actuators.size();
-        found != wanted)
-        return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(wanted) +
+    if (const std::size_t found = measured.value.enchanters(), expected = layout.actuators.size();
+        found != expected)
+        return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(expected) +
                        ", found " + std::to_string(found)};
     return CouplingChoice{CouplingDrives{measured.value}, couplingNote(measured.value)};
 }

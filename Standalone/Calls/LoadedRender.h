@@ -109,7 +109,7 @@ struct LoadedRender {
         return options.playsRecordings ? recordings : std::vector<ContactRecording>{};
     }
 
-    RunSettings run() const {
+    RunSettings settings() const {
         if (session) return session->run;
         return {options.seed, options.stepsPerSecond, options.timing, options.location};
     }
@@ -120,7 +120,7 @@ struct LoadedRender {
     /// Files that are read because others name them: recordings of a session, actuators of a layout.
     std::vector<std::string> namedInputs() const {
         auto paths = session ? recordingPaths(session->log) : std::vector<std::string>{};
-        for (const ActuatorDescription& enchanter : layout.actuators) paths.push_back(enchanter.actuator);
+        for (const ActuatorDescription& actuator : layout.actuators) paths.push_back(actuator.actuator);
         if (isJsonPath(options.pad)) paths.push_back(options.pad);
         return paths;
     }
@@ -201,11 +201,11 @@ struct LoadedRender {
 /// same level on all actuators only if their full scales are equal. Warns if it is above full scale.
 inline std::string fixedLevelError(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
-    for (const auto& enchanter : job.layout.actuators)
-        if (enchanter.fullScaleG != job.fullScaleG())
+    for (const auto& actuator : job.layout.actuators)
+        if (actuator.fullScaleG != job.fullScaleG())
             return job.options.layout + ": --method " + job.options.methodName() +
                    ": expected one full_scale_g for all actuators, found " + numberText(job.fullScaleG()) +
-                   " and " + numberText(enchanter.fullScaleG);
+                   " and " + numberText(actuator.fullScaleG);
     if (job.method().fixedAmplitude > 1.0)
         std::cerr << "physvib: warning: --method " << job.options.methodName() << ": the fixed level of "
                   << numberText(RenderingMethod::fixedLevelG) << " g is above the actuators' full scale of "
@@ -220,8 +220,8 @@ inline bool isNamedBy(const RecordingFile& file, const CollisionEvent& event) {
 }
 
 /// The recording of a --sound with the frequency and decay of its events or material; or one error line.
-inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const LoadedRender& job,
-                                         const std::vector<CollisionEvent>& events) {
+inline Result<RecordingFile> findRecording(const RecordedSound& sound, const LoadedRender& job,
+                                           const std::vector<CollisionEvent>& events) {
     RecordingFile file{sound.frequencyHz, sound.path, 0.0, job.options.matchesStrength, {}, sound.material};
     const auto isNamed = [&](const CollisionEvent& e) { return isNamedBy(file, e); };
     if (const auto firstMatch = std::ranges::find_if(events, isNamed); firstMatch != events.end()) {
@@ -246,7 +246,7 @@ inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const Loade
 inline std::string loadNamedRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events,
                                        const std::string& source) {
     for (const RecordedSound& sound : job.options.sounds) {
-        const auto file = recordingOf(sound, job, events);
+        const auto file = findRecording(sound, job, events);
         if (!file) return file.error;
         auto contact = loadContact(file.value);
         if (!contact) return contact.error;
@@ -284,7 +284,7 @@ inline int loadSessionInto(LoadedRender& job) {
     auto recordings = loadRecordings(log);
     if (!recordings) return reportExit(exitFailed, job.options.scene + ": " + recordings.error);
     job.sessionRecordings = std::move(recordings.value);
-    for (const std::string& note : notesOf(job.sessionRecordings)) printMessage(note);
+    for (const std::string& note : recordingNotes(job.sessionRecordings)) printMessage(note);
     return exitDone;
 }
 
@@ -317,7 +317,7 @@ inline std::vector<CollisionEvent> materialSounds(const Scene& scene) {
 inline SessionSetup sessionSetup(const LoadedRender& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
-    const RunSettings run = job.run();
+    const RunSettings run = job.settings();
     setup.seed = run.seed;
     setup.stepsPerSecond = run.stepsPerSecond;
     setup.timing = run.timing;

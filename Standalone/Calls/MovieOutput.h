@@ -96,8 +96,8 @@ private:
                 return path_ + (*input)->error().substr((*input)->error().find(": cannot be written"));
         if (!keepGoing()) return {};
         std::vector<std::string> words;
-        const auto add = [&words](std::initializer_list<const char*> more) {
-            words.insert(words.end(), more.begin(), more.end());
+        const auto add = [&words](std::initializer_list<const char*> moreWords) {
+            words.insert(words.end(), moreWords.begin(), moreWords.end());
         };
         // without -xerror, ffmpeg reports success if the disk is full at the end of its file
         add({"-v", "error", "-xerror", "-nostdin", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate"});

@@ -120,7 +120,7 @@ std::string renderOptionsError(const RenderJob& job);
 
 /// "12 pulses", or "12 pulses for 14 onsets: 2 came within 0.5 ms of another".
 inline std::string markSummary(const OnsetMarks& marks) {
-    const std::string words = counted(marks.pulses(), "pulse");
+    const std::string words = plural(marks.pulses(), "pulse");
     if (marks.sharedOnsets() == 0) return words;
     return words + " for " + std::to_string(marks.pulses() + marks.sharedOnsets()) +
            " onsets: " + std::to_string(marks.sharedOnsets()) + " came within 0.5 ms of another";

@@ -13,7 +13,7 @@ namespace physvib {
 namespace {
 
 constexpr int movieRateHz = 8'000; // a column of the waveform picture is 40 ms
-constexpr int soundRateHz = 48'000, ears = 2;
+constexpr int soundRateHz = 48'000, soundChannels = 2;
 // shares of the total time, for the progress report; ffmpeg's own work follows, if there is sound
 constexpr double eventsShare = 0.1, samplesShare = 0.3, picturesShareBeforeFfmpeg = 0.8;
 
@@ -26,8 +26,8 @@ struct MoviePart {
     }
 };
 
-std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePart& part,
-                                     const StepWatch& keepGoing) {
+std::vector<CollisionEvent> partEvents(const SavedSession& session, const MoviePart& part,
+                                       const StepWatch& keepGoing) {
     auto events = sessionEvents(session, part.endNs, keepGoing).events;
     std::erase_if(events, [&](const CollisionEvent& e) { return e.timeNs < part.fromNs; });
     EventShaper{session.shaping}.shape(events);
@@ -36,8 +36,8 @@ std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePar
 }
 
 /// The controls of the part. Earlier ones that still apply, such as a layout, act at its start.
-std::vector<RenderControl> controlsOfPart(const SavedSession& session, const MoviePart& part) {
-    auto controls = controlsOf(session.log, true, session.channels);
+std::vector<RenderControl> partControls(const SavedSession& session, const MoviePart& part) {
+    auto controls = logControls(session.log, true, session.channels);
     std::erase_if(controls, [&](const RenderControl& control) {
         return control.kind == RenderControl::Kind::stopAll && control.timeNs < part.fromNs;
     });
@@ -51,10 +51,10 @@ bool writeContactSound(MovieOutput& movie, const SavedSession& session, const Mo
                        const std::vector<CollisionEvent>& hits, const std::function<bool()>& keepGoing) {
     bool isComplete = true;
     ContactAudioRender settings{soundRateHz, std::llround(part.seconds() * soundRateHz)};
-    settings.ears = ears;
+    settings.channels = soundChannels;
     settings.field = session.panner;
     settings.levelDb = defaultContactDb;
-    renderContactAudio(hits, controlsOfPart(session, part), settings,
+    renderContactAudio(hits, partControls(session, part), settings,
                        [&](const float* const* channels, int frames) {
                            return isComplete = movie.writeSound(channels, frames) && keepGoing();
                        });
@@ -70,11 +70,11 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const auto recordings = loadRecordings(session.log);
     if (!recordings) return recordings.error;
     if (auto clash = fileClashError({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
-    MovieOutput movie{path, soundRateHz, ears};
+    MovieOutput movie{path, soundRateHz, soundChannels};
     if (!movie.error().empty()) return movie.error();
 
     bool keepGoing = true;
-    const auto events = eventsOf(session, part, [&](std::int64_t timeNs) {
+    const auto events = partEvents(session, part, [&](std::int64_t timeNs) {
         const std::int64_t done = std::min(timeNs, part.endNs); // the last step may exceed the end
         return keepGoing = progress(eventsShare * static_cast<double>(done) /
                                     static_cast<double>(std::max<std::int64_t>(1, part.endNs)));

@@ -24,16 +24,16 @@ int listScenes() {
 }
 
 int listActuators() {
-    const auto orUnknown = [](const std::optional<double>& figure) {
-        return figure ? numberText(*figure) : std::string{};
+    const auto textOrEmpty = [](const std::optional<double>& value) {
+        return value ? numberText(*value) : std::string{};
     };
     std::string text =
         "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
     for (const ActuatorProfile& p : builtInActuators()) {
-        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' +
+        text += p.name + ',' + textOrEmpty(p.resonanceHz) + ',' + textOrEmpty(p.q) + ',' +
                 (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
-        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' +
-                orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
+        text += textOrEmpty(p.driveLimitVolts) + ',' + textOrEmpty(p.riseSeconds) + ',' +
+                textOrEmpty(p.fullScaleG) + ",\"" + p.source + "\"\n";
     }
     std::cout << text;
     return exitDone;

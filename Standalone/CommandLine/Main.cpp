@@ -26,8 +26,8 @@ constexpr Command (*commands[])() = {
     reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand,  attenuationCommand,
     couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand, thesisCommand};
 
-int writeOwnReference(const OptionTable& app, const char* folder) {
-    const std::string error = writeReference(app, folder);
+int runReference(const OptionTable& program, const char* folder) {
+    const std::string error = writeReference(program, folder);
     return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
@@ -44,19 +44,19 @@ std::string movedAnalysisError(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-    OptionTable app{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
-    app.addVersion("physvib " PHYSVIB_VERSION);
+    OptionTable program{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
+    program.addVersion("physvib " PHYSVIB_VERSION);
     std::map<const OptionTable*, std::function<int()>> runFunctions;
     const bool writesReference = argc == 3 && std::string_view{argv[1]} == referenceWord;
     for (const auto factory : commands) {
         const Command command = factory();
-        OptionTable& table = app.addCommand(command.name, command.description);
+        OptionTable& table = program.addCommand(command.name, command.description);
         // only the called command's options are declared: those of all take longer than many runs
         if (writesReference || std::find(argv, argv + argc, std::string_view{command.name}) != argv + argc)
             runFunctions[&table] = command.declare(table);
     }
-    if (writesReference) return writeOwnReference(app, argv[2]);
-    const ParseResult parsed = parseArguments(app, argc, argv);
+    if (writesReference) return runReference(program, argv[2]);
+    const ParseResult parsed = parseArguments(program, argc, argv);
     if (!parsed.help.empty()) {
         std::cout << parsed.help;
         return exitDone;
@@ -65,8 +65,8 @@ int run(int argc, char** argv) {
         !parsed.error.empty() && !movedError.empty())
         return reportExit(exitUsage, movedError);
     if (!parsed.error.empty()) return reportExit(exitUsage, parsed.reason() + " (see physvib --help)");
-    if (const std::string clash = callFileClash(app); !clash.empty()) return reportExit(exitUsage, clash);
-    return runFunctions.at(app.called())();
+    if (const std::string clash = callFileClash(program); !clash.empty()) return reportExit(exitUsage, clash);
+    return runFunctions.at(program.called())();
 }
 
 } // namespace

@@ -22,22 +22,22 @@ physvib-mixer --help | --version
 )";
 
 /// The command-line argument after `option`; empty if there is none.
-juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option) {
-    const int at = arguments.indexOfOption(option);
-    return at < 0 ? juce::String{} : arguments[at + 1].text;
+juce::String readOption(const juce::ArgumentList& arguments, juce::StringRef option) {
+    const int index = arguments.indexOfOption(option);
+    return index < 0 ? juce::String{} : arguments[index + 1].text;
 }
 
-StudySelection studyCallOf(const juce::ArgumentList& arguments) {
-    return {valueOf(arguments, "--study"), valueOf(arguments, "--participant"),
-            valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
+StudySelection readStudyCall(const juce::ArgumentList& arguments) {
+    return {readOption(arguments, "--study"), readOption(arguments, "--participant"),
+            readOption(arguments, "--number").getIntValue(), readOption(arguments, "--out")};
 }
 
 /// The argument that is neither an option nor an option's value.
-juce::File fileOf(const juce::ArgumentList& arguments) {
-    static const juce::StringArray valued{"--device", "--study", "--participant", "--number", "--out"};
+juce::File toFile(const juce::ArgumentList& arguments) {
+    static const juce::StringArray valueOptions{"--device", "--study", "--participant", "--number", "--out"};
     juce::File file;
     for (int k = 0; k < arguments.size(); ++k)
-        if (!arguments[k].isOption() && (k == 0 || !valued.contains(arguments[k - 1].text)))
+        if (!arguments[k].isOption() && (k == 0 || !valueOptions.contains(arguments[k - 1].text)))
             file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
     return file;
 }
@@ -46,7 +46,7 @@ juce::File fileOf(const juce::ArgumentList& arguments) {
 std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
     if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
-    if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
+    if (const auto folder = readOption(arguments, referenceWord); folder.isNotEmpty()) {
         OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each actuator plays"};
         addUsage(program, usage);
         const std::string error = writeReference(program, folder.toStdString());
@@ -56,13 +56,13 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
 }
 
 void summarise(MixerModel& model) {
-    const auto moment = model.poll();
-    const auto& r = moment.session.render;
-    std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1)
-              << " s: " << r.played << " collisions rendered, " << r.late << " late, "
-              << model.session().world().drops() + r.unsent << " dropped, "
+    const auto snapshot = model.poll();
+    const auto& counts = snapshot.session.render;
+    std::cout << "session of " << number(1e-9 * static_cast<double>(snapshot.session.sessionNs), 1)
+              << " s: " << counts.played << " collisions rendered, " << counts.late << " late, "
+              << model.session().world().drops() + counts.unsent << " dropped, "
               << number(1e-6 * static_cast<double>(model.session().world().stalledNs()), 0)
-              << " ms of stalls; worst load " << number(100.0 * moment.device.worstLoad, 1) << " %"
+              << " ms of stalls; worst load " << number(100.0 * snapshot.device.worstLoad, 1) << " %"
               << std::endl;
 }
 
@@ -76,29 +76,29 @@ public:
 
     void initialise(const juce::String&) override {
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
-        const auto device = valueOf(arguments, "--device");
-        hasSummary_ = arguments.containsOption("--summary");
-        window_ = std::make_unique<MixerWindow>(withNullDevice(hostAudioDrivers), device, fileOf(arguments));
-        if (arguments.containsOption("--study")) window_->view().chooseStudy(studyCallOf(arguments));
+        const auto device = readOption(arguments, "--device");
+        printsSummary_ = arguments.containsOption("--summary");
+        window_ = std::make_unique<MixerWindow>(withNullDevice(hostAudioDrivers), device, toFile(arguments));
+        if (arguments.containsOption("--study")) window_->view().chooseStudy(readStudyCall(arguments));
         installInterruptHandlers();
-        startTimer(milliseconds);
+        startTimer(signalCheckMs);
     }
     void shutdown() override {
         stopTimer();
-        if (hasSummary_) summarise(window_->model());
+        if (printsSummary_) summarise(window_->model());
         window_.reset();
     }
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    static constexpr int milliseconds = 200; // how often signals are checked
+    static constexpr int signalCheckMs = 200; // how often signals are checked
 
     void timerCallback() override {
         if (interrupted) quit();
     }
 
     std::unique_ptr<MixerWindow> window_;
-    bool hasSummary_ = false;
+    bool printsSummary_ = false;
 };
 
 juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
@@ -112,9 +112,9 @@ int main(int argc, char* argv[]) {
         const juce::ArgumentList arguments{argc, argv};
         const juce::ScopedJuceInitialiser_GUI juce;
         if (const auto code = physvib::runWithoutWindow(arguments)) {
-            const std::string fault = physvib::outputError();
-            if (fault.empty() || *code != 0) return *code;
-            return std::cerr << "physvib-mixer: " << fault << '\n', physvib::exitFailed;
+            const std::string error = physvib::outputError();
+            if (error.empty() || *code != 0) return *code;
+            return std::cerr << "physvib-mixer: " << error << '\n', physvib::exitFailed;
         }
     }
     juce::JUCEApplicationBase::createInstance = physvib::makeApplication;

@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 template <class T>
-std::string typeNameOf(const T*) {
+std::string typeName(const T*) {
     if constexpr (std::is_same_v<T, bool>)
         return {};
     else if constexpr (std::is_floating_point_v<T>)
@@ -23,7 +23,7 @@ std::string typeNameOf(const T*) {
 }
 
 template <class T>
-std::string defaultTextOf(const T* target) {
+std::string defaultText(const T* target) {
     if constexpr (std::is_same_v<T, std::string>) return *target;
     if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool>)
         return {};
@@ -38,7 +38,7 @@ std::vector<std::string> split(const std::string& text) {
     return words;
 }
 
-std::string braced(const std::vector<std::string>& words) { return '{' + joined(words, ",") + '}'; }
+std::string inBraces(const std::vector<std::string>& words) { return '{' + joinNames(words, ",") + '}'; }
 
 std::vector<std::string> sceneNames() {
     std::vector<std::string> names;
@@ -50,7 +50,7 @@ std::vector<std::string> sceneNames() {
 } // namespace
 
 Option& Option::oneOf(std::vector<std::string> words) {
-    range = braced(words);
+    range = inBraces(words);
     choices = std::move(words);
     check = Check::choice;
     return *this;
@@ -58,13 +58,13 @@ Option& Option::oneOf(std::vector<std::string> words) {
 
 Option& Option::numbered(std::vector<std::pair<std::string, int>> words) {
     std::ranges::sort(words);
-    std::vector<std::string> shown, numberTexts;
+    std::vector<std::string> wordTexts, numberTexts;
     for (const auto& [word, number] : words) {
         choices.push_back(word);
         numberTexts.push_back(std::to_string(number));
-        shown.push_back(word + "->" + numberTexts.back());
+        wordTexts.push_back(word + "->" + numberTexts.back());
     }
-    range = "value in " + braced(shown) + " OR " + braced(numberTexts);
+    range = "value in " + inBraces(wordTexts) + " OR " + inBraces(numberTexts);
     numbers = std::move(words);
     check = Check::number;
     return *this;
@@ -75,10 +75,10 @@ Option& Option::inRange(double min, double max, std::string rangeText) {
     maxValue = max;
     range = std::move(rangeText);
     check = Check::range;
-    const auto isOutside = [&](auto into) {
-        if constexpr (std::is_pointer_v<decltype(into)>)
-            if constexpr (std::is_arithmetic_v<std::remove_pointer_t<decltype(into)>>)
-                return static_cast<double>(*into) < min;
+    const auto isOutside = [&](auto alternative) {
+        if constexpr (std::is_pointer_v<decltype(alternative)>)
+            if constexpr (std::is_arithmetic_v<std::remove_pointer_t<decltype(alternative)>>)
+                return static_cast<double>(*alternative) < min;
         return false;
     };
     return std::visit(isOutside, target) ? hideDefault() : *this;
@@ -96,10 +96,10 @@ Option& OptionTable::addRow(const std::string& names, OptionTarget target, std::
     option.isPositional = !names.starts_with('-');
     option.meaning = std::move(help);
     if (option.isPositional && names == "scene") option.choices = sceneNames();
-    const auto describe = [&](auto into) {
-        if constexpr (std::is_pointer_v<decltype(into)>) {
-            option.type = typeNameOf(into);
-            option.initial = defaultTextOf(into);
+    const auto describe = [&](auto alternative) {
+        if constexpr (std::is_pointer_v<decltype(alternative)>) {
+            option.type = typeName(alternative);
+            option.initial = defaultText(alternative);
         }
     };
     std::visit(describe, target);
@@ -128,8 +128,8 @@ const OptionTable* OptionTable::called() const { return calls.empty() ? nullptr 
 void addUsage(OptionTable& program, std::string_view usage) {
     program.usage = usage;
     program.options.clear();
-    const std::regex shown{"(--[a-z][a-z-]*)( [A-Z][A-Z.:]*)?"};
-    for (auto found = std::sregex_iterator{program.usage.begin(), program.usage.end(), shown};
+    const std::regex optionPattern{"(--[a-z][a-z-]*)( [A-Z][A-Z.:]*)?"};
+    for (auto found = std::sregex_iterator{program.usage.begin(), program.usage.end(), optionPattern};
          found != std::sregex_iterator{}; ++found) {
         const std::string name = found->str(1), value = found->str(2);
         const auto isSame = [&](const Option& option) { return option.spellings.front() == name; };

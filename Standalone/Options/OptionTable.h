@@ -142,13 +142,13 @@ void addUsage(OptionTable& program, std::string_view usage);
 template <class Number>
 bool parseNumbers(const std::string& text, std::vector<Number>& numbers) {
     const char* const end = text.data() + text.size();
-    for (const char* at = text.data();; ++at) {
+    for (const char* next = text.data();; ++next) {
         Number number{};
-        const auto [stop, error] = std::from_chars(at, end, number);
+        const auto [stop, error] = std::from_chars(next, end, number);
         if (error != std::errc{} || (stop != end && *stop != ',')) return false;
         numbers.push_back(number);
-        at = stop;
-        if (at == end) return true;
+        next = stop;
+        if (next == end) return true;
     }
 }
 

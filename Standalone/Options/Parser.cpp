@@ -15,14 +15,14 @@ namespace {
 
 /// Range check that rejects "nan", which CLI11's own checks accept, and whose message has the expected range.
 template <class T, class IsValid>
-CLI::Validator numberCheck(IsValid isValid, const std::string& expected, const std::string& shown) {
+CLI::Validator numberCheck(IsValid isValid, const std::string& expected, const std::string& rangeText) {
     return {[=](std::string& text) {
                 T value{};
                 return CLI::detail::lexical_cast(text, value) && isValid(value)
                            ? std::string{}
                            : "expected " + expected + ", found \"" + text + "\"";
             },
-            shown};
+            rangeText};
 }
 
 template <class T>
@@ -71,7 +71,7 @@ CLI::Option* declareReader(CLI::App& app, const Option& row, const Reader& read)
     const auto readWords = [name = row.spellings.front(), read](const Words& words) {
         if (const std::string error = read(words); !error.empty()) throw CLI::ValidationError(name, error);
     };
-    return app.add_option_function<Words>(joined(row.spellings, ","), readWords, row.meaning);
+    return app.add_option_function<Words>(joinNames(row.spellings, ","), readWords, row.meaning);
 }
 
 /// Declares the option; null for options that CLI11 provides itself.
@@ -81,15 +81,15 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
         if constexpr (std::is_same_v<Target, std::monostate>)
             return nullptr;
         else if constexpr (std::is_same_v<Target, bool*>)
-            return app.add_flag(joined(row.spellings, ","), *target, row.meaning);
+            return app.add_flag(joinNames(row.spellings, ","), *target, row.meaning);
         else if constexpr (std::is_same_v<Target, std::function<void(int)>>)
-            return app.add_option_function<int>(joined(row.spellings, ","), target, row.meaning);
+            return app.add_option_function<int>(joinNames(row.spellings, ","), target, row.meaning);
         else if constexpr (std::is_same_v<Target, WordReader>)
             return declareReader<std::string>(app, row, target);
         else if constexpr (std::is_same_v<Target, WordsReader>)
             return declareReader<std::vector<std::string>>(app, row, target);
         else
-            return app.add_option(joined(row.spellings, ","), *target, row.meaning);
+            return app.add_option(joinNames(row.spellings, ","), *target, row.meaning);
     };
     CLI::Option* const option = std::visit(declareAs, row.target);
     if (!option) return nullptr;

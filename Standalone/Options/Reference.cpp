@@ -23,11 +23,11 @@ std::string tableCell(std::string_view text) {
     return out;
 }
 
-std::string asCode(const std::string& text) { return text.empty() ? text : '`' + tableCell(text) + '`'; }
+std::string toCode(const std::string& text) { return text.empty() ? text : '`' + tableCell(text) + '`'; }
 
 std::string spellingList(const Option& option) {
     std::string out;
-    for (const std::string& spelling : option.spellings) out += (out.empty() ? "" : ", ") + asCode(spelling);
+    for (const std::string& spelling : option.spellings) out += (out.empty() ? "" : ", ") + toCode(spelling);
     return out;
 }
 
@@ -44,8 +44,8 @@ void writeOptionTable(std::ostream& out, const OptionTable& command, WrittenRows
     for (const Option& option : command.options) {
         if (!isListed(option)) continue;
         const std::string row = "| " + spellingList(option) + " | " +
-                                asCode(option.isPositional ? option.range : option.value()) + " | " +
-                                asCode(option.initial) + " | " + tableCell(option.meaning) +
+                                toCode(option.isPositional ? option.range : option.value()) + " | " +
+                                toCode(option.initial) + " | " + tableCell(option.meaning) +
                                 (option.isRequired ? " (required) |\n" : " |\n");
         const auto [firstUse, isNew] = writtenRows.emplace(row, command.words);
         if (isNew)
@@ -108,7 +108,7 @@ std::string upperCase(std::string text) {
 }
 
 void writeOption(std::ostream& out, const Option& option) {
-    const std::string name = manText(joined(option.spellings, ", "));
+    const std::string name = manText(joinNames(option.spellings, ", "));
     out << ".TP\n" << (option.isPositional ? "\\fI" : "\\fB") << name << "\\fR";
     if (!option.value().empty() && !option.isPositional) out << " \\fI" << manText(option.value()) << "\\fR";
     if (!option.initial.empty()) out << " (" << manText(option.initial) << ')';
@@ -195,7 +195,7 @@ constexpr auto descriptions = std::to_array<Description>({
                       "lists to play. The port is a path, or auto."},
 });
 
-std::string_view descriptionOf(std::string_view page) {
+std::string_view findDescription(std::string_view page) {
     const auto found = std::ranges::find(descriptions, page, &Description::page);
     return found == descriptions.end() ? std::string_view{} : found->text;
 }
@@ -207,7 +207,7 @@ std::string manPage(const OptionTable& command, const std::vector<std::string>& 
         << "\" \"PhysVib\"\n.SH NAME\n"
         << manText(pageName(command)) << " \\- " << manText(command.meaning) << "\n.SH SYNOPSIS\n";
     writeCall(out, command);
-    if (const auto text = descriptionOf(pageName(command)); !text.empty())
+    if (const auto text = findDescription(pageName(command)); !text.empty())
         out << ".SH DESCRIPTION\n" << manText(text) << '\n';
     if (std::ranges::any_of(command.options, [](const auto& option) { return !option.meaning.empty(); }))
         out << ".SH OPTIONS\n";
@@ -234,16 +234,16 @@ void forEachCommand(const OptionTable& command, const CommandVisitor& visit) {
     for (const OptionTable& inner : command.commands) forEachCommand(inner, visit);
 }
 
-std::string bracketed(const std::vector<std::string>& words) { return '(' + joined(words, " ") + ')'; }
+std::string inParentheses(const std::vector<std::string>& words) { return '(' + joinNames(words, " ") + ')'; }
 
-std::vector<std::string> namesWithin(const OptionTable& command) {
+std::vector<std::string> commandNames(const OptionTable& command) {
     std::vector<std::string> names;
     for (const OptionTable& inner : command.commands) names.push_back(inner.name());
     return names;
 }
 
 /// A function name without hyphens, which not all shells allow.
-std::string functionOf(const OptionTable& program) {
+std::string functionName(const OptionTable& program) {
     std::string name(1, '_');
     for (const char c : program.words) name += c == '-' ? '_' : c;
     return name;
@@ -272,16 +272,16 @@ std::string zshOption(const Option& option, const std::string& spelling) {
     }
     text += ']';
     if (!option.value().empty())
-        (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
+        (text += ": :") += option.choices.empty() ? "_files" : inParentheses(option.choices);
     return shellWord(text);
 }
 
 std::string zshArguments(const OptionTable& command) {
     if (!command.commands.empty())
-        return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
+        return shellWord(std::string{"*: :"}.append(inParentheses(commandNames(command))));
     for (const Option& option : command.options)
         if (option.isPositional && !option.choices.empty())
-            return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) +
+            return shellWord(std::string{"*: :{_alternative \"n: :"}.append(inParentheses(option.choices)) +
                              "\" \"f: :_files\"}");
     return "'*: :_files'";
 }
@@ -296,7 +296,7 @@ std::string fishCondition(const OptionTable& program, const OptionTable& command
             (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") +
             word;
     if (!command.commands.empty())
-        (condition += "; and not __fish_seen_subcommand_from ") += joined(namesWithin(command), " ");
+        (condition += "; and not __fish_seen_subcommand_from ") += joinNames(commandNames(command), " ");
     return std::string{" -n "}.append(shellWord(condition));
 }
 
@@ -308,7 +308,7 @@ std::string fishOption(const Option& option) {
                                             : std::string{" -s "}.append(name, 1);
     if (!option.choices.empty())
         words += std::string{option.isPositional ? " -a " : " -x -a "}.append(
-            shellWord(joined(option.choices, " ")));
+            shellWord(joinNames(option.choices, " ")));
     else if (!option.isPositional && !option.value().empty())
         words += " -r";
     if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
@@ -318,7 +318,7 @@ std::string fishOption(const Option& option) {
 std::string bashCompletion(const OptionTable& program) {
     std::ostringstream out;
     writeHeading(out, program);
-    out << functionOf(program) << "() {\n    local word call=" << program.words << " choices=\n"
+    out << functionName(program) << "() {\n    local word call=" << program.words << " choices=\n"
         << "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
         << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in "
         << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
@@ -330,21 +330,21 @@ std::string bashCompletion(const OptionTable& program) {
                     out << "        " << shellWord(command.words + ' ' + name) << ") "
                         << (option.choices.empty()
                                 ? "return"
-                                : std::string{"choices="}.append(shellWord(joined(option.choices, " "))))
+                                : std::string{"choices="}.append(shellWord(joinNames(option.choices, " "))))
                         << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
     forEachCommand(program, [&](const OptionTable& command) {
-        std::vector<std::string> words = namesWithin(command);
+        std::vector<std::string> words = commandNames(command);
         for (const Option& option : command.options) {
-            const auto& more = option.isPositional ? option.choices : option.spellings;
-            words.insert(words.end(), more.begin(), more.end());
+            const auto& proposals = option.isPositional ? option.choices : option.spellings;
+            words.insert(words.end(), proposals.begin(), proposals.end());
         }
-        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joined(words, " "))
+        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joinNames(words, " "))
             << " ;;\n";
     });
     out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F "
-        << functionOf(program) << ' ' << program.words << '\n';
+        << functionName(program) << ' ' << program.words << '\n';
     return out.str();
 }
 

@@ -108,7 +108,7 @@ InstructionSet instructionSetNamed(const std::string& name) {
                                        instructionSetNames.begin());
 }
 
-RendererSettings settingsOf(const Options& o, const ActuatorLayout& layout, const Source& source) {
+RendererSettings makeSettings(const Options& o, const ActuatorLayout& layout, const Source& source) {
     const FieldSize field = source.field.isKnown() ? source.field : extentOf(layout);
     RendererSettings settings{
         .sampleRateHz = o.sampleRateHz,
@@ -178,7 +178,7 @@ struct RenderedPicture {
 
 /// Renders the events to the WAV file and the picture that the options request; empty, or one error line.
 std::string writeSamples(const Options& o, const Source& source, const LayoutDescription& layout) {
-    const RendererSettings settings = settingsOf(o, layout.geometry, source);
+    const RendererSettings settings = makeSettings(o, layout.geometry, source);
     std::optional<WavSink> wav;
     if (!o.wavPath.empty() &&
         !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, provenanceLine(source.provenance))
@@ -246,7 +246,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--steps-per-second", o.run.stepsPerSecond, "physics steps per second")
         ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))
         ->capture_default_str();
-    app.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + " or a layout file")
+    app.add_option("--layout", o.layout, rangeList(layoutPresetNames) + " or a layout file")
         ->capture_default_str();
     app.add_option("--field", o.field,
                    "metres that x and y span (scene: its field; events: as they say, or the layout's extent)")

@@ -43,7 +43,8 @@ Result<PlayableStimulus> stimulusFromScene(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto error = loadSceneAndLayout(o, job); !error.empty()) return Failure{error};
     SimulationTimeLimit timeLimit{SimulationTimeLimit::defaultSeconds}; // the call may be hostile
-    if (job.scene) job.collisions = simulateScene(*job.scene, job.run(), job.endNs(), std::ref(timeLimit));
+    if (job.scene)
+        job.collisions = simulateScene(*job.scene, job.settings(), job.endNs(), std::ref(timeLimit));
     if (auto error = timeLimit.error(); !error.empty()) return Failure{error};
     EventShaper{job.shaping()}.shape(job.collisions.events);
     if (auto error = loadNamedRecordings(job, job.collisions.events, o.scene); !error.empty())
@@ -81,7 +82,7 @@ Result<PlayableStimulus> stimulusFromJob(const StimulusJob& job, int sampleRateH
     return result;
 }
 
-Result<PlayableStimulus> playableFrom(StimulusJob job, int sampleRateHz, const std::string& folder) {
+Result<PlayableStimulus> makePlayable(StimulusJob job, int sampleRateHz, const std::string& folder) {
     if (const JobError error = jobError(job)) return Failure{error.text()};
     if (auto error = linkError(folder, job.layout); !error.empty()) return Failure{error};
     job.layout = resolveProtocolPath(folder, job.layout);
@@ -114,7 +115,7 @@ struct ParsedCall {
     std::string error;
 };
 
-Result<PlayableStimulus> playableFrom(const ResolvedCall& call, int sampleRateHz, const std::string& folder) {
+Result<PlayableStimulus> makePlayable(const ResolvedCall& call, int sampleRateHz, const std::string& folder) {
     ParsedCall parsed{call.words, folder};
     if (!parsed.error.empty()) return Failure{parsed.error};
     if (parsed.program.isCalled("render")) return stimulusFromScene(parsed.renderOptions);
@@ -123,8 +124,8 @@ Result<PlayableStimulus> playableFrom(const ResolvedCall& call, int sampleRateHz
 }
 
 /// An error if the call's layout, which plays, is not the condition's, which is displayed; else empty.
-std::string layoutDifference(const ParsedCall& parsed, const ConditionPlan& condition,
-                             const std::string& folder) {
+std::string layoutMismatch(const ParsedCall& parsed, const ConditionPlan& condition,
+                           const std::string& folder) {
     const std::string& callLayout =
         parsed.program.isCalled("render") ? parsed.renderOptions.layout : parsed.stimulusOptions.job.layout;
     if (callLayout == resolveProtocolPath(folder, condition.layout)) return {};
@@ -139,7 +140,7 @@ std::string studyCallError(const std::string& call, const ConditionPlan& conditi
     ParsedCall parsed{call, folder};
     const RenderJob& o = parsed.renderOptions;
     if (!parsed.error.empty()) return call + ": " + parsed.error;
-    if (auto error = layoutDifference(parsed, condition, folder); !error.empty()) return error;
+    if (auto error = layoutMismatch(parsed, condition, folder); !error.empty()) return error;
     if (!parsed.program.isCalled("render") || !sceneOptionsError(o).empty()) return {};
     if (!o.scene.empty())
         if (const auto scene = findScene(o.scene, o.settings); !scene) return call + ": " + scene.error;
@@ -159,19 +160,19 @@ std::string studyCallError(const std::string& call, const ConditionPlan& conditi
 /// Checks a condition's calls: each value of each factor once, with the first values of the others, for each
 /// part. The reader has already checked all calls for forbidden options.
 std::string firstCallsError(const Protocol& protocol, const ConditionPlan& condition) {
-    const CallSet* const calls = callSetOf(condition.stimuli);
+    const CallSet* const calls = findCalls(condition.stimuli);
     if (calls == nullptr) return {};
-    StimulusItem first;
+    StimulusItem firstItem;
     for (const StudyFactor& factor : calls->factors)
-        first.values.emplace_back(factor.name, factor.values.front());
-    std::vector<StimulusItem> items{first};
+        firstItem.values.emplace_back(factor.name, factor.values.front());
+    std::vector<StimulusItem> items{firstItem};
     for (std::size_t f = 0; f < calls->factors.size(); ++f)
         for (const std::string& value : calls->factors[f].values)
-            items.emplace_back(first).values[f].second = value;
+            items.emplace_back(firstItem).values[f].second = value;
     std::set<std::string> checked; // parts may share a call
     for (const StimulusItem& item : items)
         for (const std::string& part : callPartNames(protocol))
-            if (const std::string call = resolvedCall(*calls, item, part, 0.0); checked.insert(call).second)
+            if (const std::string call = resolveCall(*calls, item, part, 0.0); checked.insert(call).second)
                 if (auto error = studyCallError(call, condition, protocol.folder); !error.empty())
                     return error;
     return {};
@@ -210,9 +211,9 @@ std::string protocolError(const Protocol& protocol, const std::string& name) {
 Result<PlayableStimulus> makePlayableStimulus(const TrialJob& job, int sampleRateHz,
                                               const std::string& folder) {
     return std::visit(
-        [&](const auto& one) -> Result<PlayableStimulus> {
-            auto playable = playableFrom(one, sampleRateHz, folder);
-            if (!playable) return Failure{textOf(one) + ": " + playable.error};
+        [&](const auto& typedJob) -> Result<PlayableStimulus> {
+            auto playable = makePlayable(typedJob, sampleRateHz, folder);
+            if (!playable) return Failure{textOf(typedJob) + ": " + playable.error};
             return playable;
         },
         job);

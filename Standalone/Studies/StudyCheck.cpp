@@ -40,14 +40,14 @@ public:
     explicit GuardSimulation(int channels) { guard_->prepare(checkRateHz, channels, GuardPlace::rendered); }
     /// Processes `blocks` multiplied by `gains`, clipped as by the device.
     void process(const float* const* blocks, const std::vector<float>& gains, int frames) {
-        std::array<float*, static_cast<std::size_t>(limits::maxActuators)> at{};
+        std::array<float*, static_cast<std::size_t>(limits::maxActuators)> channels{};
         samples_.resize(gains.size() * static_cast<std::size_t>(frames));
         for (std::size_t j = 0; j < gains.size(); ++j) {
-            at[j] = samples_.data() + j * static_cast<std::size_t>(frames);
-            std::transform(blocks[j], blocks[j] + frames, at[j],
+            channels[j] = samples_.data() + j * static_cast<std::size_t>(frames);
+            std::transform(blocks[j], blocks[j] + frames, channels[j],
                            [&](float x) { return std::clamp(x * gains[j], -1.0f, 1.0f); });
         }
-        guard_->process(at.data(), frames);
+        guard_->process(channels.data(), frames);
         minGain_ = std::min(minGain_, static_cast<double>(guard_->gain()));
     }
     double minGain() const noexcept { return minGain_; }
@@ -85,8 +85,8 @@ void measure(const PlayableStimulus& playable, CheckedStimulus& checked) {
         for (std::size_t j = 0; j < channels; ++j) {
             // silent blocks are left out of the hash: the length of silence at the end is not felt
             if (std::any_of(blocks[j], blocks[j] + frames, [](float sample) { return sample != 0.0f; })) {
-                const double at[]{block, static_cast<double>(j)};
-                addToHash(checked.samplesHash, at, std::size(at));
+                const double position[]{block, static_cast<double>(j)};
+                addToHash(checked.samplesHash, position, std::size(position));
                 addToHash(checked.samplesHash, blocks[j], static_cast<std::size_t>(frames));
             }
             for (int n = 0; n < frames; ++n) {
@@ -122,17 +122,17 @@ std::string signedNumber(double number, int decimals) {
                         : std::string{"+"}.append(fixedNumber(number, decimals));
 }
 
-std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
+std::string stimulusName(const Protocol& protocol, const CheckedStimulus& s) {
     std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " +
                        (s.label.empty() ? std::string{"any place"} : cleanLine(s.label));
     if (!s.part.empty()) name += ", " + printable(s.part);
     return s.levelDb == 0.0 ? name : name + " at " + signedNumber(s.levelDb, 1) + " dB";
 }
 
-double inDb(double share) { return toDecibels(std::max(share, 1e-6)); }
+double toDb(double share) { return toDecibels(std::max(share, 1e-6)); }
 
 std::string limiterText(const Protocol& protocol, const CheckedStimulus& s) {
-    return nameOf(protocol, s) + ": peaks " + fixedNumber(inDb(s.peakShare), 1) +
+    return stimulusName(protocol, s) + ": peaks " + fixedNumber(toDb(s.peakShare), 1) +
            " dB above full scale, which the limiter would lower: expected a layout of at least " +
            fixedNumber(s.requiredFullScaleG, 2) + " g (full_scale_g), or a level that is as much lower";
 }
@@ -140,32 +140,32 @@ std::string limiterText(const Protocol& protocol, const CheckedStimulus& s) {
 bool needsLimiter(const CheckedStimulus& s) { return s.error.empty() && s.peakShare > 1.0 + fullScaleSlack; }
 
 double sensationLevelDb(const CheckedStimulus& s) {
-    return inDb(s.peakG / detectionThresholdG(s.frequencyHz));
+    return toDb(s.peakG / detectionThresholdG(s.frequencyHz));
 }
 
 void addFindings(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check) {
-    if (!s.error.empty()) return void(check.errors.push_back(nameOf(protocol, s) + ": " + s.error));
+    if (!s.error.empty()) return void(check.errors.push_back(stimulusName(protocol, s) + ": " + s.error));
     if (needsLimiter(s)) (s.isOpenEnded ? check.warnings : check.errors).push_back(limiterText(protocol, s));
     if (s.minGuardGain < 1.0)
         check.warnings.push_back(
-            nameOf(protocol, s) + ": turned down to " + fixedNumber(100.0 * s.minGuardGain, 0) +
+            stimulusName(protocol, s) + ": turned down to " + fixedNumber(100.0 * s.minGuardGain, 0) +
             " % where it is slowest, as its actuator would get nearly direct current: what is "
             "felt differs from what is asked for");
     if (!s.isHighest || s.levelDb <= -limits::maxLevelDb) return; // the lowest level is meant to be silent
     if (s.peakG <= 0.0)
-        check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
+        check.warnings.push_back(stimulusName(protocol, s) + ": nothing is felt");
     else if (const double db = sensationLevelDb(s); db < minSensationLevelDb && !s.isOpenEnded)
-        check.warnings.push_back(nameOf(protocol, s) + ": weak: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " +
-                                 fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
-                                 " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) +
-                                 " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) +
-                                 " mg)");
+        check.warnings.push_back(
+            stimulusName(protocol, s) + ": weak: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " +
+            fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
+            " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) +
+            " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
 }
 
 using Cells = std::vector<std::string>;
 
 /// Table header, and one row per stimulus.
-std::vector<Cells> rowsOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
+std::vector<Cells> makeRows(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
     std::vector<Cells> rows{{"condition", "stimulus", "part", "level_db", "peak_g", "rms_g",
                              "below_full_scale_db", "above_threshold_db", "seconds"}};
     for (const CheckedStimulus& s : stimuli) {
@@ -174,24 +174,24 @@ std::vector<Cells> rowsOf(const Protocol& protocol, const std::vector<CheckedSti
         if (!s.error.empty())
             row.emplace_back("cannot be played");
         else
-            for (const auto& [figure, decimals] : {std::pair{s.peakG, 4},
-                                                   {s.rmsG, 4},
-                                                   {-inDb(s.peakShare), 1},
-                                                   {sensationLevelDb(s), 1},
-                                                   {s.seconds, 2}})
-                row.push_back(fixedNumber(figure, decimals));
+            for (const auto& [value, decimals] : {std::pair{s.peakG, 4},
+                                                  {s.rmsG, 4},
+                                                  {-toDb(s.peakShare), 1},
+                                                  {sensationLevelDb(s), 1},
+                                                  {s.seconds, 2}})
+                row.push_back(fixedNumber(value, decimals));
     }
     return rows;
 }
 
-std::string tabSeparated(const std::vector<Cells>& rows) {
+std::string toTabLines(const std::vector<Cells>& rows) {
     std::string text;
     for (const Cells& row : rows)
         for (std::size_t c = 0; c < row.size(); ++c) text += row[c] + (c + 1 < row.size() ? "\t" : "\n");
     return text;
 }
 
-std::string csvOf(std::vector<Cells> rows) {
+std::string toCsv(std::vector<Cells> rows) {
     std::string text;
     for (Cells& row : rows) {
         row.resize(rows.front().size());
@@ -200,36 +200,36 @@ std::string csvOf(std::vector<Cells> rows) {
     return text;
 }
 
-std::string prefixed(const char* prefix, const std::vector<std::string>& lines) {
+std::string prefixLines(const char* prefix, const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += prefix + line + "\n";
     return text;
 }
 
-std::string inMinutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
+std::string toMinutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
 
 /// The result for a stimulus of the plan at its highest level; null if there is none.
-const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition,
-                                 const std::string& label, const std::string& part) {
-    const auto found = std::find_if(all.rbegin(), all.rend(), [&](const CheckedStimulus& s) {
+const CheckedStimulus* findChecked(const std::vector<CheckedStimulus>& results, std::size_t condition,
+                                   const std::string& label, const std::string& part) {
+    const auto result = std::find_if(results.rbegin(), results.rend(), [&](const CheckedStimulus& s) {
         return s.condition == condition && s.label == label && (s.part == part || part.empty());
     });
-    return found != all.rend() ? &*found : nullptr;
+    return result != results.rend() ? &*result : nullptr;
 }
 
 void checkPlan(const Protocol& protocol, int participants, StudyCheck& check) {
     double squareGSeconds = 0.0; // over all trials of one participant, at one play each
     const PlannedTime time =
         plannedTime(protocol, [&](std::size_t condition, const std::string& label, const std::string& part) {
-            const CheckedStimulus* const checked = checkedOf(check.stimuli, condition, label, part);
+            const CheckedStimulus* const checked = findChecked(check.stimuli, condition, label, part);
             return checked != nullptr ? checked->seconds : 0.0;
         });
     for (const PlannedTrials& trials : plannedTrials(protocol))
         if (const CheckedStimulus* const checked =
-                checkedOf(check.stimuli, trials.condition, trials.label, trials.part))
+                findChecked(check.stimuli, trials.condition, trials.label, trials.part))
             squareGSeconds += trials.count * checked->squareGSeconds;
     const double exposure = dailyExposure(squareGSeconds);
-    check.facts.push_back("trials: " + std::to_string(time.trials) + ", at most " + inMinutes(time.seconds) +
+    check.facts.push_back("trials: " + std::to_string(time.trials) + ", at most " + toMinutes(time.seconds) +
                           " with breaks, at one play of each part and " +
                           fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer");
     check.facts.push_back("exposure: A(8) " + fixedNumber(exposure, 3) +
@@ -241,14 +241,14 @@ void checkPlan(const Protocol& protocol, int participants, StudyCheck& check) {
                                  " m/s2 is above the protocol's limit of " +
                                  numberText(protocol.exposureLimit) + ", at which the study pauses");
     if (time.seconds > maxStudySeconds)
-        check.warnings.push_back("time: " + inMinutes(time.seconds) + " of one participant, more than " +
-                                 inMinutes(maxStudySeconds) + ": expected fewer repetitions or conditions");
+        check.warnings.push_back("time: " + toMinutes(time.seconds) + " of one participant, more than " +
+                                 toMinutes(maxStudySeconds) + ": expected fewer repetitions or conditions");
     if (time.maxStretchSeconds > maxSecondsWithoutBreak)
-        check.warnings.push_back("breaks: expected one at least every " + inMinutes(maxSecondsWithoutBreak) +
-                                 ", found " + inMinutes(time.maxStretchSeconds) + " without");
+        check.warnings.push_back("breaks: expected one at least every " + toMinutes(maxSecondsWithoutBreak) +
+                                 ", found " + toMinutes(time.maxStretchSeconds) + " without");
     if (protocol.conditions.size() < 2 || participants < 1) return;
     const OrderBalance balance = orderBalance(protocol, participants);
-    const std::string balanceText = counted(static_cast<std::size_t>(participants), "participant") +
+    const std::string balanceText = plural(static_cast<std::size_t>(participants), "participant") +
                                     ": a condition is at one place " + std::to_string(balance.minAtPosition) +
                                     " to " + std::to_string(balance.maxAtPosition) + " times; " +
                                     std::to_string(balance.successions) + " of " +
@@ -260,12 +260,12 @@ void checkPlan(const Protocol& protocol, int participants, StudyCheck& check) {
 /// Warns about breaks that have no effect.
 void checkBreaks(const Protocol& protocol, StudyCheck& check) {
     for (const SessionPlan& session : protocol.sessions) {
-        const std::string at = "breaks of session " + printable(session.name) + ": ";
+        const std::string prefix = "breaks of session " + printable(session.name) + ": ";
         if (session.breakEvery > 0 && session.breakSeconds <= 0.0)
-            check.warnings.push_back(at + "expected break_s above 0 s beside break_every " +
+            check.warnings.push_back(prefix + "expected break_s above 0 s beside break_every " +
                                      std::to_string(session.breakEvery) + ", found none");
         if (session.breakEvery == 0 && session.breakSeconds > 0.0)
-            check.warnings.push_back(at + "expected break_every beside break_s " +
+            check.warnings.push_back(prefix + "expected break_every beside break_s " +
                                      numberText(session.breakSeconds) + ", found none: there is no break");
     }
 }
@@ -282,12 +282,12 @@ public:
         const TrialJob job = planned.job(protocol_);
         const auto* const world = std::get_if<WorldSet>(&protocol_.conditions[planned.condition].stimuli);
         const bool isOpenEnded = world != nullptr && world->isInteractive;
-        const auto [at, isNew] = checked_.try_emplace(textOf(job));
+        const auto [entry, isNew] = checked_.try_emplace(textOf(job));
         if (isNew) {
-            at->second.samplesHash = callHash(job);
-            if (isComplete_ || (planned.isHighest && !isOpenEnded)) render(job, at->second);
+            entry->second.samplesHash = callHash(job);
+            if (isComplete_ || (planned.isHighest && !isOpenEnded)) render(job, entry->second);
         }
-        CheckedStimulus checked = at->second;
+        CheckedStimulus checked = entry->second;
         static_cast<PlannedStimulus&>(checked) = planned;
         checked.isOpenEnded = isOpenEnded;
         return checked;
@@ -295,7 +295,7 @@ public:
 
 private:
     static std::string textOf(const TrialJob& job) {
-        return std::visit([](const auto& one) { return physvib::textOf(one); }, job);
+        return std::visit([](const auto& typedJob) { return physvib::textOf(typedJob); }, job);
     }
     void render(const TrialJob& job, CheckedStimulus& checked) const {
         if (const auto* const stimulus = std::get_if<StimulusJob>(&job);
@@ -312,22 +312,22 @@ private:
     bool isWithinFullScale(StimulusJob job, CheckedStimulus& checked) const {
         job.layout = resolveProtocolPath(protocol_.folder, job.layout);
         const auto layout = resolveLayout(job.layout);
-        const auto made = layout ? makeStimulus(job, layout.value) : Result<Stimulus>{Failure{layout.error}};
-        if (!made) return false;
+        const auto pulse = layout ? makeStimulus(job, layout.value) : Result<Stimulus>{Failure{layout.error}};
+        if (!pulse) return false;
         PhantomPanner::Gains gains{};
         checked.samplesHash = fnv1a({});
-        for (const CollisionEvent& event : made.value.events) {
-            made.value.panner.gainsAt(event.x, event.y, gains);
-            const double numbers[]{static_cast<double>(event.timeNs), event.frequencyHz, event.decayPerSecond,
-                                   static_cast<double>(event.durationNs)};
-            addToHash(checked.samplesHash, numbers, std::size(numbers));
+        for (const CollisionEvent& event : pulse.value.events) {
+            pulse.value.panner.gainsAt(event.x, event.y, gains);
+            const double values[]{static_cast<double>(event.timeNs), event.frequencyHz, event.decayPerSecond,
+                                  static_cast<double>(event.durationNs)};
+            addToHash(checked.samplesHash, values, std::size(values));
             for (std::size_t j = 0; j < layout.value.actuators.size(); ++j) {
                 const double share = event.amplitude * gains[j] / layout.value.actuators[j].fullScaleG;
                 if (std::abs(share) > 1.0) return false;
                 addToHash(checked.samplesHash, &share, 1);
             }
         }
-        checked.seconds = made.value.seconds;
+        checked.seconds = pulse.value.seconds;
         return true;
     }
 
@@ -339,7 +339,7 @@ private:
 } // namespace
 
 std::uint64_t callHash(const TrialJob& job) {
-    return std::visit([](const auto& one) { return fnv1a(textOf(one)); }, job);
+    return std::visit([](const auto& typedJob) { return fnv1a(textOf(typedJob)); }, job);
 }
 
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& keepGoing) {
@@ -356,39 +356,39 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
     if (!spacedParts.empty())
         check.facts.push_back("levels: sessions can reach more than " + std::to_string(maxPlannedLevels) +
                               " of " +
-                              listed(std::vector<std::string>{spacedParts.begin(), spacedParts.end()}) +
+                              nameList(std::vector<std::string>{spacedParts.begin(), spacedParts.end()}) +
                               ", so " + std::to_string(maxPlannedLevels + 1) +
                               " were rendered, evenly spread from the lowest to the highest");
     for (const CheckedStimulus& s : check.stimuli) addFindings(protocol, s, check);
     checkRules(protocol, check);
     checkPlan(protocol, participants, check);
     checkBreaks(protocol, check);
-    for (const ThesisDeviation& one : deviationsOf(protocol))
-        check.deviations.push_back(std::string{one.section}
+    for (const ThesisDeviation& deviation : findDeviations(protocol))
+        check.deviations.push_back(std::string{deviation.section}
                                        .append(": ")
-                                       .append(one.inThesis)
+                                       .append(deviation.inThesis)
                                        .append("; here: ")
-                                       .append(one.inProtocol)
-                                       .append(one.change.empty() ? "" : "; as published: ")
-                                       .append(one.change));
+                                       .append(deviation.inProtocol)
+                                       .append(deviation.change.empty() ? "" : "; as published: ")
+                                       .append(deviation.change));
     return check;
 }
 
-std::string textOf(const StudyCheck& check, const Protocol& protocol) {
-    return tabSeparated(rowsOf(protocol, check.stimuli)) + "\n" + prefixed("", check.facts) +
-           prefixed("deviation from the thesis, ", check.deviations) + prefixed("error: ", check.errors) +
-           prefixed("warning: ", check.warnings);
+std::string toText(const StudyCheck& check, const Protocol& protocol) {
+    return toTabLines(makeRows(protocol, check.stimuli)) + "\n" + prefixLines("", check.facts) +
+           prefixLines("deviation from the thesis, ", check.deviations) +
+           prefixLines("error: ", check.errors) + prefixLines("warning: ", check.warnings);
 }
 
-std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
+std::string toHtml(const StudyCheck& check, const Protocol& protocol) {
     ReportPage page{"Study check: " + printable(protocol.name), false};
     page.addParagraph(cleanLine(protocol.title));
     page.addHeading("Errors and warnings");
     if (check.errors.empty() && check.warnings.empty()) page.addParagraph("None was found.");
-    for (const auto& [what, lines] : {std::pair{"Errors: the study is refused", &check.errors},
-                                      {"Warnings: for a person to decide", &check.warnings}}) {
+    for (const auto& [heading, lines] : {std::pair{"Errors: the study is refused", &check.errors},
+                                         {"Warnings: for a person to decide", &check.warnings}}) {
         if (lines->empty()) continue;
-        page.addSubheading(what);
+        page.addSubheading(heading);
         page.addList(*lines);
     }
     page.addHeading("Plan");
@@ -403,7 +403,7 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
         "each, where a level is more than a gain), without the limiter. peak_g and rms_g are accelerations "
         "in g; above_threshold_db is the peak over an "
         "assumed threshold of detection.");
-    page.addTable(csvOf(rowsOf(protocol, check.stimuli)), "physvib study check", check.stimuli.size());
+    page.addTable(toCsv(makeRows(protocol, check.stimuli)), "physvib study check", check.stimuli.size());
     return page.html();
 }
 

@@ -37,10 +37,10 @@ struct StudyCheck {
 };
 
 /// The check as text: a line per stimulus, then facts, deviations, errors and warnings. Any thread.
-std::string textOf(const StudyCheck& check, const Protocol& protocol);
+std::string toText(const StudyCheck& check, const Protocol& protocol);
 
 /// The check as a self-contained HTML page. Any thread (allocates).
-std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
+std::string toHtml(const StudyCheck& check, const Protocol& protocol);
 
 /// Renders every stimulus that a session can reach (see plannedStimuli), and judges the balance of orders for
 /// so many participants (0: does not). Ends early once `keepGoing` returns false. One thread at a time.

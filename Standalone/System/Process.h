@@ -25,12 +25,12 @@ namespace physvib {
 /// and turns the file-size signal into a write error.
 void beginProcess();
 
-enum class Standard { output, error };
+enum class StdStream { output, error };
 
 /// Writes some of `bytes` and returns their number; 0 if the stream has no room now; nullopt if writing
 /// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not the render
 /// thread.
-std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
+std::optional<std::size_t> writeSome(StdStream standard, std::string_view bytes) noexcept;
 
 /// Call last: empty if all standard output was written, or one line with the reason.
 std::string outputError();
@@ -84,7 +84,7 @@ std::string siblingProgram(const std::string& name);
 void beginNonBlockingOutput();
 
 /// Number of lines dropped since beginNonBlockingOutput(). Not on the render thread.
-std::uint64_t droppedLines(Standard standard);
+std::uint64_t droppedLines(StdStream standard);
 
 /// OutputWriter::finish() of standard output; nullopt if beginNonBlockingOutput() was not called.
 std::optional<std::string> finishOutput();
@@ -99,7 +99,7 @@ public:
     static constexpr std::size_t maxQueuedBytes = 1 << 18;         ///< maximum of queued bytes per stream
     static constexpr std::chrono::milliseconds finishTimeout{250}; ///< longest wait of finish() per stream
     /// A function that writes text, with the contract of writeSome().
-    using Sink = std::function<std::optional<std::size_t>(Standard, std::string_view)>;
+    using Sink = std::function<std::optional<std::size_t>(StdStream, std::string_view)>;
 
     explicit OutputWriter(Sink sink = writeSome);
     /// Discards queued lines. If a reader blocks the thread, the thread is detached.
@@ -107,13 +107,13 @@ public:
 
     /// Queues one line. If the queue is full, the line is dropped and counted, and standard error reports it
     /// when there is room again.
-    void writeLine(Standard standard, std::string line);
+    void writeLine(StdStream standard, std::string line);
 
     /// Number of lines dropped so far.
-    std::uint64_t dropped(Standard standard) const;
+    std::uint64_t dropped(StdStream standard) const;
 
     /// Waits at most `finishTimeout` until all lines are written. Empty, or why they are not.
-    std::string finish(Standard standard);
+    std::string finish(StdStream standard);
 
 private:
     struct State;

@@ -88,8 +88,8 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
 }
 
 // A pipe that is ready accepts PIPE_BUF bytes without blocking.
-std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
-    pollfd out{standard == Standard::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
+std::optional<std::size_t> writeSome(StdStream standard, std::string_view bytes) noexcept {
+    pollfd out{standard == StdStream::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
     if (poll(&out, 1, 0) <= 0) return 0;
     const ssize_t count = write(out.fd, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
@@ -170,8 +170,8 @@ bool hasDisplay() noexcept {
 
 std::string siblingProgram(const std::string& name) {
     std::error_code code;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", code).replace_filename(name);
-    return !code && std::filesystem::exists(beside, code) ? beside.string() : name;
+    const auto siblingPath = std::filesystem::read_symlink("/proc/self/exe", code).replace_filename(name);
+    return !code && std::filesystem::exists(siblingPath, code) ? siblingPath.string() : name;
 }
 
 } // namespace physvib

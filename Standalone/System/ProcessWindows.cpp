@@ -60,8 +60,8 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     return ReadFile(input, bytes.data(), static_cast<DWORD>(bytes.size()), &count, nullptr) != 0 ? count : 0;
 }
 
-std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
-    const int count = _write(_fileno(standard == Standard::output ? stdout : stderr), bytes.data(),
+std::optional<std::size_t> writeSome(StdStream standard, std::string_view bytes) noexcept {
+    const int count = _write(_fileno(standard == StdStream::output ? stdout : stderr), bytes.data(),
                              static_cast<unsigned>(bytes.size()));
     return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
 }

@@ -19,14 +19,14 @@ namespace {
 /// Collects the text of each thread until its line is complete.
 class LineBuffer final : public std::streambuf {
 public:
-    LineBuffer(OutputWriter& writer, Standard standard)
+    LineBuffer(OutputWriter& writer, StdStream standard)
         : writer_{writer}
         , standard_{standard} {}
 
 private:
-    static std::string& partialLineOf(Standard standard) {
+    static std::string& partialLineOf(StdStream standard) {
         thread_local std::array<std::string, 2> partialLine;
-        return partialLine[standard == Standard::error];
+        return partialLine[standard == StdStream::error];
     }
     std::streamsize xsputn(const char* text, std::streamsize size) override {
         std::string& partialLine = partialLineOf(standard_);
@@ -49,7 +49,7 @@ private:
     }
 
     OutputWriter& writer_;
-    const Standard standard_;
+    const StdStream standard_;
 };
 
 /// While it exists, std::cout and std::cerr write to an OutputWriter.
@@ -67,12 +67,12 @@ public:
         std::cout.rdbuf(out_);
         std::cerr.rdbuf(error_);
         std::cerr << std::unitbuf;
-        writer.finish(Standard::error);
+        writer.finish(StdStream::error);
     }
     OutputWriter writer;
 
 private:
-    LineBuffer outLines_{writer, Standard::output}, errorLines_{writer, Standard::error};
+    LineBuffer outLines_{writer, StdStream::output}, errorLines_{writer, StdStream::error};
     std::streambuf *out_ = nullptr, *error_ = nullptr;
 };
 
@@ -85,12 +85,12 @@ void beginNonBlockingOutput() {
     if (!redirection) redirection = std::make_unique<StreamRedirection>();
 }
 
-std::uint64_t droppedLines(Standard standard) {
+std::uint64_t droppedLines(StdStream standard) {
     return redirection ? redirection->writer.dropped(standard) : 0;
 }
 
 std::optional<std::string> finishOutput() {
-    return redirection ? std::optional{redirection->writer.finish(Standard::output)} : std::nullopt;
+    return redirection ? std::optional{redirection->writer.finish(StdStream::output)} : std::nullopt;
 }
 
 void endNonBlockingOutput() { redirection.reset(); }
@@ -102,9 +102,9 @@ void endNonBlockingOutput() { redirection.reset(); }
 namespace {
 
 constexpr std::chrono::milliseconds retryInterval{20}; // polling interval for a reader whose pipe is full
-constexpr std::array bothStandards{Standard::output, Standard::error};
+constexpr std::array bothStandards{StdStream::output, StdStream::error};
 
-std::size_t indexOf(Standard standard) { return static_cast<std::size_t>(standard); }
+std::size_t indexOf(StdStream standard) { return static_cast<std::size_t>(standard); }
 
 std::string unreadText(std::uint64_t lines) {
     return std::to_string(lines) + (lines == 1 ? " line was" : " lines were") + " not read";
@@ -151,13 +151,13 @@ struct OutputWriter::State {
     explicit State(Sink writeSink)
         : sink{std::move(writeSink)} {}
 
-    Stream& streamFor(Standard standard) { return streams[indexOf(standard)]; }
+    Stream& streamFor(StdStream standard) { return streams[indexOf(standard)]; }
 
     /// The stream with the oldest first line, among those that are not blocked.
-    std::optional<Standard> nextStream() const {
-        std::optional<Standard> found;
+    std::optional<StdStream> nextStream() const {
+        std::optional<StdStream> found;
         std::uint64_t first = UINT64_MAX;
-        for (const Standard standard : bothStandards) {
+        for (const StdStream standard : bothStandards) {
             const Stream& stream = streams[indexOf(standard)];
             if (stream.isBlocked || stream.lines.empty() || stream.lines.front().number >= first) continue;
             first = stream.lines.front().number;
@@ -179,7 +179,7 @@ struct OutputWriter::State {
     }
 
     // Only this thread removes lines, so the first line stays valid while unlocked.
-    void write(Standard standard, std::unique_lock<std::mutex>& lock) {
+    void write(StdStream standard, std::unique_lock<std::mutex>& lock) {
         Stream& stream = streamFor(standard);
         const auto text = std::string_view{stream.lines.front().text}.substr(stream.written);
         lock.unlock();
@@ -226,10 +226,10 @@ OutputWriter::~OutputWriter() {
     isDone ? thread_.join() : thread_.detach();
 }
 
-void OutputWriter::writeLine(Standard standard, std::string line) {
+void OutputWriter::writeLine(StdStream standard, std::string line) {
     const std::lock_guard lock{state_->mutex};
     Stream& stream = state_->streamFor(standard);
-    if (standard == Standard::error && stream.unreported > 0)
+    if (standard == StdStream::error && stream.unreported > 0)
         line = "physvib: standard error: " + unreadText(stream.unreported) + '\n' + line;
     if (stream.errorNumber != 0 || stream.bytes + line.size() > maxQueuedBytes) return stream.drop(1);
     stream.unreported = 0;
@@ -237,12 +237,12 @@ void OutputWriter::writeLine(Standard standard, std::string line) {
     state_->workChanged.notify_all();
 }
 
-std::uint64_t OutputWriter::dropped(Standard standard) const {
+std::uint64_t OutputWriter::dropped(StdStream standard) const {
     const std::lock_guard lock{state_->mutex};
     return state_->streamFor(standard).dropped;
 }
 
-std::string OutputWriter::finish(Standard standard) {
+std::string OutputWriter::finish(StdStream standard) {
     std::unique_lock lock{state_->mutex};
     const Stream& stream = state_->streamFor(standard);
     state_->stateChanged.wait_for(lock, finishTimeout, [&stream] { return stream.lines.empty(); });

@@ -77,7 +77,7 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
 /// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
 Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
                               Vector fieldMetres, int sampleRateHz) {
-    if (const auto format = clipFormatOf(name)) return readClipFile(name, text, *format, sampleRateHz);
+    if (const auto format = findClipFormat(name)) return readClipFile(name, text, *format, sampleRateHz);
     if (name.ends_with(".csv")) return readEventList(name, text, fieldMetres);
     auto read = readScene(text, "scene", settings);
     if (!read) return Failure{std::move(read.error)};
@@ -173,9 +173,9 @@ public:
     /// Ends the pull of a finger and stops a kinematic body, which would keep its velocity.
     void release(int finger) {
         if (finger < 0 || finger >= maxFingers) return;
-        const auto held = std::exchange(grips_[static_cast<std::size_t>(finger)], {});
-        if (held && bodies_[held->body].type == BodyType::kinematicBody)
-            applyInput(VelocityAction{bodies_[held->body].name, {}});
+        const auto grip = std::exchange(grips_[static_cast<std::size_t>(finger)], {});
+        if (grip && bodies_[grip->body].type == BodyType::kinematicBody)
+            applyInput(VelocityAction{bodies_[grip->body].name, {}});
     }
 
     /// The actuators, at most as many as outputs. Changes count after applyLayout().
@@ -184,7 +184,7 @@ public:
     void applyLayout(int law) {
         const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
         panningLaw_ = index < panningLaws.size() ? panningLaws[index].law : PanningLaw::automatic;
-        const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, renderedFrames_ - firstFrame()));
+        const std::int64_t timeNs = toNs(std::max<std::int64_t>(0, renderedFrames_ - firstFrame()));
         const PhantomPanner currentPanner = panner();
         controls_.push({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = &currentPanner});
     }
@@ -212,7 +212,7 @@ private:
     std::int64_t firstFrame() const noexcept {
         return clockLaw_.outputLatencyFrames() - clockLaw_.limiterFrames;
     }
-    std::int64_t nsOf(std::int64_t frame) const noexcept {
+    std::int64_t toNs(std::int64_t frame) const noexcept {
         return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / clockLaw_.sampleRateHz);
     }
     void pullBody(const Grip& grip) {
@@ -224,7 +224,7 @@ private:
         applyInput(VelocityAction{bodies_[grip.body].name, {scale * velocity.x, scale * velocity.y}});
     }
     void stepTo(std::int64_t frame) {
-        while (simulation_.timeNs() < nsOf(frame)) {
+        while (simulation_.timeNs() < toNs(frame)) {
             for (const auto& grip : grips_)
                 if (grip) pullBody(*grip);
             simulation_.step(stepEvents_);
@@ -380,10 +380,10 @@ void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond
 
 /// Sets the actuators: first their number, then each place as shares of the layout's extent, then placed().
 void PHYSVIB_PAGE(enchanters)(int count) { world->layout().count = count; }
-void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
+void PHYSVIB_PAGE(place)(int actuator, double x, double y) {
     ActuatorLayout& layout = world->layout();
-    layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres,
-                                                          y * layout.extentHeightMetres};
+    layout.places[static_cast<std::size_t>(actuator)] = {x * layout.extentWidthMetres,
+                                                         y * layout.extentHeightMetres};
 }
 /// Applies the places with a law of lawList(); -1: default of `physvib render`.
 void PHYSVIB_PAGE(placed)(int law) { world->applyLayout(law); }

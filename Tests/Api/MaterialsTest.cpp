@@ -50,7 +50,7 @@ TEST(Materials, AnUnknownNameIsAnsweredByThoseThereAre) {
     for (const char* name : {"wood", "steel", ""}) { // wood is in the table, without a frequency
         EXPECT_EQ(physvib_material(name, &made), PHYSVIB_ERROR_ARGUMENT);
         EXPECT_EQ(std::string{physvib_error()}, "material: expected one that vibrates (" +
-                                                    listed(names, " or ") + "), found \"" + name + "\"");
+                                                    nameList(names, " or ") + "), found \"" + name + "\"");
     }
     EXPECT_EQ(made.frequency_hz, 0.0);
     EXPECT_EQ(physvib_material(nullptr, &made), PHYSVIB_ERROR_ARGUMENT);

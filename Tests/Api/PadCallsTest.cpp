@@ -60,7 +60,7 @@ TEST(PadCalls, FramesHaveTheStrongestCommandsOfPadMotors) {
     for (const char* profile : {"pad-generic", "pad-xbox"}) {
         PadMotors motors{findPad(profile).value.law};
         const PhantomPanner grips =
-            PadMotors::gripsOf({{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 1.0, 1.0});
+            PadMotors::makeGripPanner({{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 1.0, 1.0});
         const PadHandle pads{1, profile};
         std::size_t next = 0;
         int commands = 0;

@@ -31,12 +31,12 @@ private:
     std::int64_t frame_ = 0;
 };
 
-extern "C" [[gnu::noinline]] void counted(const std::function<void()>& second) { second(); }
+extern "C" [[gnu::noinline]] void plural(const std::function<void()>& second) { second(); }
 
 template <class Played>
 int run(Played&& played, double seconds) {
     played.seconds(seconds - 1.0);
-    counted([&played] { played.seconds(1.0); });
+    plural([&played] { played.seconds(1.0); });
     return 0;
 }
 

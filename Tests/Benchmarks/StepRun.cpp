@@ -49,7 +49,7 @@ std::size_t run(World& world, int from, int to) {
 
 } // namespace
 
-extern "C" [[gnu::noinline]] std::size_t counted(Shaken* box, bench::RollingBalls* balls, int steps) {
+extern "C" [[gnu::noinline]] std::size_t plural(Shaken* box, bench::RollingBalls* balls, int steps) {
     return box != nullptr ? run(*box, firstCounted, steps) : run(*balls, firstCounted, steps);
 }
 
@@ -60,10 +60,10 @@ int main(int count, char** arguments) {
     std::size_t events = 0;
     if (std::string_view{arguments[1]} == "box") {
         Shaken box{bodies, static_cast<int>(option)};
-        events = run(box, 0, firstCounted) + counted(&box, nullptr, steps);
+        events = run(box, 0, firstCounted) + plural(&box, nullptr, steps);
     } else {
         bench::RollingBalls balls{bodies, 1.0e-3 * option};
-        events = run(balls, 0, firstCounted) + counted(nullptr, &balls, steps);
+        events = run(balls, 0, firstCounted) + plural(nullptr, &balls, steps);
     }
     std::printf("events %zu\n", events);
     return 0;

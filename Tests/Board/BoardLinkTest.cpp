@@ -20,7 +20,7 @@ protected:
         tone.decayPerSecond = 1;
         tone.amplitude = 0.5;
         tone.durationNs = static_cast<std::int64_t>(seconds * 1e9);
-        EXPECT_TRUE(link.push({BoardLink::nowNs() + 75 * ms, boardEventOf(tone, {1, 0.5, 0.5, 0.25})}));
+        EXPECT_TRUE(link.push({BoardLink::nowNs() + 75 * ms, toBoardEvent(tone, {1, 0.5, 0.5, 0.25})}));
         ++struck;
     }
     void strikeFor(double seconds) {

@@ -93,7 +93,7 @@ protected:
     }
     /// Samples of a WAV of floats, as `render` writes it, by channel.
     std::vector<std::vector<float>> channelsOf(const std::string& name) const {
-        const OpenFile file{std::fopen((folder_ / name).c_str(), "rb")};
+        const FileHandle file{std::fopen((folder_ / name).c_str(), "rb")};
         if (!file) return {};
         const auto sound = readWav(*file);
         EXPECT_EQ(sound.error, "") << name;

@@ -44,7 +44,7 @@ std::set<std::int32_t> reachedFrom(ContactGraph& graph, std::int32_t start) {
     std::set<std::int32_t> reached{start};
     std::vector<std::int32_t> components;
     for (std::int32_t node = 0; node < nodes; ++node) {
-        graph.reach(node, components);
+        graph.findComponents(node, components);
         for (const std::int32_t component : components)
             if (component == graph.component(start)) reached.insert(node);
     }
@@ -125,7 +125,7 @@ TEST(ContactGraph, WallIsReachedButHandsNothingOn) {
     graph.insert(0, 2);
     EXPECT_NE(graph.component(1), graph.component(2));
     std::vector<std::int32_t> reached;
-    graph.reach(0, reached);
+    graph.findComponents(0, reached);
     EXPECT_EQ(reached.size(), 2U);
     graph.setPassing(0, true); // the wall has become a movable body
     EXPECT_EQ(graph.component(1), graph.component(2));

@@ -13,7 +13,7 @@ constexpr std::int64_t ms = 1'000'000;
 PhantomPanner grips() {
     ActuatorLayout phone;
     layoutPreset("phone4", phone);
-    return PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
+    return PadMotors::makeGripPanner({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
 }
 
 CollisionEvent hit(double seconds, double frequencyHz, double amplitude, double x = 0.5,
@@ -35,7 +35,7 @@ CollisionEvent ringing(double amplitude, std::int64_t endMs, double decayPerSeco
     return event;
 }
 
-std::vector<PadCommand> commandsOf(const PadLaw& law, const std::vector<CollisionEvent>& events,
+std::vector<PadCommand> commandsOf(const PadModel& law, const std::vector<CollisionEvent>& events,
                                    double level = 1.0) {
     PadMotors motors{law};
     std::vector<PadCommand> commands;
@@ -61,7 +61,7 @@ PadCommand at(const std::vector<PadCommand>& commands, std::int64_t ns) {
 struct Felt {
     double low = 0.0, high = 0.0;
 };
-Felt feltOf(const PadLaw& law, const std::vector<PadCommand>& commands) {
+Felt feltOf(const PadModel& law, const std::vector<PadCommand>& commands) {
     Felt now, most;
     for (std::int64_t ns = 0; ns < commands.back().timeNs + 500 * ms; ns += ms) {
         const PadCommand command = at(commands, ns);
@@ -98,7 +98,7 @@ TEST(PadMotor, CommandsAndStrengthsAreInverseAndNothingTurnsBelowTheThreshold) {
 
 TEST(PadMotors, CommandsAreZeroOrAtLeastTheThresholdNeverCloserThanThePaceAndEndWithZero) {
     for (const double perSecond : {30.0, 125.0}) {
-        PadLaw law;
+        PadModel law;
         law.commandsPerSecond = perSecond;
         law.low.threshold = 0.333; // between two hundredths
         for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -117,7 +117,7 @@ TEST(PadMotors, CommandsAreZeroOrAtLeastTheThresholdNeverCloserThanThePaceAndEnd
 }
 
 TEST(PadMotors, AWeakHitNeverEndsAStrongOne) {
-    PadLaw law;
+    PadModel law;
     law.commandsPerSecond = 125.0;
     const auto strong = hit(0.1, 60.0, 1.0, 0.2, 8.0), weak = hit(0.112, 60.0, 0.02, 0.2, 60.0);
     const auto alone = commandsOf(law, {strong}), both = commandsOf(law, {strong, weak});
@@ -131,7 +131,7 @@ TEST(PadMotors, WhatIsToBeFeltIsFeltHoweverShortAndWeak) {
     for (const double perSecond : {30.0, 125.0})
         for (const double frequencyHz : {50.0, 100.0, 250.0})
             for (const double amplitude : {0.0101, 0.1, 0.3, 1.0}) {
-                PadLaw law;
+                PadModel law;
                 law.commandsPerSecond = perSecond;
                 const Felt felt = feltOf(law, commandsOf(law, {pulse(0.1, 0.02, amplitude, frequencyHz)}));
                 EXPECT_GE(std::max(felt.low, felt.high), 0.9 * PadMotors::minPerceptibleStrength)
@@ -156,7 +156,7 @@ TEST(PadMotors, AHitRumblesUntilItDecaysToTheFloor) {
         std::int64_t lastNs = 0;
         for (const PadCommand& command : commandsOf({}, {hit(0.1, 60.0, 0.8, 0.5, decayPerSecond)}))
             if (!command.isSame({})) lastNs = command.timeNs;
-        const double end = 0.1 + std::log(0.8 / PadLaw{}.floor) / decayPerSecond;
+        const double end = 0.1 + std::log(0.8 / PadModel{}.floor) / decayPerSecond;
         EXPECT_NEAR(1e-9 * static_cast<double>(lastNs), end, 0.2) << decayPerSecond;
     }
 }
@@ -189,13 +189,13 @@ TEST(PadMotors, AThousandHitsOfOneMaterialAreAsMuchAsTheirEnergy) {
     const auto summed = commandsOf({}, many), one = commandsOf({}, {hit(0.1, 50.0, 0.8)});
     for (std::int64_t ns = 200 * ms; ns < 400 * ms; ns += 10 * ms)
         EXPECT_NEAR(at(summed, ns).low, at(one, ns).low, 0.1) << ns / ms;
-    PadMotors full{PadLaw{}};
+    PadMotors full{PadModel{}};
     for (int i = 0; i < 300; ++i) full.strike(many.front(), grips());
     EXPECT_EQ(full.lost(), 44u);
 }
 
 TEST(PadMotors, AStopIsZeroAtTheNextCommandAndLaterHitsArePlayed) {
-    PadMotors motors{PadLaw{}};
+    PadMotors motors{PadModel{}};
     motors.strike(pulse(0.1, 2.0, 1.0, 50.0), grips());
     while (motors.dueNs() < 500 * ms) motors.next(1.0);
     motors.strike(hit(0.52, 50.0, 1.0), grips());
@@ -225,7 +225,7 @@ double strongestUntil(PadMotors& motors, std::int64_t ns) {
 TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
     for (const double lead : {0.0, 0.03, 0.1})
         for (const int offsetMs : {-150, -100, -99, -31, -30, -29, -1, 0, 1, 29, 30, 100}) {
-            PadLaw law;
+            PadModel law;
             law.leadSeconds = lead;
             PadMotors motors{law};
             const std::int64_t stopNs = 500 * ms;
@@ -240,7 +240,7 @@ TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
 TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
     for (const double decay : {0.0, 1.0, 30.0})
         for (const std::int64_t afterMs : {1, 10, 79, 81, 150}) {
-            PadMotors motors{PadLaw{}};
+            PadMotors motors{PadModel{}};
             motors.strike(ringing(1.0, 5100, decay), grips());
             EXPECT_GT(strongestUntil(motors, (100 + afterMs) * ms), 0.0);
             motors.stop((100 + afterMs) * ms);
@@ -251,7 +251,7 @@ TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
 /// A store of 64 that do not merge; who is left is heard by how long it goes on.
 TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
     for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker, stronger than the weakest
-        PadMotors motors{PadLaw{}};
+        PadMotors motors{PadModel{}};
         const auto strike = [&](double a, std::int64_t endMs) { motors.strike(ringing(a, endMs), grips()); };
         for (int i = 0; i < 63; ++i) strike(0.5, 200);
         strike(0.2, 1000);

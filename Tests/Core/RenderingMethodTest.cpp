@@ -268,7 +268,7 @@ TEST(FixedLevel, StrikesAndVariedLevelsAreLeftAlone) {
     EXPECT_EQ(shaper(strike).amplitude, 1.0) << "its A, as without a level that is held";
     shaper(hitAt(0.0, 200.0, 50.0));
     EXPECT_LT(shaper(hitAt(0.0, 200.0, 50.0)).amplitude, 1e-12);
-    shaper.forget();
+    shaper.reset();
     EXPECT_GT(shaper(hitAt(0.0, 200.0, 50.0)).amplitude, 1.0) << "so that its first peak is 1";
 }
 

@@ -21,7 +21,7 @@ TEST_F(FileKindTest, IsToldByWhatWeWrite) {
     SavedSession session;
     session.channels = 1;
     session.log.runs.push_back({0, 0, 1, std::make_shared<const Scene>(*findBuiltInScene("drop")), {}, {}});
-    session.mix = mixOf(session);
+    session.mix = mixAtEnd(session);
     EXPECT_EQ(kindOf(sessionJson(session)), FileKind::session) << "though its desk has a layout";
     EXPECT_EQ(kindOf(sceneJson(*findBuiltInScene("drop"))), FileKind::scene);
     ActuatorLayout ring;

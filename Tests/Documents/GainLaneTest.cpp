@@ -96,17 +96,18 @@ TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
     asked.strips[0].gainDb = 6.0;
     asked.strips[1].lane = {{0.0, -40.0}, {9.0, 5.0}};
     asked.strips[2].lane = {{0.0, -40.0}};
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "A gain 6.0 to -16.0 dB; B gain 0.0 to -15.0 dB");
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(own), asked),
+              "A gain 6.0 to -16.0 dB; B gain 0.0 to -15.0 dB");
     EXPECT_EQ(maxGainDb(asked, 0), -10.0);
     EXPECT_EQ(maxGainDb(asked, 1), -10.0);
     Mix again = asked;
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(asked), again), "") << "a desk allows what it plays";
-    EXPECT_EQ(MixerLimits::of(asked).strips[2].gainDb, -40.0);
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(asked), again), "") << "a desk allows what it plays";
+    EXPECT_EQ(MixerLimits::fromMix(asked).strips[2].gainDb, -40.0);
     Mix lane = four();
     lane.strips[3].group = addGroup(lane, "lane");
     lane.groups[0].lane = {{0.0, -40.0}, {9.0, 5.0}};
     EXPECT_EQ(maxGainDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(four()), lane), "D gain 0.0 to -5.0 dB");
 }
 
 TEST(StripGroups, NewNamesAreTheUsualOnesThenNumbers) {
@@ -138,7 +139,7 @@ TEST(DeskLimits, NothingGetsLouder) {
     own.strips[2].isMuted = true;
     asked.levelDb = -3.0;
     for (Strip& strip : asked.strips) strip.gainDb = 3.0;
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked),
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(own), asked),
               "master -3.0 to -20.0 dB; A gain 3.0 to -6.0 dB; B gain 3.0 to 0.0 dB; B ceiling 0.0 to -12.0 "
               "dB; C gain 3.0 to 0.0 dB; C muted; D without output 4");
     EXPECT_EQ(asked.levelDb, -20.0);
@@ -155,7 +156,7 @@ TEST(DeskLimits, WhatIsQuieterStays) {
     asked.strips[0] = {-10.0, true, false, true, 3.0, -20.0, 1};
     asked.strips[1].output = -1;
     const Mix before = asked;
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "");
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(own), asked), "");
     EXPECT_EQ(asked.levelDb, before.levelDb);
     EXPECT_EQ(asked.strips, before.strips);
 }
@@ -164,7 +165,7 @@ TEST(DeskLimits, LimitsBelongToOutputsNotToNumbers) {
     Mix own = mixOn("phone2"), asked = mixOn("phone2");
     own.strips[1].ceilingDb = -40.0; // what hangs there is delicate
     std::swap(asked.strips[0].output, asked.strips[1].output);
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "A ceiling 0.0 to -40.0 dB");
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(own), asked), "A ceiling 0.0 to -40.0 dB");
     EXPECT_EQ(asked.strips[0].ceilingDb, -40.0);
     EXPECT_EQ(asked.strips[1].ceilingDb, 0.0);
 }
@@ -172,7 +173,7 @@ TEST(DeskLimits, LimitsBelongToOutputsNotToNumbers) {
 TEST(DeskLimits, OthersThatAreSoloMakeAStripSilent) {
     Mix own = mixOn("phone2"), asked = mixOn("phone2");
     own.strips[0].isSolo = true;
-    EXPECT_EQ(lowerToLimits(MixerLimits::of(own), asked), "B muted");
+    EXPECT_EQ(lowerToLimits(MixerLimits::fromMix(own), asked), "B muted");
     EXPECT_TRUE(asked.strips[1].isMuted);
 }
 
@@ -182,20 +183,20 @@ TEST(DeskLimits, TheLoudestOutputCountsAndOneThatIsNotInUseDoesNot) {
     own.strips[0].gainDb = -27.7;
     own.strips[1].gainDb = -6.0;
     own.strips[2].output = -1;
-    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -18.0);
+    EXPECT_EQ(MixerLimits::fromMix(own).loudestOutputDb(), -18.0);
     own.strips[1].ceilingDb = -20.0;
-    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -32.0);
+    EXPECT_EQ(MixerLimits::fromMix(own).loudestOutputDb(), -32.0);
     for (Strip& strip : own.strips) strip.output = -1;
-    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), -12.0);
+    EXPECT_EQ(MixerLimits::fromMix(own).loudestOutputDb(), -12.0);
     own.strips[0] = {.gainDb = minStripDb, .output = 0};
-    EXPECT_EQ(MixerLimits::of(own).loudestOutputDb(), minStripDb) << "silent";
+    EXPECT_EQ(MixerLimits::fromMix(own).loudestOutputDb(), minStripDb) << "silent";
 }
 
 TEST(DeskLimits, AreKeptAsText) {
     Mix own = mixOn("ring3");
     own.levelDb = -17.5;
     own.strips[2] = {-1.5, true, false, false, 2.0, -3.25, 7};
-    const auto again = readMixerLimits(mixerLimitsText(MixerLimits::of(own)));
+    const auto again = readMixerLimits(mixerLimitsText(MixerLimits::fromMix(own)));
     ASSERT_TRUE(again);
     EXPECT_EQ(again->levelDb, own.levelDb);
     EXPECT_EQ(again->strips, own.strips);

@@ -80,7 +80,7 @@ public:
             runTo(static_cast<double>(event.frame) - 480.0);
             const wire::Strike strike{++sequence_, event};
             if (compact)
-                send(wire::compact(strike));
+                send(wire::toCompact(strike));
             else
                 send(strike);
         }
@@ -158,7 +158,7 @@ inline Parity comparePlay(Rig& rig, const BoardListSettings& list, std::uint32_t
     rig.connect();
     auto events = randomBoardEvents(list, seed);
     if (compact)
-        for (auto& e : events) e = wire::expand(wire::compact({0, e}), e.frame).event;
+        for (auto& e : events) e = wire::expand(wire::toCompact({0, e}), e.frame).event;
     rig.play(events, frames, compact);
     Parity parity;
     parity.telemetry = rig.telemetry();

@@ -90,7 +90,7 @@ TEST(BoardRobustness, AFullLineLosesNothingItDelivered) {
         e.frequency16 = static_cast<std::uint16_t>(800 + i % 100);
         e.decay16 = 16 * 20;
         e.amplitudes = {64, 32, -32, 96};
-        rig.send(wire::compact({static_cast<std::uint8_t>(i), e}));
+        rig.send(wire::toCompact({static_cast<std::uint8_t>(i), e}));
         if (i % 32 == 31) rig.board.runUntil(rig.board.seconds() + 32.0 * 16 / 11520 - 1e-6);
     }
     rig.board.runUntil(rig.board.seconds() + 0.5);

@@ -134,7 +134,7 @@ TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {
                   "f: perceptions: expected a vibrotactile perception with channels, found none");
     std::string both = perceptions("Vibrotactile", waves);
     both.insert(both.size() - 2, R"(, {"perception_modality": "Force", "channels": []})");
-    EXPECT_EQ(read(both).leftOut, "left out: a perception of Force (1)");
+    EXPECT_EQ(read(both).omissions, "left out: a perception of Force (1)");
 }
 
 TEST(HjifFile, LetsAnEffectEndWhereTheNextOfItsBandBegins) {
@@ -234,7 +234,7 @@ TEST(AndroidEnvelope, WhatAPhonePlaysIsTheEnvelopeWithinATenthOfADecibel) {
     ClipChannel channel = manyHits();
     const json file = json::parse(clipBytes({"forty hits", 0, 0, {channel}}, ClipFormat::envelope));
     for (const ClipTransient& transient : channel.transients) channel.bands.push_back({{transient.wave()}});
-    const auto envelope = envelopeOf(channel);
+    const auto envelope = makeEnvelope(channel);
     double worst = 0.0, pitch = 0.0;
     int compared = 0;
     for (int ms = 0; ms < 12500; ++ms) {

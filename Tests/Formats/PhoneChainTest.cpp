@@ -130,8 +130,8 @@ TEST(PhoneChain, KeepsTheEnvelopeBesideTransients) {
     HapticFolder folder;
     for (int k = 0; k < HapticFolder::files; ++k) {
         const auto clip = loadClip(folder.path(k), ClipFormat::haptic);
-        const auto was = envelopeOf(clip.value.channels[0]),
-                   is = envelopeOf(through(clip.value, ClipFormat::ahap).channels[0]);
+        const auto was = makeEnvelope(clip.value.channels[0]),
+                   is = makeEnvelope(through(clip.value, ClipFormat::ahap).channels[0]);
         for (double t = 0.0; t < std::min(5.0, clip.value.seconds()); t += 0.0007) {
             const auto [least, most] = around(was, t);
             const double found = envelopeAt(is, t).amplitude;

@@ -90,7 +90,7 @@ constexpr FrequencyScale wide{20.0, 500.0};
 
 std::vector<ClipPoint> amplitudes(const ClipChannel& channel) {
     std::vector<ClipPoint> curve;
-    for (const auto& p : envelopeOf(channel)) curve.push_back({p.seconds, p.amplitude});
+    for (const auto& p : makeEnvelope(channel)) curve.push_back({p.seconds, p.amplitude});
     return curve;
 }
 
@@ -136,7 +136,7 @@ TEST(PhoneFiles, FrequenciesComeBackByTheScale) {
     for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
         const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format, wide), "f", format, wide);
         ASSERT_EQ(again.error, "");
-        for (const EnvelopePoint& p : envelopeOf(again.value.channels[0]))
+        for (const EnvelopePoint& p : makeEnvelope(again.value.channels[0]))
             if (p.amplitude > 0.01) EXPECT_NEAR(p.frequencyHz, 349.0, 1.0);
     }
 }
@@ -185,7 +185,7 @@ TEST(PhoneFiles, ReadApplesDefaultsAndLastCommas) {
     ],})",
                                "f", {100.0, 200.0});
     ASSERT_EQ(clip.error, "");
-    EXPECT_EQ(clip.value.leftOut, "");
+    EXPECT_EQ(clip.value.omissions, "");
     const ClipChannel& channel = clip.value.channels[0];
     EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{40.0, 0.25, 150.0}}));
     EXPECT_EQ(channel.bands[0].waves[0].amplitude,
@@ -207,12 +207,12 @@ TEST(PhoneFiles, TellWhatIsLeftOutInOneLine) {
                                "f");
     ASSERT_EQ(clip.error, "");
     EXPECT_EQ(
-        clip.value.leftOut,
+        clip.value.omissions,
         "left out: AttackTime (2), AudioCustom (1), Authored (1), DecayTime (1), HapticDecayTimeControl (1), "
         "ReleaseTime (1), Speed (1), Sustained (1), a parameter without ParameterID (1)");
     std::string many = R"({"Pattern": [{"Event": {"EventType": "HapticTransient"}})";
     for (int k = 0; k < 1000; ++k) many += R"(, {"unknown)" + std::to_string(k) + R"(": 1})";
-    const std::string line = readAhap(many + "]}", "f").value.leftOut;
+    const std::string line = readAhap(many + "]}", "f").value.omissions;
     EXPECT_NE(line.find("others (988)"), std::string::npos);
     EXPECT_LT(line.size(), 300u);
 }
@@ -363,12 +363,12 @@ TEST(ClipFile, RefusesAGigabyteUnread) {
 }
 
 TEST(ClipFile, IsKnownByItsEnding) {
-    EXPECT_EQ(clipFormatOf("a.hjif"), ClipFormat::hjif);
-    EXPECT_EQ(clipFormatOf("dir/A.HAPTIC"), ClipFormat::haptic);
-    EXPECT_EQ(clipFormatOf("b.ahap"), ClipFormat::ahap);
-    EXPECT_EQ(clipFormatOf("b.Hjif"), ClipFormat::hjif);
-    EXPECT_EQ(clipFormatOf("a.ENVELOPE"), ClipFormat::envelope);
-    for (const char* const none : {"hjif", ".hjif", "a.json"}) EXPECT_FALSE(clipFormatOf(none)) << none;
+    EXPECT_EQ(findClipFormat("a.hjif"), ClipFormat::hjif);
+    EXPECT_EQ(findClipFormat("dir/A.HAPTIC"), ClipFormat::haptic);
+    EXPECT_EQ(findClipFormat("b.ahap"), ClipFormat::ahap);
+    EXPECT_EQ(findClipFormat("b.Hjif"), ClipFormat::hjif);
+    EXPECT_EQ(findClipFormat("a.ENVELOPE"), ClipFormat::envelope);
+    for (const char* const none : {"hjif", ".hjif", "a.json"}) EXPECT_FALSE(findClipFormat(none)) << none;
 }
 
 TEST(ClipFile, TellsWhatIsLost) {

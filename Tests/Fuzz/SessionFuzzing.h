@@ -31,7 +31,7 @@ inline Result<LoadedClip> anyClip(const std::string& name) {
                                  rates[kind % 4],
                                  std::vector<float>(1 + 50 * kind, kind == 3 ? 0.0f : 0.9f),
                                  {.path = std::string(kind, 'x'), .hash = "0123456789abcdef"}});
-        if (kind > 4) clip.shares.push_back({0.25 * static_cast<double>(j), 0.5});
+        if (kind > 4) clip.places.push_back({0.25 * static_cast<double>(j), 0.5});
     }
     return clip;
 }

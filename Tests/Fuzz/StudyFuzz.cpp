@@ -15,7 +15,7 @@ void demandNumbers(std::initializer_list<double> all) {
 
 void analyse(const StudyData<IdentificationTrial>& data) {
     for (const auto& condition : data.groups) {
-        const auto it = informationTransfer(ConfusionMatrix{withTolerance(condition.trials, 1)});
+        const auto it = informationTransfer(ConfusionMatrix{tolerate(condition.trials, 1)});
         demandNumbers({it.bits, it.biasBits, it.minBits, it.trialsPerCell});
     }
 }

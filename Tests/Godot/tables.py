@@ -24,7 +24,7 @@ def between(path, begin, end):
 
 
 def world(is_space):
-    text = between(worlds, "propertiesOf(bool is3d)", "\n}")
+    text = between(worlds, "makeProperties(bool is3d)", "\n}")
     found = rows(text)
     assert '{"field_corner", is3d ? type::vector3 : type::vector2,' in text, "field_corner: expected one of 2D and of 3D"
     found.insert(1, ("field_corner", "Vector3" if is_space else "Vector2"))

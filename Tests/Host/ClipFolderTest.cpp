@@ -57,10 +57,10 @@ void expectTheSameInParts(const fs::path& path, const std::vector<ActuatorPlace>
     for (const auto& samples : sound.value.channels)
         channels.push_back({0.0, sound.value.sampleRateHz, samples, {.path = path.string(), .hash = hash}});
     EXPECT_EQ(clip.value.channels, channels) << path;
-    ASSERT_EQ(clip.value.shares.size(), shares.size()) << path;
+    ASSERT_EQ(clip.value.places.size(), shares.size()) << path;
     for (std::size_t j = 0; j < shares.size(); ++j) {
-        EXPECT_NEAR(clip.value.shares[j].xMetres, shares[j].xMetres, 1e-12) << path;
-        EXPECT_NEAR(clip.value.shares[j].yMetres, shares[j].yMetres, 1e-12) << path;
+        EXPECT_NEAR(clip.value.places[j].xMetres, shares[j].xMetres, 1e-12) << path;
+        EXPECT_NEAR(clip.value.places[j].yMetres, shares[j].yMetres, 1e-12) << path;
     }
 }
 

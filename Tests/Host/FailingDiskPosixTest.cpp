@@ -62,7 +62,7 @@ TEST_F(FailingDisksOfRecordings, AreToldByEachPartOfAnExport) {
             clip.channels[j].label = std::string(1, static_cast<char>('A' + j));
             clip.channels[j].transients = {{0.1, 0.5, 100.0}};
         }
-        const auto parts = partsOf(clip, (folder / "hits.x").string(), format);
+        const auto parts = splitClip(clip, (folder / "hits.x").string(), format);
         expectToldByEachFault(
             folder, [] {},
             [&] {

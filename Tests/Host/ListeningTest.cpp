@@ -183,7 +183,7 @@ TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
 
 TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     auto setup = setupOn("phone4", true);
-    setup.ears = 2;
+    setup.contactChannels = 2;
     Rig rig{setup, {.contacts = {4, 5}, .contactDb = 0.0}};
     rig.session.world().setSlowness(0);
     rig.play(0.2);

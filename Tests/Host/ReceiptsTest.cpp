@@ -86,7 +86,7 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
         // an output that comes and goes within a bin counts as none in all of it: only whole bins do here
         const auto expectAt = [&](std::int64_t a, std::int64_t b) {
             const Receipt told = receipts.receiptFor(nsOf(a), nsOf(b), 1);
-            EXPECT_TRUE(told.isOver && told.isInMemory);
+            EXPECT_TRUE(told.hasEnded && told.isInMemory);
             expectSame(told, summed(given, a, b),
                        "seed " + std::to_string(seed) + ", " + std::to_string(a) + " to " +
                            std::to_string(b));
@@ -134,11 +134,11 @@ TEST(Receipts, TellWhatIsPendingForgottenOrOfAnotherSession) {
     const auto add = [&](std::uint32_t session, std::int64_t place) {
         receipts.addBlock(session, place, rate, &at, bin);
     };
-    EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isOver) << "nothing has run";
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).hasEnded) << "nothing has run";
     receipts.begin();
     for (int k = 0; k < 10; ++k) add(0, k * bin);
     EXPECT_TRUE(receipts.receiptFor(0, nsOf(10 * bin), 0).isRunning);
-    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0).isOver);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0).hasEnded);
     EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0).isRunning);
     EXPECT_EQ(receipts.receiptFor(0, nsOf(bin), 1).frames, 0) << "no such actuator";
     for (int k = 0; k < 10; ++k) add(1, k * bin);
@@ -146,7 +146,7 @@ TEST(Receipts, TellWhatIsPendingForgottenOrOfAnotherSession) {
     EXPECT_FALSE(receipts.receiptFor(0, nsOf(20 * bin), 0).isRunning) << "another one played in between";
     EXPECT_TRUE(receipts.receiptFor(nsOf(10 * bin), nsOf(20 * bin), 0).isRunning);
     EXPECT_TRUE(receipts.receiptFor(0, nsOf(10 * bin), 0, 1).isRunning);
-    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0, 1).isOver);
+    EXPECT_FALSE(receipts.receiptFor(0, nsOf(10 * bin + 1), 0, 1).hasEnded);
     for (std::int64_t k = 20; k < Receipts::maxBins; ++k) add(0, k * bin);
     EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isInMemory);
     EXPECT_FALSE(receipts.receiptFor(0, nsOf(bin), 0).isRunning);
@@ -176,7 +176,7 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
     for (int k = 0; k < 3000 || read < 300; ++k) {
         const std::int64_t bin = std::max<std::int64_t>(0, newest - (k % 2 == 0 ? 0 : Receipts::maxBins - 3));
         const Receipt told = receipts.receiptFor(nsOf(width * bin, 5000), nsOf(width * (bin + 1), 5000), 0);
-        if (!told.isInMemory || !told.isOver) continue;
+        if (!told.isInMemory || !told.hasEnded) continue;
         ++read;
         EXPECT_EQ(told.peak, static_cast<double>(1 + bin % 64) / 64.0);
         EXPECT_EQ(told.meanSquare, told.peak * told.peak);
@@ -218,7 +218,7 @@ struct OneOutput {
                 for (int j = 0; j < 4; ++j) {
                     const std::int64_t b = std::min(last, a + length * width);
                     const Receipt told = output.receiptFor(nsOf(a, hz), nsOf(b, hz), j);
-                    ASSERT_TRUE(told.isOver && told.isInMemory) << where;
+                    ASSERT_TRUE(told.hasEnded && told.isInMemory) << where;
                     if (j == 3) {
                         EXPECT_EQ(told.frames, 0) << "it has no output";
                         EXPECT_FALSE(told.isRunning);
@@ -279,7 +279,7 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
         const std::int64_t now = feltNs();
         const Receipt across = one.output.receiptFor(changedNs - 200'000'000, now - 100'000'000, 0),
                       after = one.output.receiptFor(changedNs + 50'000'000, now - 50'000'000, 0);
-        EXPECT_TRUE(across.isOver && after.isOver);
+        EXPECT_TRUE(across.hasEnded && after.hasEnded);
         EXPECT_FALSE(across.isRunning);
         EXPECT_TRUE(after.isRunning);
         EXPECT_GT(after.opening, before.opening);
@@ -303,7 +303,7 @@ TEST(Receipts, AStallOfTheDeviceIsABreak) {
         one.session.timeline().framesRendered() - one.session.timeline().outputLatencyFrames();
     for (int k = 0; k < 200; ++k) one.play(64, 0);
     const Receipt across = one.output.receiptFor(nsOf(stalled - 480), nsOf(stalled + 480), 0);
-    EXPECT_TRUE(across.isOver);
+    EXPECT_TRUE(across.hasEnded);
     EXPECT_FALSE(across.isRunning);
     EXPECT_GE(across.frames, 960);
 }
@@ -324,7 +324,7 @@ TEST(Receipts, ABorrowedSessionHasItsOwn) {
     EXPECT_EQ(one.output.playedSession(), 0u);
     EXPECT_TRUE(one.output.receiptFor(0, nsOf(4800), 0, number).isRunning)
         << "also afterwards, by its number";
-    EXPECT_FALSE(one.output.receiptFor(0, nsOf(4800), 0).isOver) << "of the output's own";
+    EXPECT_FALSE(one.output.receiptFor(0, nsOf(4800), 0).hasEnded) << "of the output's own";
 }
 
 } // namespace physvib::receipts_test

@@ -62,8 +62,8 @@ TEST(Routing, NoActuatorGetsWhatIsMeantForEarsOrMeters) {
         ChannelSet active;
         const int offered = 1 + static_cast<int>(random.below(outputs));
         for (int k = 0; k < offered; ++k) active.insert(k);
-        map.place(active);
-        map.settle(48000);
+        map.applyRequest(active);
+        map.finishFades(48000);
         std::set<int> driven;
         for (int j = 0; j < actuators; ++j) {
             float sample = 1.0f;
@@ -144,7 +144,7 @@ TEST(ExportedParts, AreOfTheChannelsThatAreNotEmpty) {
                 clip.channels[j].transients = {{0.1, 0.5, 100.0}};
                 ++filled;
             }
-            const auto parts = partsOf(clip, "/tmp/hits.x", format);
+            const auto parts = splitClip(clip, "/tmp/hits.x", format);
             EXPECT_EQ(parts.size(), filled) << mask;
             std::set<std::string> paths;
             for (const ClipPart& part : parts) {
@@ -169,12 +169,12 @@ public:
         : frames_{frames} {
         for (int k = 0; k < outputs; ++k) everything_.insert(k);
         EXPECT_EQ(map_.request(2, {0, 1}), "");
-        map_.place(everything_);
-        map_.settle(rate);
+        map_.applyRequest(everything_);
+        map_.finishFades(rate);
     }
     void assign(const std::vector<int>& to) {
         EXPECT_EQ(map_.request(2, to), "");
-        map_.place(everything_);
+        map_.applyRequest(everything_);
     }
     void play(double seconds) {
         for (int done = 0; done < static_cast<int>(seconds * rate); done += frames_) {

@@ -137,7 +137,7 @@ TEST_F(ReadFileTest, ReadsAPipeToItsEndHoweverLateItBegins) {
     ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
     for (const int ms : {0, 300}) {
         std::thread writer{[&] { // as `slow command | cat >pipe`
-            const OpenFile pipe{std::fopen(path.c_str(), "wb")};
+            const FileHandle pipe{std::fopen(path.c_str(), "wb")};
             std::this_thread::sleep_for(std::chrono::milliseconds{ms});
             for (int k = 0; k < 30'000; ++k) std::fputs("line\n", pipe.get());
         }};
@@ -155,7 +155,7 @@ TEST_F(ReadFileTest, EndsAtTheLimitOfAPipeWithoutEnd) {
     ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
     std::thread writer{[&] {
         std::signal(SIGPIPE, SIG_IGN);
-        const OpenFile pipe{std::fopen(path.c_str(), "wb")};
+        const FileHandle pipe{std::fopen(path.c_str(), "wb")};
         const std::string block(100'000, 'x');
         while (std::fwrite(block.data(), 1, block.size(), pipe.get()) == block.size()) {
         }

@@ -35,12 +35,12 @@ OrderedJson writeCustom(const Sizes&, const auto& sizes) { return sizes; }
 
 void visitFields(auto& v, FieldsOf<Thing>) {
     v.version("thing", 3);
-    v.field("level_db", &Thing::level, kinds::within(-60.0, 0.0));
+    v.field("level_db", &Thing::level, kinds::range(-60.0, 0.0));
     v.field("colour", &Thing::colour, kinds::OneOf{colourNames}, Need::optional.from(2));
     v.legacyField("bit", &Thing::part, kinds::Object<Part>{});
     v.field("part", &Thing::part, kinds::Object<Part>{}, Need::required.from(3));
     v.field("parts", &Thing::parts, kinds::Objects<Part>{2, "parts"}, Need::optional);
-    v.field("sizes", both(&Thing::length, &Thing::width), Sizes{}, Need::filled);
+    v.field("sizes", memberPair(&Thing::length, &Thing::width), Sizes{}, Need::filled);
 }
 
 std::string errorOf(const std::string& fields) {

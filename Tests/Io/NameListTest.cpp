@@ -10,17 +10,17 @@ namespace {
 
 TEST(NameList, IsReadAsASentence) {
     const std::array<std::string_view, 4> laws{"linear", "log", "log-outer", "energy"};
-    EXPECT_EQ(listed(laws), "linear, log, log-outer, energy");
-    EXPECT_EQ(listed(laws, " or "), "linear, log, log-outer or energy");
-    EXPECT_EQ(listed(std::vector<std::string>{"one"}, " or "), "one");
-    EXPECT_EQ(listed(std::vector<std::string>{}), "");
+    EXPECT_EQ(nameList(laws), "linear, log, log-outer, energy");
+    EXPECT_EQ(nameList(laws, " or "), "linear, log, log-outer or energy");
+    EXPECT_EQ(nameList(std::vector<std::string>{"one"}, " or "), "one");
+    EXPECT_EQ(nameList(std::vector<std::string>{}), "");
 }
 
 TEST(NameList, NumberedNamesAreOne) {
     const std::array<std::string_view, 4> layouts{"phone1", "phone2", "ring1", "ring2"};
-    EXPECT_EQ(listedByNumber(layouts), "phone1..phone2, ring1..ring2");
+    EXPECT_EQ(rangeList(layouts), "phone1..phone2, ring1..ring2");
     const std::array<std::string_view, 5> names{"glove5", "phone1", "phone2", "phone4", "arm1"};
-    EXPECT_EQ(listedByNumber(names, " to ", " or "), "glove5, phone1 to phone2, phone4 or arm1");
+    EXPECT_EQ(rangeList(names, " to ", " or "), "glove5, phone1 to phone2, phone4 or arm1");
 }
 
 } // namespace
@@ -42,7 +42,7 @@ TEST(ByNumbers, NumbersInNamesAreOrderedByValue) {
                                            "x-20"};
     for (std::size_t i = 0; i < ordered.size(); ++i)
         for (std::size_t j = 0; j < ordered.size(); ++j)
-            EXPECT_EQ(ByNumbers{}(ordered[i], ordered[j]), i < j) << ordered[i] << " and " << ordered[j];
+            EXPECT_EQ(NaturalOrder{}(ordered[i], ordered[j]), i < j) << ordered[i] << " and " << ordered[j];
 }
 
 TEST(ByNumbers, IsAnOrderOfAllTexts) { // each of one to four characters that it looks at
@@ -50,12 +50,12 @@ TEST(ByNumbers, IsAnOrderOfAllTexts) { // each of one to four characters that it
     for (std::size_t from = 0, length = 0; length < 4; ++length)
         for (const std::size_t end = all.size(); from < end; ++from)
             for (const char c : {'0', '1', '9', '.', '-', 'e'}) all.push_back(all[from] + c);
-    std::ranges::sort(all, ByNumbers{});
+    std::ranges::sort(all, NaturalOrder{});
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
-        EXPECT_TRUE(ByNumbers{}(all[i], all[i + 1]) && !ByNumbers{}(all[i + 1], all[i])) << all[i];
+        EXPECT_TRUE(NaturalOrder{}(all[i], all[i + 1]) && !NaturalOrder{}(all[i + 1], all[i])) << all[i];
     for (std::size_t i = 0; i < all.size(); i += 7) // neighbours in order tell of all
         for (std::size_t j = i + 1; j < all.size(); j += 11)
-            EXPECT_TRUE(ByNumbers{}(all[i], all[j])) << all[i] << " and " << all[j];
+            EXPECT_TRUE(NaturalOrder{}(all[i], all[j])) << all[i] << " and " << all[j];
 }
 
 } // namespace physvib

@@ -359,7 +359,7 @@ TEST(StatedErrors, AreNeverBelowThoseOfWhiteNoise) {
                     const auto nearest = std::ranges::min_element(
                         partials, {}, [=](const Partial& p) { return std::abs(p.omega - omega); });
                     const auto error =
-                        fit.errorOf(static_cast<std::size_t>(nearest - partials.begin())).omega / omega;
+                        fit.stdError(static_cast<std::size_t>(nearest - partials.begin())).omega / omega;
                     EXPECT_GT(error, 0.6 * bound.frequency) << "colour " << colour << ", seed " << seed;
                     if (colour == 0) EXPECT_LT(error, 2.0 * bound.frequency) << "white, seed " << seed;
                 }

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<Mode, Panels>, 6> orders{{{Mode::play, {}},
                                                          {Mode::engineer, {true, true}}}};
 
 std::vector<juce::Rectangle<int>> panelsOf(const Arrangement& a) {
-    return {a.world, a.tabs, a.scope, a.strips, a.side, a.lower, a.between};
+    return {a.world, a.tabs, a.scope, a.strips, a.sideDivider, a.lowerDivider, a.scopeDivider};
 }
 
 TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {

@@ -577,11 +577,11 @@ TEST(BigWorld, SaysThatItIsTooMuchAndIsDrawnMeanwhile) {
     setScene(model, heap());
     ASSERT_TRUE(runUntil([&] { return view.refresh(), model.messageText().contains("of real time"); }));
     EXPECT_TRUE(model.messageText().startsWith("2,004 bodies: ")) << model.messageText();
-    EXPECT_EQ(view.latest().poses.size(), 2004U);
+    EXPECT_EQ(view.snapshot().poses.size(), 2004U);
 }
 
 TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
-    PaceWatch pace;
+    RealTimeMonitor pace;
     EXPECT_FALSE(pace.poll(100'000'000, 0));
     EXPECT_EQ(pace.poll(500'000'000, 0), 1.0);
     EXPECT_FALSE(pace.poll(700'000'000, 150'000'000));
@@ -666,7 +666,7 @@ TEST(FirstStart, HeadphonesByNameComeBeforeAControllerAndOtherSpeakersBehindIt) 
     speakers.name = "Monitor speakers";
     ears.name = "USB Headset";
     speakers.outputs = ears.outputs = 2;
-    const std::vector<DetectedSink> pad{{&kindOf({"PAD", {}}), {"DualSense"}}};
+    const std::vector<DetectedSink> pad{{&findSinkKind({"PAD", {}}), {"DualSense"}}};
     const auto first = [](const std::vector<PlaybackChoice>& choices, std::size_t k) {
         return choices[k].title;
     };
@@ -687,8 +687,8 @@ TEST(FirstStart, ABoardIsOfferedBeforeHeadphonesByNameAndThoseBeforeControllers)
     ears.name = "USB Headset";
     ears.outputs = 2;
     const auto choices =
-        playbackChoices(fakeDrivers({&ears}), {{&kindOf({"PAD", {}}), {"DualSense"}},
-                                               {&kindOf({"BOARD", {}}), {"/dev/ttyACM0", "ST-Link"}}});
+        playbackChoices(fakeDrivers({&ears}), {{&findSinkKind({"PAD", {}}), {"DualSense"}},
+                                               {&findSinkKind({"BOARD", {}}), {"/dev/ttyACM0", "ST-Link"}}});
     ASSERT_GE(choices.size(), 4U);
     EXPECT_EQ(choices[0].title, "Four-channel board: /dev/ttyACM0  ST-Link");
     EXPECT_EQ(choices[0].device.sinks, (std::vector<SinkName>{{"BOARD", "/dev/ttyACM0"}}));

@@ -118,7 +118,7 @@ TEST_F(EventsTabTest, AClipHasTheSameWithChannelsAndPlaces) {
     const auto files = drag();
     ASSERT_EQ(files.size(), 1U);
     const auto path = pathOf(files[0]);
-    const auto clip = loadClip(path, *clipFormatOf(path));
+    const auto clip = loadClip(path, *findClipFormat(path));
     ASSERT_TRUE(clip) << clip.error;
     ASSERT_EQ(clip.value.channels.size(), 4U);
     EXPECT_EQ(clip.value.channels[3].label, "D");

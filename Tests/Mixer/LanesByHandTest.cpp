@@ -305,7 +305,7 @@ TEST_F(LeftHand, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
     EXPECT_FLOAT_EQ(lastGain(0), 1.0f);
     const auto again = readSession(sessionJson(model.savedSession()), "s.json");
     ASSERT_TRUE(again) << again.error;
-    EXPECT_EQ(mixOf(again.value).groups, model.mix().groups);
+    EXPECT_EQ(mixAtEnd(again.value).groups, model.mix().groups);
     model.detach(0);
     EXPECT_EQ(model.mix().strips[0].group, 0) << "a strip takes its group along";
 }

@@ -175,7 +175,7 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_EQ(model.messageText(), "");
     EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(now().decayPerSecond, 98.0, 2.0);
-    const auto* recording = tab.recordingOf(wood);
+    const auto* recording = tab.findRecording(wood);
     ASSERT_NE(recording, nullptr);
     EXPECT_EQ(recording->name, "knock.wav");
     EXPECT_TRUE(recording->sound.isConfident());
@@ -212,8 +212,8 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         tab.measure(file);
         tab.finishMeasuring();
         EXPECT_EQ(model.messageText(), "");
-        ASSERT_NE(tab.recordingOf(wood), nullptr) << ending;
-        EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
+        ASSERT_NE(tab.findRecording(wood), nullptr) << ending;
+        EXPECT_EQ(tab.findRecording(wood)->name, file.getFileName().toStdString());
         EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;
         EXPECT_NEAR(now().decayPerSecond, 98.0, 4.0) << ending;
         juce::MemoryBlock bytes;
@@ -255,7 +255,7 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     expect(folder("short.wav"), "expected at least");
     tab.filesDropped({"a.wav", "b.wav"}, 0, 0);
     EXPECT_TRUE(model.messageText().contains("2 files"));
-    EXPECT_EQ(tab.recordingOf(wood), nullptr);
+    EXPECT_EQ(tab.findRecording(wood), nullptr);
     tab.choose(0);
     tab.measure(folder("knock.wav"));
     EXPECT_FALSE(tab.isMeasuring()) << "rubber is silent there";
@@ -303,8 +303,8 @@ TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     const auto& saved = model.savedSession();
     const auto read = readSession(sessionJson(saved), "again");
     ASSERT_TRUE(read) << read.error;
-    EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);
-    EXPECT_EQ(mixOf(read.value).scene->materials[wood].grainMetres, 0.01);
+    EXPECT_EQ(mixAtEnd(read.value).scene->materials[wood].frequencyHz, 205.0);
+    EXPECT_EQ(mixAtEnd(read.value).scene->materials[wood].grainMetres, 0.01);
     for (const auto& [session, name] : {std::pair{&saved, "one.wav"}, {&read.value, "two.wav"}})
         EXPECT_EQ(renderSessionWav(*session, {48000, 1.5, [](double) { return true; }},
                                    folder(name).getFullPathName().toStdString(), "test"),

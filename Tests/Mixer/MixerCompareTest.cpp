@@ -32,7 +32,7 @@ struct Compared : testing::Test {
         model.dispatchPendingMessages();
     }
     double db() const { return 10.0 * std::log10(contactEnergyG2(model.mix(), events)); }
-    char shown() { return view.world().compare().isOn() ? view.world().compare().activeState() : '-'; }
+    char shown() { return view.world().compare().isComparing() ? view.world().compare().activeState() : '-'; }
 };
 
 TEST_F(Compared, OneKeyChangesBetweenTwoMixesAtMatchedLevels) {
@@ -88,7 +88,7 @@ TEST_F(Compared, TheWorldStaysAndUndoEndsTheComparison) {
     EXPECT_EQ(model.mix().seed, 7u);
     EXPECT_EQ(model.mix().exponent, 1.0);
     for (int k = 0; k < 4 && model.undoManager().canUndo(); ++k) model.undoManager().undo();
-    EXPECT_FALSE(view.world().compare().isOn());
+    EXPECT_FALSE(view.world().compare().isComparing());
     EXPECT_EQ(model.mix().exponent, 1.0);
 }
 

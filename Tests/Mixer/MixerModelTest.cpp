@@ -94,16 +94,16 @@ TEST_F(PlayingModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     float highest = 0.0f;
     ASSERT_TRUE(runUntil([&] {
         highest = std::max(highest, model.poll().heldPeaks[0]);
-        return highest > 0.9f * ceilingOf(model.mix().strips[0]);
+        return highest > 0.9f * channelCeiling(model.mix().strips[0]);
     }));
-    EXPECT_LE(highest, ceilingOf(model.mix().strips[0]) * 1.0001f);
+    EXPECT_LE(highest, channelCeiling(model.mix().strips[0]) * 1.0001f);
     const auto ceilings = [&] {
         std::vector<float> all;
         for (const auto& c : model.savedSession().log.channels)
             if (c.kind == Kind::ceiling) all.push_back(c.value);
         return all;
     };
-    EXPECT_EQ(ceilings(), (std::vector<float>{ceilingOf({.ceilingDb = -30.0})}));
+    EXPECT_EQ(ceilings(), (std::vector<float>{channelCeiling({.ceilingDb = -30.0})}));
     model.attach(0.5, 0.5);
     EXPECT_EQ(model.mix().strips.back().ceilingDb, -30.0) << "not above what the others are held to";
     model.undoManager().undo();

@@ -129,7 +129,7 @@ TEST_F(RoutedOutputs, ARefusedOutputIsNeitherShownNorSaved) {
 TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     RoutedModel first;
     const auto session = opened(first.model.savedSession(), {0, 0, 2, 2});
-    RoutedModel routed{mixOf(session)};
+    RoutedModel routed{mixAtEnd(session)};
     EXPECT_TRUE(routed.model.poll().device.isRunning);
     EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 2, -1}));
     routed.expectAsShown("opened");
@@ -189,7 +189,7 @@ TEST(MixerRouting, FortyRandomRoutingsAreSavedAndOpened) {
     for (int k = 0; k < 40; ++k) {
         std::vector<int> wanted(4);
         for (int& output : wanted) output = static_cast<int>(random.below(10)) - 1; // none, or one of nine
-        RoutedModel routed{mixOf(opened(saved, wanted))};
+        RoutedModel routed{mixAtEnd(opened(saved, wanted))};
         std::vector<int> expected = wanted;
         for (std::size_t j = 1; j < wanted.size(); ++j)
             if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(j), wanted[j]) !=
@@ -203,7 +203,7 @@ TEST(MixerRouting, FortyRandomRoutingsAreSavedAndOpened) {
         ASSERT_TRUE(routed.model.poll().device.isRunning) << k;
         const auto again = readSession(sessionJson(routed.model.savedSession()), "session");
         ASSERT_TRUE(again) << again.error;
-        ASSERT_EQ(mixOf(again.value).strips, routed.model.mix().strips) << k;
+        ASSERT_EQ(mixAtEnd(again.value).strips, routed.model.mix().strips) << k;
         if (k % 10 == 0) routed.expectAsShown("routing " + std::to_string(k));
     }
 }

@@ -252,11 +252,11 @@ TEST_F(ShownMixer, ButtonsDoWhatTheySay) {
 }
 
 TEST_F(ShownMixer, WhatIsSilentStandsStill) {
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.snapshot().masterPeak > 0.001f; }));
     model.setSilent(true);
     const auto isStill = [&] {
         view.refresh();
-        const auto& moment = view.latest();
+        const auto& moment = view.snapshot();
         return moment.masterPeak == 0.0f &&
                std::ranges::all_of(moment.meters.peaks, [](float p) { return p == 0.0f; }) &&
                std::ranges::all_of(moment.heldPeaks, [](float p) { return p == 0.0f; });
@@ -266,7 +266,7 @@ TEST_F(ShownMixer, WhatIsSilentStandsStill) {
     EXPECT_TRUE(runUntil([&] { return model.poll().session.render.played > played + 5; }));
     EXPECT_TRUE(isStill()) << "though the world goes on";
     model.setSilent(false);
-    EXPECT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
+    EXPECT_TRUE(runUntil([&] { return view.refresh(), view.snapshot().masterPeak > 0.001f; }));
 }
 
 TEST_F(ShownMixer, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {

@@ -30,11 +30,11 @@ TEST(SpectrumTrace, ASineIsAPeakOfItsLevelInItsChannelAlone) {
                 const float* channels[]{silence.data() + done, sine.data() + done};
                 trace.add(channels, 2, std::min(130, frames - done));
             }
-            EXPECT_NEAR(peakHz(spectrumLevelsOf(trace, 1)), hz, 0.03 * hz) << rate;
-            EXPECT_NEAR(highestOf(spectrumLevelsOf(trace, 1)), -6.0, 0.5) << rate << " Hz, " << hz;
-            EXPECT_LT(spectrumLevelsOf(trace, 1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f)
+            EXPECT_NEAR(peakHz(channelSpectrum(trace, 1)), hz, 0.03 * hz) << rate;
+            EXPECT_NEAR(highestOf(channelSpectrum(trace, 1)), -6.0, 0.5) << rate << " Hz, " << hz;
+            EXPECT_LT(channelSpectrum(trace, 1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f)
                 << "far from it there is nothing";
-            EXPECT_EQ(highestOf(spectrumLevelsOf(trace, 0)), FrequencyAxis::floorDb);
+            EXPECT_EQ(highestOf(channelSpectrum(trace, 0)), FrequencyAxis::floorDb);
         }
 }
 
@@ -43,7 +43,7 @@ TEST(SpectrumTrace, AxisAndLevelsMeetAtItsEnds) {
     EXPECT_NEAR(FrequencyAxis::hzAtPoint(FrequencyAxis::pointCount - 1), 1000.0, 1e-9);
     EXPECT_NEAR(FrequencyAxis::shareFromHz(FrequencyAxis::hzFromShare(0.3)), 0.3, 1e-12);
     const std::vector<double> short_(3, 1.0); // the axis goes beyond what there is
-    EXPECT_EQ(spectrumLevels(short_, 10.0, 1.0).back(), FrequencyAxis::floorDb);
+    EXPECT_EQ(toSpectrumLevels(short_, 10.0, 1.0).back(), FrequencyAxis::floorDb);
 }
 
 TEST(ScopeTrace, AWaveHasNoGapAndLosesNoPeakAtAnyWidth) {
@@ -111,7 +111,7 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
         return highestOf(spectrum.levelsDb(channel)) == FrequencyAxis::floorDb;
     };
     ASSERT_TRUE(runUntil([&] {
-        return view.refresh(), view.latest().session.render.pending == 0 && isQuiet(0) && isQuiet(2);
+        return view.refresh(), view.snapshot().session.render.pending == 0 && isQuiet(0) && isQuiet(2);
     })) << "what was struck before";
     model.eventPlayer().testPulse(2);
     double seenHz = 0.0;
@@ -147,13 +147,13 @@ juce::String valueOf(const std::vector<StatusRow>& facts, const juce::String& na
 
 TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
     view.scope().choose("Telemetry");
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.played > 5; }));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.snapshot().session.render.played > 5; }));
     auto& shown = the<StatusTable>(*view.scope().find<TelemetryTab>()->getChildComponent(0), "Telemetry");
     EXPECT_TRUE(runUntil([&] { return view.refresh(), valueOf(shown.rows(), "Clock").contains("48000 Hz"); }))
         << shown.getDescription();
     EXPECT_TRUE(shown.getDescription().contains("Late: ")) << shown.getDescription();
 
-    MixerSnapshot moment = view.latest();
+    MixerSnapshot moment = view.snapshot();
     moment.session.render.late = 3;
     moment.session.render.liveModes = 7;
     moment.session.refused = 2;

@@ -63,10 +63,10 @@ TEST_F(ListedTakes, ATakeIsPlayedEachChannelOnItsActuatorUntilItIsStopped) {
     takes->rescan();
     takes->choose(0);
     auto& play = button("Play the take on the device");
-    const auto isFelt = [&] { return view.refresh(), view.latest().meters.peaks[2] > 0.01f; };
+    const auto isFelt = [&] { return view.refresh(), view.snapshot().meters.peaks[2] > 0.01f; };
     play.onClick();
     EXPECT_TRUE(runUntil(isFelt)) << model.messageText();
-    EXPECT_EQ(view.latest().meters.peaks[0], 0.0f);
+    EXPECT_EQ(view.snapshot().meters.peaks[0], 0.0f);
     EXPECT_EQ(play.getButtonText(), "Stop");
     play.onClick();
     EXPECT_TRUE(runUntil([&] { return !isFelt(); })) << "long before its end";
@@ -194,7 +194,7 @@ TEST_F(TrimmedTake, ATrimmedTakePlaysThatPartFromAFileThatStays) {
     EXPECT_EQ(soundOf(parts[0]).channels[0].size(), 47040U);
     EXPECT_TRUE(runUntil([&] {
         view.refresh();
-        return view.latest().meters.peaks[1] > 0.01f;
+        return view.snapshot().meters.peaks[1] > 0.01f;
     })) << model.messageText();
     EXPECT_EQ(list().getModel()->getNumRows(), 1) << "the part is not listed";
     trimmer.mouseDrag(mouseAt(trimmer, {-50.0f, 5.0f}));

@@ -260,7 +260,7 @@ private:
             if (oneIn(4)) return oneIn(2) ? argument.minimum : std::min(argument.maximum, 30.0);
             return random_.uniform(argument.minimum, std::min(argument.maximum, 500.0));
         }
-        if (argument.type == MessageArgument::Type::word || oneIn(2)) return word();
+        if (argument.type == MessageArgument::Type::text || oneIn(2)) return word();
         std::vector<double> numbers(static_cast<std::size_t>(2 * (1 + random_.below(6))));
         for (double& one : numbers) one = random_.uniform(0.0, 2.0);
         if (argument.type == MessageArgument::Type::numbers) std::ranges::sort(numbers);

@@ -50,10 +50,10 @@ TEST(PicoDescriptors, HoldTogether) {
 }
 
 TEST(PicoVolume, IsInDecibels) {
-    EXPECT_EQ(pico::gainOfVolume(0), pico::unity);
-    EXPECT_NEAR(pico::gainOfVolume(-6 * 256), 0.50119 * pico::unity, 1.0);
-    EXPECT_NEAR(pico::gainOfVolume(-60 * 256), 0.001 * pico::unity, 1.0);
-    EXPECT_EQ(pico::gainOfVolume(-120 * 256), 0);
+    EXPECT_EQ(pico::volumeGain(0), pico::unity);
+    EXPECT_NEAR(pico::volumeGain(-6 * 256), 0.50119 * pico::unity, 1.0);
+    EXPECT_NEAR(pico::volumeGain(-60 * 256), 0.001 * pico::unity, 1.0);
+    EXPECT_EQ(pico::volumeGain(-120 * 256), 0);
     pico::AudioControls<4> controls;
     const auto set = [&](std::uint8_t control, std::uint8_t channel, int value, int bytes) {
         const std::uint8_t data[] = {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8)};
@@ -61,8 +61,8 @@ TEST(PicoVolume, IsInDecibels) {
     };
     EXPECT_TRUE(set(pico::audio_request::volume, 2, -12 * 256, 2));
     EXPECT_TRUE(set(pico::audio_request::volume, 0, -6 * 256, 2));
-    EXPECT_EQ(controls.gain(1), pico::gainOfVolume(-18 * 256));
-    EXPECT_EQ(controls.gain(0), pico::gainOfVolume(-6 * 256));
+    EXPECT_EQ(controls.gain(1), pico::volumeGain(-18 * 256));
+    EXPECT_EQ(controls.gain(0), pico::volumeGain(-6 * 256));
     EXPECT_TRUE(set(pico::audio_request::mute, 1, 1, 1));
     EXPECT_EQ(controls.gain(0), 0);
     EXPECT_TRUE(set(pico::audio_request::volume, 0, -32768, 2));
@@ -203,7 +203,7 @@ protected:
             const Bytes d(all.data.begin() + static_cast<std::ptrdiff_t>(at),
                           all.data.begin() + static_cast<std::ptrdiff_t>(at + all.data[at]));
             if (d[1] == pico::descriptor::interface) settings.push_back({d, {}, {}});
-            if (d[1] == pico::descriptor::ofInterface) settings.back().own.push_back(d);
+            if (d[1] == pico::descriptor::csInterface) settings.back().own.push_back(d);
             if (d[1] == pico::descriptor::endpoint) settings.back().endpoints.push_back(d);
         }
         const auto controls = of(control);

@@ -148,12 +148,12 @@ TEST(HitColours, OfAGloveTellTheFinger) {
     input.layout.count = static_cast<int>(gloveTips.size());
     std::ranges::copy(gloveTips, input.layout.places.begin());
     const HitColours colours(input);
-    EXPECT_EQ(colours.colourOf(events[0]), palette::enchanter(2));
-    EXPECT_EQ(colours.colourOf(events[1]), palette::enchanter(0));
+    EXPECT_EQ(colours.colourOf(events[0]), palette::actuator(2));
+    EXPECT_EQ(colours.colourOf(events[1]), palette::actuator(0));
     EXPECT_EQ(colours.classes()[0].name, "thumb");
     EXPECT_EQ(colours.classes()[1].name, "middle");
     EXPECT_STREQ(colours.meaning(), "part of the body");
-    EXPECT_EQ(laneLabelOf(input, 2), "C middle");
+    EXPECT_EQ(laneLabel(input, 2), "C middle");
     events[1].source.part = 0; // felt on all
     EXPECT_STREQ(HitColours(input).meaning(), "frequency");
 }

@@ -183,7 +183,7 @@ TEST(RenderPicture, EveryChannelHasALaneInItsColour) {
         const auto image = drawPicture(Render(channels, 10).input);
         double above = 0.0;
         for (int c = 0; c < channels; ++c) {
-            const auto lane = find(image, palette::enchanter(c), lanes);
+            const auto lane = find(image, palette::actuator(c), lanes);
             EXPECT_GT(lane.count, 600) << c;
             EXPECT_GT(lane.y, above) << c; // in channel order, top to bottom
             above = lane.y;
@@ -330,7 +330,7 @@ TEST(RenderPicture, WithoutFontsTheRestIsThere) {
     ASSERT_FALSE(some.empty());
     const Render render(4, 30);
     const auto silent = drawPicture(render.input, none), worded = drawPicture(render.input, some);
-    EXPECT_GT(find(silent, palette::enchanter(3), lanes).count, 600);
+    EXPECT_GT(find(silent, palette::actuator(3), lanes).count, 600);
     const Area title{24, 16, 300, 36};
     EXPECT_EQ(find(silent, palette::ground, title).count, 300 * 36);
     EXPECT_LT(find(worded, palette::ground, title).count, 300 * 36);
@@ -339,7 +339,7 @@ TEST(RenderPicture, WithoutFontsTheRestIsThere) {
 // A wave has thousands of corners, more than FreeType's rasteriser holds at once.
 TEST(RenderPicture, ALoudWaveIsFilledFromItsTopToItsBottom) {
     const auto image = drawPicture(Render(1, 10).input);
-    const auto lane = find(image, palette::enchanter(0), lanes);
+    const auto lane = find(image, palette::actuator(0), lanes);
     EXPECT_GT(lane.count, 1300 * 15);
 }
 

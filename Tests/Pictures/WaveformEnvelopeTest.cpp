@@ -117,7 +117,7 @@ TEST(ChannelLabels, AreLettersAsLongAsThereAreSomeThenNumbersAndAlwaysDifferent)
         input.layout.count = count;
         std::set<std::string> labels;
         for (int j = 0; j < count; ++j) {
-            const std::string label = picture::labelOf(input, j);
+            const std::string label = picture::actuatorLabel(input, j);
             EXPECT_EQ(label, count <= 26 ? std::string(1, static_cast<char>('A' + j)) : std::to_string(j + 1))
                 << j << " of " << count;
             labels.insert(label);
@@ -134,7 +134,7 @@ TEST(ChannelLabels, NamesOfTheirOwnComeFirst) {
         names.resize(named);
         input.labels = names;
         for (std::size_t j = 0; j < 4; ++j)
-            EXPECT_EQ(picture::labelOf(input, static_cast<int>(j)),
+            EXPECT_EQ(picture::actuatorLabel(input, static_cast<int>(j)),
                       j < named ? names[j] : std::string(1, static_cast<char>('A' + j)));
     }
 }

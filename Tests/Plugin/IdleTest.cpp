@@ -100,7 +100,7 @@ TEST(PluginMemory, OfAnInstanceByKind) {
     };
     opened(*prepared(0)).reset(); // what the process has once
     const auto order = std::make_shared<RunSpec>();
-    order->setup = sessionSetupOf(newPluginState());
+    order->setup = makeSessionSetup(newPluginState());
     const auto& setup = order->setup;
     const RendererSettings settings{.channels = setup.channels, .panner = setup.panner, .modes = setup.modes};
     const std::size_t bank = heapOf([&] {

@@ -122,7 +122,7 @@ TEST(Knobs, StatesWithoutThemSoundAsThePresetWhateverTheyWereBefore) {
         state.notes = preset.notes;
         const auto now = knobChord(pluginStateJson(state));
         std::erase_if(state.parameters, [](const auto& p) {
-            return rowOf(static_cast<Parameter>(parameterOfId(p.first))).version >= 5;
+            return rowOf(static_cast<Parameter>(findParameter(p.first))).version >= 5;
         });
         EXPECT_EQ(state.parameters.size(), 14u);
         EXPECT_TRUE(knobChord(pluginStateJson(state)) == now) << name;
@@ -141,7 +141,7 @@ TEST(Knobs, AsThePresetEveryKeyIsWhatItsStateSays) {
                 << name << note;
             if (plain.frequencyHz > 0.0) EXPECT_TRUE(now.x == plain.x && now.y == plain.y) << name << note;
             EXPECT_EQ(table.isHeld(note, {}), table.isHeld(note)) << name << note;
-            EXPECT_EQ(table.loudnessOf(note, {}), note / 127.0) << name;
+            EXPECT_EQ(table.velocityAmplitude(note, {}), note / 127.0) << name;
         }
         EXPECT_EQ(table.bendSemitones({}), state.voice.bendSemitones);
         EXPECT_EQ(table.releasePerSecond({}), std::log(1000.0) / state.voice.releaseSeconds);

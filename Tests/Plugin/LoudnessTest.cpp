@@ -270,7 +270,7 @@ std::vector<int> channelsOfEnchanters(TestHost& host, int enchanters) {
 }
 
 TEST(BusPlan, BusesOfPairsBearTheLabelsOfTheirEnchanters) {
-    const auto buses = busesOf({BusPlan::Kind::manyBuses}, vst3);
+    const auto buses = newBuses({BusPlan::Kind::manyBuses}, vst3);
     EXPECT_EQ(buses[0].name, "A, B");
     EXPECT_EQ(buses[1].name, "C, D");
     EXPECT_EQ(buses[12].name, "Y, Z");
@@ -290,8 +290,8 @@ TEST(BusPlan, FourEnchantersOnAStereoTrackSurvive) {
     TestHost host{{BusPlan::Kind::oneBus, 2}};
     EXPECT_EQ(channelsOfEnchanters(host, 4), (std::vector<int>{0, 1, -1, -1}));
     const auto meters = host.plugin->meters();
-    EXPECT_EQ(meters.enchanters, 4);
-    EXPECT_EQ(meters.connected, 2);
+    EXPECT_EQ(meters.actuatorCount, 4);
+    EXPECT_EQ(meters.connectedCount, 2);
 }
 
 TEST(BusPlan, ABusThatIsOffKeepsThePlacesOfItsEnchanters) {

@@ -249,7 +249,7 @@ struct SaidOfNotes final : NoteSource {
 void prepareVoice(QuietHost& host, bool isHeld) {
     auto state = host.plugin->state();
     state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlacement::middle, .isHeld = isHeld};
+    state.voice = {.pitch = NotePitch::note, .placement = NotePlacement::middle, .isHeld = isHeld};
     ASSERT_TRUE(host.plugin->apply(state));
     host.prepare(48000, 480);
 }
@@ -338,7 +338,7 @@ TEST(Midi, AProgramChangeChoosesThatPreset) {
         }
         EXPECT_EQ(host.plugin->getCurrentProgram(), expected) << program;
     }
-    EXPECT_TRUE(host.plugin->canGo(PluginProcessor::Direction::undo));
+    EXPECT_TRUE(host.plugin->canStep(PluginProcessor::Direction::undo));
 }
 
 } // namespace physvib::midi_test

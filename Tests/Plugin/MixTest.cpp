@@ -32,7 +32,7 @@ Samples renderedMix(const PluginState& s, std::int64_t frames) {
     sendStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
     const RendererSettings settings{.sampleRateHz = 48000,
                                     .channels = actuatorCount(s),
-                                    .panner = pannerOf(s, PanningLaw::linear, 1.0),
+                                    .panner = makePanner(s, PanningLaw::linear, 1.0),
                                     .limiterEnabled = s.limiterEnabled,
                                     .equalised = s.equalised};
     Samples signal(static_cast<std::size_t>(actuatorCount(s)));

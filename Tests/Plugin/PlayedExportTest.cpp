@@ -14,7 +14,7 @@ using namespace test;
 
 /// Notes on and off of a MIDI file, times in seconds; only what it says itself.
 std::vector<juce::MidiMessage> notesOf(const std::vector<CollisionEvent>& events, const PluginState& state) {
-    const std::string bytes = midiFileBytes({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
+    const std::string bytes = midiFileBytes({events, state, makePanner(state, PanningLaw::linear, 1.0)});
     juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
     juce::MidiFile file;
     EXPECT_TRUE(file.readFrom(stream, false)); // else it adds what is missing
@@ -102,7 +102,7 @@ TEST(PlayedExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     const auto state = host.plugin->state();
     const auto events = host.plugin->playedEvents().events(true);
     ASSERT_EQ(events.size(), 8u);
-    const PlayedExport felt{events, state, pannerOf(state, PanningLaw::linear, 1.0)};
+    const PlayedExport felt{events, state, makePanner(state, PanningLaw::linear, 1.0)};
     const auto folder = juce::File::createTempFile("felt");
     ASSERT_TRUE(folder.createDirectory().wasOk());
     const auto at = [&folder](const char* name) {

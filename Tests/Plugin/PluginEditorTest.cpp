@@ -103,12 +103,12 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
 TEST(PluginEditor, ItsLowerEdgeHelpsWithWhatIsUnderTheMouse) {
     TestHost host;
     auto editor = openEditor<PluginEditor>(*host.plugin);
-    EXPECT_EQ(editor->helpOf(nullptr), "");
-    EXPECT_EQ(editor->helpOf(editor.get()), "");
+    EXPECT_EQ(editor->findHelp(nullptr), "");
+    EXPECT_EQ(editor->findHelp(editor.get()), "");
     auto* const silence = buttonOf(*editor, "SILENCE");
-    EXPECT_EQ(editor->helpOf(silence), juce::String{"Silence; the world goes on"});
+    EXPECT_EQ(editor->findHelp(silence), juce::String{"Silence; the world goes on"});
     juce::Component elsewhere;
-    EXPECT_EQ(editor->helpOf(&elsewhere), "");
+    EXPECT_EQ(editor->findHelp(&elsewhere), "");
 }
 
 TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
@@ -216,18 +216,18 @@ void seed(PluginProcessor& plugin, std::uint32_t number) {
 TEST(EditHistory, GoesBackAndForthAndANewEditForgetsWhatWasUndone) {
     TestHost host;
     auto& plugin = *host.plugin;
-    EXPECT_FALSE(plugin.canGo(Step::undo));
+    EXPECT_FALSE(plugin.canStep(Step::undo));
     seed(plugin, 5);
     seed(plugin, 6);
-    plugin.go(Step::undo);
+    plugin.stepHistory(Step::undo);
     EXPECT_EQ(plugin.state().seed, 5u);
-    plugin.go(Step::undo);
+    plugin.stepHistory(Step::undo);
     EXPECT_EQ(plugin.state().seed, 1u);
-    EXPECT_FALSE(plugin.canGo(Step::undo));
-    plugin.go(Step::redo);
+    EXPECT_FALSE(plugin.canStep(Step::undo));
+    plugin.stepHistory(Step::redo);
     EXPECT_EQ(plugin.state().seed, 5u);
     seed(plugin, 7);
-    EXPECT_FALSE(plugin.canGo(Step::redo));
+    EXPECT_FALSE(plugin.canStep(Step::redo));
 }
 
 TEST(EditHistory, AKnobIsAStepAndSilenceIsNone) {
@@ -240,10 +240,10 @@ TEST(EditHistory, AKnobIsAStepAndSilenceIsNone) {
         parameter->setValueNotifyingHost(value);
         parameter->endChangeGesture();
     }
-    host.plugin->go(Step::undo);
+    host.plugin->stepHistory(Step::undo);
     EXPECT_NEAR(level.getValue(), before, 1e-6f);
     EXPECT_EQ(bypass.getValue(), 1.0f) << "nothing but its button lifts it";
-    EXPECT_FALSE(host.plugin->canGo(Step::undo));
+    EXPECT_FALSE(host.plugin->canStep(Step::undo));
 }
 
 TEST(EditHistory, WhatAutomationMovedStaysWhereItIs) {
@@ -252,13 +252,13 @@ TEST(EditHistory, WhatAutomationMovedStaysWhereItIs) {
     auto& tilt = plugin.parameter(Parameter::tilt);
     seed(plugin, 5);
     tilt.setValue(0.75f); // as a host does it, and a controller
-    plugin.go(Step::undo);
+    plugin.stepHistory(Step::undo);
     EXPECT_EQ(plugin.state().seed, 1u);
     EXPECT_EQ(tilt.getValue(), 0.75f);
     tilt.setValue(0.875f);
-    plugin.go(Step::redo);
+    plugin.stepHistory(Step::redo);
     EXPECT_EQ(tilt.getValue(), 0.875f);
-    plugin.go(Step::exchange);
+    plugin.stepHistory(Step::exchange);
     EXPECT_EQ(tilt.getValue(), 0.875f) << "A and B differ in what a hand has moved";
 }
 
@@ -276,16 +276,16 @@ TEST(EditHistory, AProgramIsOneStepWithItsParametersWhoeverChoosesIt) {
         else
             plugin.choosePreset(bass);
         EXPECT_NE(plugin.parameter(Parameter::strikeLevel).value(), level);
-        plugin.go(Step::undo);
+        plugin.stepHistory(Step::undo);
         EXPECT_EQ(plugin.state().scene.name, shakenBox().scene.name);
         EXPECT_EQ(plugin.state().seed, 4u);
         EXPECT_NEAR(plugin.parameter(Parameter::strikeLevel).value(), level, 1e-4);
-        plugin.go(Step::redo);
+        plugin.stepHistory(Step::redo);
         EXPECT_EQ(plugin.state().scene.name, "Bass");
-        plugin.go(Step::undo);
-        plugin.go(Step::undo);
+        plugin.stepHistory(Step::undo);
+        plugin.stepHistory(Step::undo);
         EXPECT_EQ(plugin.state().seed, 1u);
-        EXPECT_FALSE(plugin.canGo(Step::undo));
+        EXPECT_FALSE(plugin.canStep(Step::undo));
     }
 }
 
@@ -293,18 +293,18 @@ TEST(EditHistory, AAndBHaveStepsOfTheirOwn) {
     TestHost host;
     auto& plugin = *host.plugin;
     seed(plugin, 5);
-    plugin.go(Step::exchange);
+    plugin.stepHistory(Step::exchange);
     EXPECT_TRUE(plugin.isAtB());
     EXPECT_EQ(plugin.state().seed, 5u) << "at first the same";
-    EXPECT_FALSE(plugin.canGo(Step::undo)) << "nothing was done at B";
+    EXPECT_FALSE(plugin.canStep(Step::undo)) << "nothing was done at B";
     seed(plugin, 6);
-    plugin.go(Step::exchange);
+    plugin.stepHistory(Step::exchange);
     EXPECT_EQ(plugin.state().seed, 5u);
-    plugin.go(Step::undo);
+    plugin.stepHistory(Step::undo);
     EXPECT_EQ(plugin.state().seed, 1u);
-    plugin.go(Step::exchange);
+    plugin.stepHistory(Step::exchange);
     EXPECT_EQ(plugin.state().seed, 6u);
-    plugin.go(Step::undo);
+    plugin.stepHistory(Step::undo);
     EXPECT_EQ(plugin.state().seed, 5u) << "where B began";
 }
 

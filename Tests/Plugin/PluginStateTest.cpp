@@ -126,7 +126,7 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     EXPECT_EQ(law.value(), 3.0) << "as version 1 wrote it";
     give("\"logarithmic\"");
     EXPECT_EQ(host.plugin->errorText().toStdString(), "state: parameters.law: expected one of " +
-                                                          listed(rowOf(Parameter::law).choices) +
+                                                          nameList(rowOf(Parameter::law).choices) +
                                                           ", found \"logarithmic\"");
     EXPECT_EQ(law.value(), 3.0);
     auto state = host.plugin->state();

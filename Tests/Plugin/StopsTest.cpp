@@ -127,7 +127,7 @@ TEST(DelayedMusic, IsSilentWhereNoneCame) {
             end += frames;
             while (read < end) {
                 const int part = static_cast<int>(std::min<std::int64_t>(end - read, limits::tileFrames));
-                const float* const* out = delay.at(read, part);
+                const float* const* out = delay.samplesFrom(read, part);
                 for (int i = 0; i < part; ++i) {
                     const auto found = written.find(read + i);
                     const float expected = found == written.end() ? 0.0f : found->second;
@@ -155,7 +155,7 @@ TEST(DelayedMusic, IsSilentForAPauseThatIsFelt) {
         const std::int64_t until = from + std::max(length, shortest);
         for (std::int64_t frame = 0; frame < 12'000; frame += limits::tileFrames) {
             const int part = static_cast<int>(std::min<std::int64_t>(limits::tileFrames, 12'000 - frame));
-            const float* const* out = delay.at(frame, part);
+            const float* const* out = delay.samplesFrom(frame, part);
             for (std::int64_t n = frame; n < frame + part; ++n) {
                 const float sample = out ? out[0][n - frame] : 0.0f;
                 if (n < from || n >= until + ramp) ASSERT_FLOAT_EQ(sample, 0.5f) << length << " at " << n;

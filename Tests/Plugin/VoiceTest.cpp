@@ -41,7 +41,7 @@ Message off(int note, int channel = 1) { return Message::noteOff(channel, note);
 PluginState heldVoice(NotePlacement places = NotePlacement::middle) {
     auto state = emptyBox();
     state.limiterEnabled = false;
-    state.voice = {.pitch = NotePitch::note, .places = places, .isHeld = true, .levelsPeak = true};
+    state.voice = {.pitch = NotePitch::note, .placement = places, .isHeld = true, .levelsPeak = true};
     return state;
 }
 
@@ -235,7 +235,7 @@ TEST(Voice, TheBeltOfEightPlaysANoteOnOneActuatorAndAPlaceBetweenTwoOnThese) {
     const auto state = presetNamed("Belt of eight", 0);
     const ActuatorLayout& belt = state.layout.geometry;
     ASSERT_EQ(belt.count, 8);
-    const PhantomPanner panner = pannerOf(state, PanningLaw::linear, 1.0);
+    const PhantomPanner panner = makePanner(state, PanningLaw::linear, 1.0);
     const auto gainsAt = [&](double xMetres, double yMetres) {
         PhantomPanner::Gains gains{};
         panner.gainsAt(xMetres / belt.extentWidthMetres * state.scene.fieldWidthMetres,

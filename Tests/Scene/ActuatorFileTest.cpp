@@ -140,7 +140,7 @@ TEST(PadFile, WrittenAndReadItIsTheSame) {
 }
 
 TEST(PadFile, TheXboxProfileHasTheMeasuredFigures) {
-    const PadLaw law = findPad("pad-xbox").value.law;
+    const PadModel law = findPad("pad-xbox").value.law;
     for (const PadMotor& motor : {law.low, law.high}) {
         EXPECT_EQ(motor.threshold, 0.3);
         EXPECT_EQ(motor.half, 0.5);
@@ -178,7 +178,7 @@ TEST(PadCommands, ATableBeginsAndEndsAtRestAndHoldsWhatDiffers) {
     hit.decayPerSecond = 1.0;
     hit.amplitude = 1.0;
     hit.x = hit.y = 0.5;
-    const PadLaw law = builtInPads().front().law;
+    const PadModel law = builtInPads().front().law;
     const auto rings = padCommands(law, {&hit, 1}, {}, panner, 900'000'000);
     ASSERT_GE(rings.size(), 3u);
     EXPECT_TRUE(rings.front().isSame({}));

@@ -169,8 +169,8 @@ TEST(PadCommands, ControlsActFromTheirOwnNanosecond) {
     layoutPreset("phone4", phone);
     const PhantomPanner near{phone, PanningLaw::linear, 1.0, 1.0, 1.0},
         far{phone, PanningLaw::linear, 1.0, 10.0, 1.0};
-    PadLaw law = builtInPads().front().law;
-    law.side = 1.0;
+    PadModel law = builtInPads().front().law;
+    law.placeWeight = 1.0;
     constexpr std::int64_t at = 500'000'000;
     CollisionEvent hit{.timeNs = at, .frequencyHz = 100.0, .decayPerSecond = 5.0, .amplitude = 0.6};
     hit.x = 0.95, hit.y = 0.5;

@@ -249,7 +249,7 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
 TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
     Routed routed;
     EXPECT_EQ(routed.take(R"({"message": "knock"})").error,
-              "\"knock\": expected one of " + listed(namesOf(messageTable)));
+              "\"knock\": expected one of " + nameList(entryNames(messageTable)));
     const std::tuple<std::string, std::string, std::string> refusals[]{
         {"strike", R"("material": "cheese")",
          "material: expected a material of the scene that vibrates, found \"cheese\""},
@@ -269,7 +269,7 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
          "place: expected x and y, or x, y and z in metres, or an actuator's letter"},
         {"phantom", R"("place": [1, 2, 3, 4])",
          "place: expected x and y, or x, y and z in metres, or an actuator's letter"},
-        {"phantom", R"("law": "flat")", "law: expected one of " + listed(spreadNames) + ", found \"flat\""},
+        {"phantom", R"("law": "flat")", "law: expected one of " + nameList(spreadNames) + ", found \"flat\""},
         {"pattern", R"("pattern": "AB")",
          "pattern: expected one like ABA-250 (one to three actuators, then milliseconds), found \"AB\""},
         {"path", R"("places": "A")", "places: expected 2 to 64 places, found 1"},

@@ -116,7 +116,7 @@ TEST(ComplaintLimits, CausesThatAreMadeUpDoNotHelp) {
 }
 
 TEST(ComplaintLimits, ACauseIsWhatIsExpected) {
-    const auto cause = [](const char* reason) { return ErrorRateLimit::causeOf(reason); };
+    const auto cause = [](const char* reason) { return ErrorRateLimit::hashCause(reason); };
     EXPECT_EQ(cause("gain: channel: expected a channel from 1 to 4, found 9"),
               cause("gain: channel: expected a channel from 1 to 4, found 12"));
     EXPECT_EQ(cause("\"jump\": expected the name of a message"),

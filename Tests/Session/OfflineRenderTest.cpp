@@ -113,7 +113,7 @@ TEST(ContactAudio, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     }
 
     ContactAudioRender heard{48'000, frames};
-    heard.ears = 2;
+    heard.channels = 2;
     heard.field = field;
     heard.levelDb = -20.0;
     const auto scale = static_cast<float>(fromDecibels(-20.0));

@@ -248,7 +248,7 @@ std::string rangeOf(const MessageArgument& argument) {
     const std::string range = numberText(argument.minimum) + " to " + plainNumber(argument.maximum);
     switch (argument.type) {
     case Type::number: return range;
-    case Type::word: return "word";
+    case Type::text: return "word";
     case Type::place: return "place";
     case Type::places: return "places";
     default: return "list, " + range;

@@ -60,7 +60,7 @@ SavedSession savedOf(Session& session, const SessionSetup& setup, int channels) 
 int differences(const Signal& live, const SavedSession& saved, std::int64_t outputLatencyFrames) {
     const auto frames = static_cast<std::int64_t>(live[0].size()) - outputLatencyFrames;
     const auto events = sessionEvents(saved, frames * 1'000'000'000 / rate).events;
-    const auto controls = controlsOf(saved.log, true, saved.channels);
+    const auto controls = logControls(saved.log, true, saved.channels);
     int wrong = 0;
     std::int64_t done = outputLatencyFrames;
     renderOffline(
@@ -212,7 +212,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     saved.mix = mix;
     const auto again = readSession(sessionJson(saved), "s.json");
     ASSERT_TRUE(again) << again.error;
-    const Mix read = mixOf(again.value);
+    const Mix read = mixAtEnd(again.value);
     EXPECT_EQ(read.strips, mix.strips);
     EXPECT_EQ(read.layout.actuators, mix.layout.actuators);
     EXPECT_EQ(read.levelDb, -20.0);
@@ -223,7 +223,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     const auto old =
         readSession(textWith(older, version + std::to_string(sessionFormatVersion), version + "3"), "s.json");
     ASSERT_TRUE(old) << old.error;
-    EXPECT_EQ(mixOf(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0)
+    EXPECT_EQ(mixAtEnd(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0)
         << "the knob stays; what was dragged is an input, in N s";
     saved.mix->strips[1].delayMs = 70.0;
     EXPECT_EQ(readSession(sessionJson(saved), "s.json").error,
@@ -231,7 +231,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     saved.mix.reset(); // as `physvib play` saves
     saved.log.channels = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 3, 1.0f}, {0, Kind::ceiling, 0, 0.25f}};
     saved.ceilings[2] = 0.1f;
-    const Mix made = mixOf(saved);
+    const Mix made = mixAtEnd(saved);
     EXPECT_TRUE(made.strips[1].isInverted);
     EXPECT_NEAR(made.strips[1].gainDb, -6.02, 0.01);
     EXPECT_TRUE(made.strips[3].isMuted);

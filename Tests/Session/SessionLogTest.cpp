@@ -109,7 +109,7 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
     auto made = simulateRuns(session.log.runs, session.run, session.lengthNs);
     std::ranges::transform(made.events, made.events.begin(), session.shaping);
-    const auto controls = controlsOf(session.log, true, channels);
+    const auto controls = logControls(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
     renderOffline(made.events,
                   {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, 0,

@@ -291,7 +291,7 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
         ASSERT_TRUE(p->canUse("Field"));
         auto* field = p->find("Field");
         p->clickAt(p->view.getLocalPoint(
-            field, pixelOn(fieldAreaIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
+            field, toPixel(fitField(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
         touched.push_back(at);
     };
     passPage();

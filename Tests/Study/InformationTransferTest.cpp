@@ -199,7 +199,7 @@ TEST(ConfusionMatrix, GridLabelsAreTwoNumbersFromOne) {
 }
 
 TEST(ConfusionMatrix, ToleranceCountsNeighboursAsTheStimulus) {
-    const auto trials = withTolerance({{"2,2", "2,3"}, {"2,2", "3,3"}, {"2,2", "2,2"}, {"2,2", "x"}}, 1);
+    const auto trials = tolerate({{"2,2", "2,3"}, {"2,2", "3,3"}, {"2,2", "2,2"}, {"2,2", "x"}}, 1);
     EXPECT_EQ(trials[0].response, "2,2");
     EXPECT_EQ(trials[1].response, "3,3");
     EXPECT_EQ(trials[2].response, "2,2");

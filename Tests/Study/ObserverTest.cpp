@@ -60,7 +60,7 @@ TEST(SimulatedObserver, AnswersGridsAsItsModelSays) {
         const auto settings = *observerNamed("simulated-RING");
         const auto trials = mainTrials(identification(GridSet{lines, lines}, 10), settings, 18);
         const BlurredGrid model = blurredGrid(lines, settings.placeBlur);
-        const ConfusionMatrix exact{trials}, tolerant{withTolerance(trials, 1)};
+        const ConfusionMatrix exact{trials}, tolerant{tolerate(trials, 1)};
         const auto n = static_cast<double>(exact.trials());
         EXPECT_NEAR(static_cast<double>(exact.correct()) / n, model.shareExact, 3.5 * std::sqrt(0.25 / n));
         EXPECT_NEAR(static_cast<double>(tolerant.correct()) / n, model.shareTolerance1,

@@ -102,13 +102,13 @@ TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
         EXPECT_EQ(findProtocol(p.name).value, p);
         const Protocol builtIn = findProtocol(p.name.substr(0, p.name.size() - thesisSuffix.size())).value;
         EXPECT_NE(protocolHash(p), protocolHash(builtIn)) << "rows say which of the two they are of";
-        std::size_t edits = 0, left = deviationsOf(p).size();
-        for (const ThesisDeviation& one : deviationsOf(builtIn)) edits += one.edit != ThesisEdit::none;
+        std::size_t edits = 0, left = findDeviations(p).size();
+        for (const ThesisDeviation& one : findDeviations(builtIn)) edits += one.edit != ThesisEdit::none;
         EXPECT_GE(edits, 1u) << p.name;
-        EXPECT_EQ(left + edits, deviationsOf(builtIn).size()) << p.name;
+        EXPECT_EQ(left + edits, findDeviations(builtIn).size()) << p.name;
         for (const ConditionPlan& condition : p.conditions)
-            if (callSetOf(condition.stimuli) != nullptr) {
-                const std::string& call = callSetOf(condition.stimuli)->call;
+            if (findCalls(condition.stimuli) != nullptr) {
+                const std::string& call = findCalls(condition.stimuli)->call;
                 EXPECT_TRUE(has(call, " --timing release --gamma 0.1"));
                 EXPECT_EQ(call.ends_with("each --set drive_gain=1 --limiter blocks"), p.name[0] == 'e')
                     << call;
@@ -135,7 +135,7 @@ TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
     EXPECT_EQ(restsBefore("phantom-grids-thesis"), 120.0);
     Protocol changed = thesisVersions().front();
     changed.seed += 1;
-    EXPECT_TRUE(deviationsOf(changed).empty()) << "of a changed one nobody knows what holds";
+    EXPECT_TRUE(findDeviations(changed).empty()) << "of a changed one nobody knows what holds";
 }
 
 /// Trials of a participant's main sessions, by condition.

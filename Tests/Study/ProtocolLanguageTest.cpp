@@ -469,7 +469,7 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
         ASSERT_EQ(study.apparatusError(with("1 2 3 4", "5 6")), "");
         ASSERT_EQ(study.logStart(with("1 2 3 4", "5 6")), "");
     }
-    const auto times = loadStudyTimes(timesPathOf(run().trialFile()));
+    const auto times = loadStudyTimes(timesPath(run().trialFile()));
     ASSERT_TRUE(times) << times.error;
     ASSERT_EQ(times.value.size(), 3u);
     EXPECT_EQ(times.value[0].event, "start");
@@ -487,7 +487,7 @@ TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {
     const auto timesWith = [&](std::vector<std::pair<std::string, std::string>> events) {
         std::vector<StudyEvent> moments;
         for (auto& [time, event] : events) moments.push_back({time, event, 0, {}, {}, {}});
-        ASSERT_EQ(writeStudyTimes(timesPathOf(one.trialFile()), moments), "");
+        ASSERT_EQ(writeStudyTimes(timesPath(one.trialFile()), moments), "");
     };
     EXPECT_EQ(StudyInProgress{one}.remainingBreakSeconds(), 600.0);
     EXPECT_FALSE(StudyInProgress{one}.hasBreakBegun());
@@ -504,7 +504,7 @@ TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {
     while (!study.experiment().isDone()) answer(study);
     for (const std::string_view event : {studyEvents::end, studyEvents::resume, studyEvents::end})
         ASSERT_EQ(study.logEvent(event), "");
-    const auto times = loadStudyTimes(timesPathOf(one.trialFile()));
+    const auto times = loadStudyTimes(timesPath(one.trialFile()));
     ASSERT_EQ(times.value.size(), 6u);
     EXPECT_EQ(times.value.back().event, "end");
 }

@@ -47,8 +47,8 @@ TEST(Votes, SharesAreOfTrialsThatOfferedIt) {
                     trials.push_back(
                         {who, pair, std::string{own}, isTold ? pair.substr(1) + "|" + pair[0] : "", pair});
         const auto summaries = summariseChoices(trials);
-        EXPECT_TRUE(summaries[0].shareOf("A")->trials == 8 && summaries[0].shareOf("A")->share == 0.5);
-        EXPECT_EQ(summaries.back().shareOf("A"), nullptr) << "BC";
+        EXPECT_TRUE(summaries[0].findShare("A")->trials == 8 && summaries[0].findShare("A")->share == 0.5);
+        EXPECT_EQ(summaries.back().findShare("A"), nullptr) << "BC";
         std::erase_if(trials, [](const auto& one) { return one.condition == "BC" && one.choice == "C"; });
         EXPECT_EQ(std::isnan(summariseChoices(trials).front().shares[0].share), !isTold)
             << "which were offered is not known, as analysis.R has it";

@@ -13,7 +13,7 @@ public:
     /// `resonator` known; sample rate in Hz, above twice its resonance.
     SimulatedActuator(const Resonator& resonator, double sampleRateHz, double driveLimit = 1.0) noexcept
         : driveLimit_{driveLimit}
-        , response_{1.0, {-2.0, 1.0}, RootPair::of(resonator.resonanceHz, resonator.q, sampleRateHz)} {
+        , response_{1.0, {-2.0, 1.0}, RootPair::exact(resonator.resonanceHz, resonator.q, sampleRateHz)} {
         response_.scale(1.0 / std::abs(response_.at(resonator.resonanceHz, sampleRateHz)));
     }
 

@@ -21,23 +21,23 @@ namespace physvib::output_writer_test {
 class Reader {
 public:
     OutputWriter::Sink sink() {
-        return [this](Standard standard, std::string_view text) -> std::optional<std::size_t> {
+        return [this](StdStream standard, std::string_view text) -> std::optional<std::size_t> {
             const std::lock_guard lock{mutex_};
-            std::size_t& room = room_[standard == Standard::error];
+            std::size_t& room = room_[standard == StdStream::error];
             const std::size_t taken = std::min({text.size(), room, std::size_t{5}});
             room -= taken;
-            read_[standard == Standard::error].append(text.substr(0, taken));
+            read_[standard == StdStream::error].append(text.substr(0, taken));
             both_.append(text.substr(0, taken));
             return taken;
         };
     }
-    void give(Standard standard, std::size_t room) {
+    void give(StdStream standard, std::size_t room) {
         const std::lock_guard lock{mutex_};
-        room_[standard == Standard::error] = room;
+        room_[standard == StdStream::error] = room;
     }
-    std::string read(Standard standard) {
+    std::string read(StdStream standard) {
         const std::lock_guard lock{mutex_};
-        return read_[standard == Standard::error];
+        return read_[standard == StdStream::error];
     }
     std::string both() {
         const std::lock_guard lock{mutex_};
@@ -58,67 +58,67 @@ TEST(OutputWriters, WhatNobodyReadsIsDroppedAndCounted) {
     Reader nobody;
     OutputWriter writer{nobody.sink()};
     constexpr std::uint64_t said = 100'000, kept = OutputWriter::maxQueuedBytes / 32;
-    for (std::uint64_t k = 0; k < said; ++k) writer.writeLine(Standard::output, line);
-    EXPECT_EQ(writer.dropped(Standard::output), said - kept);
-    EXPECT_EQ(writer.dropped(Standard::error), 0U) << "each has room of its own";
-    EXPECT_EQ(writer.finish(Standard::output), std::to_string(said) + " lines were not read");
-    EXPECT_EQ(writer.finish(Standard::error), "");
+    for (std::uint64_t k = 0; k < said; ++k) writer.writeLine(StdStream::output, line);
+    EXPECT_EQ(writer.dropped(StdStream::output), said - kept);
+    EXPECT_EQ(writer.dropped(StdStream::error), 0U) << "each has room of its own";
+    EXPECT_EQ(writer.finish(StdStream::output), std::to_string(said) + " lines were not read");
+    EXPECT_EQ(writer.finish(StdStream::error), "");
 }
 
 TEST(OutputWriters, AReaderThatTakesAllGetsAllInOrder) {
     Reader reader;
-    reader.give(Standard::output, plenty);
-    reader.give(Standard::error, plenty);
+    reader.give(StdStream::output, plenty);
+    reader.give(StdStream::error, plenty);
     OutputWriter writer{reader.sink()};
     std::string all;
     for (int k = 0; k < 1000; ++k) {
         const std::string text = std::to_string(k) + '\n';
         all += text;
-        writer.writeLine(k % 3 == 0 ? Standard::error : Standard::output, text);
+        writer.writeLine(k % 3 == 0 ? StdStream::error : StdStream::output, text);
     }
-    EXPECT_EQ(writer.finish(Standard::output), "");
-    EXPECT_EQ(writer.finish(Standard::error), "");
+    EXPECT_EQ(writer.finish(StdStream::output), "");
+    EXPECT_EQ(writer.finish(StdStream::error), "");
     EXPECT_EQ(reader.both(), all);
 }
 
 TEST(OutputWriters, OneThatIsFullHoldsUpNoOther) {
     Reader reader;
-    reader.give(Standard::error, plenty);
+    reader.give(StdStream::error, plenty);
     OutputWriter writer{reader.sink()};
-    writer.writeLine(Standard::output, "first\n");
-    writer.writeLine(Standard::error, "second\n");
-    EXPECT_EQ(writer.finish(Standard::error), "");
-    EXPECT_EQ(reader.read(Standard::error), "second\n");
-    EXPECT_EQ(reader.read(Standard::output), "");
-    reader.give(Standard::output, plenty);
-    EXPECT_EQ(writer.finish(Standard::output), "");
-    EXPECT_EQ(reader.read(Standard::output), "first\n");
+    writer.writeLine(StdStream::output, "first\n");
+    writer.writeLine(StdStream::error, "second\n");
+    EXPECT_EQ(writer.finish(StdStream::error), "");
+    EXPECT_EQ(reader.read(StdStream::error), "second\n");
+    EXPECT_EQ(reader.read(StdStream::output), "");
+    reader.give(StdStream::output, plenty);
+    EXPECT_EQ(writer.finish(StdStream::output), "");
+    EXPECT_EQ(reader.read(StdStream::output), "first\n");
 }
 
 TEST(OutputWriters, StandardErrorTellsWhatItLacks) {
     Reader reader;
     OutputWriter writer{reader.sink()};
     for (std::size_t k = 0; k < OutputWriter::maxQueuedBytes / 32 + 3; ++k)
-        writer.writeLine(Standard::error, line);
-    reader.give(Standard::error, plenty);
-    EXPECT_NE(writer.finish(Standard::error), "");
-    writer.writeLine(Standard::error, "last\n");
-    writer.finish(Standard::error);
+        writer.writeLine(StdStream::error, line);
+    reader.give(StdStream::error, plenty);
+    EXPECT_NE(writer.finish(StdStream::error), "");
+    writer.writeLine(StdStream::error, "last\n");
+    writer.finish(StdStream::error);
     EXPECT_TRUE(
-        reader.read(Standard::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
+        reader.read(StdStream::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
 }
 
 TEST(OutputWriters, OneThatCannotBeWrittenSaysWhy) {
-    OutputWriter writer{[](Standard, std::string_view) -> std::optional<std::size_t> {
+    OutputWriter writer{[](StdStream, std::string_view) -> std::optional<std::size_t> {
         errno = ENOSPC;
         return std::nullopt;
     }};
-    writer.writeLine(Standard::output, line);
+    writer.writeLine(StdStream::output, line);
     const std::string reason = std::generic_category().message(ENOSPC);
-    EXPECT_EQ(writer.finish(Standard::output), reason);
-    writer.writeLine(Standard::output, line);
-    EXPECT_EQ(writer.finish(Standard::output), reason);
-    EXPECT_EQ(writer.dropped(Standard::output), 2U);
+    EXPECT_EQ(writer.finish(StdStream::output), reason);
+    writer.writeLine(StdStream::output, line);
+    EXPECT_EQ(writer.finish(StdStream::output), reason);
+    EXPECT_EQ(writer.dropped(StdStream::output), 2U);
 }
 
 // As a terminal or a socket may.
@@ -127,15 +127,15 @@ TEST(OutputWriters, OneThatHoldsTheThreadDoesNotHoldTheEnd) {
     const auto keepGoing = std::make_shared<std::promise<void>>();
     {
         OutputWriter writer{
-            [isHeld, keepGoing](Standard, std::string_view text) -> std::optional<std::size_t> {
+            [isHeld, keepGoing](StdStream, std::string_view text) -> std::optional<std::size_t> {
                 isHeld->set_value();
                 keepGoing->get_future().wait();
                 return text.size();
             }};
-        writer.writeLine(Standard::output, line);
+        writer.writeLine(StdStream::output, line);
         isHeld->get_future().wait();
-        writer.writeLine(Standard::error, line);
-        EXPECT_EQ(writer.finish(Standard::output), "1 line was not read");
+        writer.writeLine(StdStream::error, line);
+        EXPECT_EQ(writer.finish(StdStream::output), "1 line was not read");
     }
     keepGoing->set_value();
 }
@@ -146,7 +146,7 @@ TEST(ToldOnce, LinesThatNobodyReadAreCountedOnce) {
     std::mutex mutex;
     std::string read;
     std::atomic<bool> isOpen{false};
-    OutputWriter writer{[&](Standard, std::string_view text) -> std::optional<std::size_t> {
+    OutputWriter writer{[&](StdStream, std::string_view text) -> std::optional<std::size_t> {
         if (!isOpen) return 0;
         const std::lock_guard lock{mutex};
         read += text;
@@ -163,14 +163,14 @@ TEST(ToldOnce, LinesThatNobodyReadAreCountedOnce) {
     constexpr std::uint64_t kept = OutputWriter::maxQueuedBytes / 1024;
     for (int round = 0; round < 2; ++round) {
         isOpen = false;
-        for (std::uint64_t i = 0; i < kept + 7; ++i) writer.writeLine(Standard::error, line + '\n');
-        const std::uint64_t dropped = writer.dropped(Standard::error);
+        for (std::uint64_t i = 0; i < kept + 7; ++i) writer.writeLine(StdStream::error, line + '\n');
+        const std::uint64_t dropped = writer.dropped(StdStream::error);
         isOpen = true;
         awaitEnd(line + '\n');
-        while (!writer.finish(Standard::error).empty() && writer.dropped(Standard::error) == 0) {
+        while (!writer.finish(StdStream::error).empty() && writer.dropped(StdStream::error) == 0) {
         }
         for (const char* after : {"a\n", "b\n", "c\n"}) {
-            writer.writeLine(Standard::error, after);
+            writer.writeLine(StdStream::error, after);
             awaitEnd(after);
         }
         const std::string all = soFar();

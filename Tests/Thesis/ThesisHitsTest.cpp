@@ -148,7 +148,7 @@ TEST(ThesisHits, DifferFromThePrintAsTheTableSays) {
     ASSERT_EQ(thesisVersions().size(), 5u);
     for (const Protocol& protocol : thesisVersions()) {
         std::set<HitProperty> told;
-        for (const ThesisDeviation& one : deviationsOf(protocol))
+        for (const ThesisDeviation& one : findDeviations(protocol))
             if (one.property != HitProperty::none) told.insert(one.property);
         const Differences found = differencesOf(protocol);
         EXPECT_EQ(found.parts, told) << protocol.name << "\n" << found.said;

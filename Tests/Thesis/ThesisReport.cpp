@@ -132,7 +132,7 @@ void RehearsalPage::compareIdentification(const ReportTrials& trials, std::strin
             if (one.study != study) continue;
             const auto found =
                 std::ranges::find(data.value.groups, one.condition, &TrialGroup<IdentificationTrial>::name);
-            const ConfusionMatrix matrix{tolerance ? withTolerance(found->trials, tolerance) : found->trials};
+            const ConfusionMatrix matrix{tolerance ? tolerate(found->trials, tolerance) : found->trials};
             groups.emplace_back(one.condition);
             bits.emplace_back(tolerance ? one.bitsTolerance : one.bits);
             rehearsedBits.emplace_back(informationTransfer(matrix).bits);

@@ -19,17 +19,17 @@ BoardStrike strike(std::int64_t onsetNs, int peak) {
 
 TEST(BoardStrike, RoundsACollisionToTheLinksNumbers) {
     CollisionEvent e{.frequencyHz = 205.03, .decayPerSecond = 0.001, .amplitude = 0.5};
-    const BoardEvent b = boardEventOf(e, {1.0, 0.25, -1.0, 100.0});
+    const BoardEvent b = toBoardEvent(e, {1.0, 0.25, -1.0, 100.0});
     EXPECT_EQ(b.frequency16, 3280);
     EXPECT_EQ(b.decay16, 1) << "a slow decay stays one";
     EXPECT_EQ(b.durationMs, 0);
     EXPECT_EQ(b.amplitudes, (std::array<std::int16_t, 4>{2048, 512, -2048, 32767}));
     e.decayPerSecond = 0;
     e.durationNs = 1;
-    EXPECT_EQ(boardEventOf(e, {}).decay16, 0);
-    EXPECT_EQ(boardEventOf(e, {}).durationMs, 1);
+    EXPECT_EQ(toBoardEvent(e, {}).decay16, 0);
+    EXPECT_EQ(toBoardEvent(e, {}).durationMs, 1);
     e.frequencyHz = 4000;
-    EXPECT_FALSE(isPlayable(boardEventOf(e, {})));
+    EXPECT_FALSE(isPlayable(toBoardEvent(e, {})));
 }
 
 TEST(BoardStrike, OutlastsTheLinksLongestOnlyWhileItIsFelt) {
@@ -164,7 +164,7 @@ TEST(BoardSteps, OnTheBoardItIsEquallyStrongAllTheWay) {
     for (const auto& step : stepsOf(fromAToD())) {
         PhantomPanner::Gains gains{};
         panner.gainsAt(step.x, step.y, step.spread, gains);
-        BoardEvent event = boardEventOf(step, {gains[0], gains[1], gains[2], gains[3]});
+        BoardEvent event = toBoardEvent(step, {gains[0], gains[1], gains[2], gains[3]});
         event.frame = static_cast<std::uint32_t>(step.timeNs / (second / limits::board::sampleRateHz));
         ASSERT_TRUE(renderer->schedule(event));
     }

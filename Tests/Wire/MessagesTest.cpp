@@ -93,7 +93,7 @@ TEST(Messages, TheCompactFormKeepsAllButHalfAStepOfAmplitude) {
                   *std::max_element(sent.event.amplitudes.begin(), sent.event.amplitudes.end()) < 4080);
         if (!wire::fitsCompact(sent.event)) continue;
         wire::CompactStrike got;
-        const Bytes frame = framed(wire::compact(sent));
+        const Bytes frame = framed(wire::toCompact(sent));
         ASSERT_TRUE(read(frame, got));
         ASSERT_EQ(frame.size(), 16u) << "720 a second";
         const std::uint32_t now =

@@ -73,7 +73,7 @@ std::optional<Residuals> residualsOf(const std::vector<float>& recorded, double 
     const double rate = rateHz / static_cast<double>(step);
     if (!recordingError(samples, rate, 0.01).empty() || isSilent(samples)) return std::nullopt;
     const HitExcerpt hit = strongestHit(samples, rate);
-    const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rate));
+    const std::size_t begin = hit.begin - std::min(hit.begin, toSamples(onsetReachSeconds, rate));
     std::vector<double> all;
     for (std::size_t i = begin; i < hit.end; ++i) all.push_back(static_cast<double>(samples[i]) - hit.offset);
     if (static_cast<double>(all.size()) < 0.03 * rate) return std::nullopt;
@@ -83,7 +83,7 @@ std::optional<Residuals> residualsOf(const std::vector<float>& recorded, double 
         std::vector<double> left = all;
         for (std::size_t i = 0; i < left.size(); ++i)
             if (const double t = static_cast<double>(i) / rate - fit.onsetSeconds(); t >= 0.0)
-                for (const Partial& partial : fit.partials()) left[i] -= partial.at(t);
+                for (const Partial& partial : fit.partials()) left[i] -= partial.value(t);
         for (std::size_t a = 0; a < actuators.size(); ++a)
             found[a][k] = 10.0 * std::log10(energyThrough(left, rate, actuators[a].resonator) /
                                             energyThrough(all, rate, actuators[a].resonator));

@@ -26,7 +26,7 @@ constexpr int volumeStep = 128; // half a decibel
 constexpr int minVolume = -60 * 256, maxVolume = 0;
 
 /// Gain of a volume, 0 to unity; below -64 dB it is 0. Any thread.
-constexpr std::int32_t gainOfVolume(int volume) noexcept {
+constexpr std::int32_t volumeGain(int volume) noexcept {
     constexpr auto table = [] {
         std::array<std::int32_t, 129> gains{};
         double gain = unity;
@@ -110,7 +110,7 @@ public:
     std::int32_t gain(int channel) const noexcept {
         const auto slot = static_cast<std::size_t>(channel) + 1;
         if (isMuted_[0] || isMuted_[slot] || volume_[0] == minVolume || volume_[slot] == minVolume) return 0;
-        return gainOfVolume(volume_[0] + volume_[slot]);
+        return volumeGain(volume_[0] + volume_[slot]);
     }
 
 private:
@@ -168,9 +168,9 @@ struct DescriptorBytes {
         add({static_cast<int>(values.size()) + 1});
         add(values);
     }
-    constexpr void setWord(std::size_t at, int value) noexcept {
-        data[at] = static_cast<std::uint8_t>(value);
-        data[at + 1] = static_cast<std::uint8_t>(value >> 8);
+    constexpr void setWord(std::size_t offset, int value) noexcept {
+        data[offset] = static_cast<std::uint8_t>(value);
+        data[offset + 1] = static_cast<std::uint8_t>(value >> 8);
     }
 };
 
@@ -178,8 +178,8 @@ constexpr int lowByte(int value) noexcept { return value & 255; }
 constexpr int highByte(int value) noexcept { return value >> 8; }
 
 namespace descriptor {
-constexpr int configuration = 2, interface = 4, endpoint = 5, association = 11, ofInterface = 0x24,
-              ofEndpoint = 0x25;
+constexpr int configuration = 2, interface = 4, endpoint = 5, association = 11, csInterface = 0x24,
+              csEndpoint = 0x25;
 constexpr int audio = 1, audioVersion = 0x20, serial = 2, serialData = 10;
 
 // Clock -> input terminal (the host's stream) -> volume -> output terminal.
@@ -187,14 +187,14 @@ constexpr void addAudioControl(DescriptorBytes& d, int channels) noexcept {
     d.addDescriptor({association, audioControlInterface, 2, audio, 0, audioVersion, 0});
     d.addDescriptor({interface, audioControlInterface, 0, 0, audio, 1, audioVersion, 0});
     const auto header = d.count;
-    d.addDescriptor({ofInterface, 1, 0x00, 0x02, 1, 0, 0, 0}); // version 2.0, a speaker; total length below
-    d.addDescriptor({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity
+    d.addDescriptor({csInterface, 1, 0x00, 0x02, 1, 0, 0, 0}); // version 2.0, a speaker; total length below
+    d.addDescriptor({csInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity
                                                                   // readable
-    d.addDescriptor({ofInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
-    d.add({6 + 4 * (channels + 1), ofInterface, 6, unitVolume, unitInput});
+    d.addDescriptor({csInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
+    d.add({6 + 4 * (channels + 1), csInterface, 6, unitVolume, unitInput});
     for (int channel = 0; channel <= channels; ++channel) d.add({0x0f, 0, 0, 0}); // mute and volume
     d.add({0});
-    d.addDescriptor({ofInterface, 3, unitOutput, 0x01, 0x03, 0, unitVolume, unitClock, 0, 0, 0}); // a speaker
+    d.addDescriptor({csInterface, 3, unitOutput, 0x01, 0x03, 0, unitVolume, unitClock, 0, 0, 0}); // a speaker
     d.setWord(header + 6u, d.count - header);
 }
 
@@ -203,22 +203,22 @@ constexpr void addAudioStream(DescriptorBytes& d, int channels, int feedbackByte
     const int maxBytes = packetBytes(channels);
     d.addDescriptor({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
     d.addDescriptor({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
-    d.addDescriptor({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
-    d.addDescriptor({ofInterface, 2, 1, 2, 16}); // two bytes, 16 bits
+    d.addDescriptor({csInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
+    d.addDescriptor({csInterface, 2, 1, 2, 16}); // two bytes, 16 bits
     d.addDescriptor(
         {endpoint, audioEndpoint, 0x05, lowByte(maxBytes), highByte(maxBytes), 1}); // asynchronous,
                                                                                     // 1 ms
-    d.addDescriptor({ofEndpoint, 1, 0, 0, 0, 0, 0});
+    d.addDescriptor({csEndpoint, 1, 0, 0, 0, 0, 0});
     d.addDescriptor({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
 }
 
 constexpr void addSerial(DescriptorBytes& d) noexcept {
     d.addDescriptor({association, serialControlInterface, 2, serial, 2, 0, 0});
     d.addDescriptor({interface, serialControlInterface, 0, 1, serial, 2, 0, 0});
-    d.addDescriptor({ofInterface, 0, 0x20, 0x01});
-    d.addDescriptor({ofInterface, 1, 0, serialDataInterface});
-    d.addDescriptor({ofInterface, 2, 2});
-    d.addDescriptor({ofInterface, 6, serialControlInterface, serialDataInterface});
+    d.addDescriptor({csInterface, 0, 0x20, 0x01});
+    d.addDescriptor({csInterface, 1, 0, serialDataInterface});
+    d.addDescriptor({csInterface, 2, 2});
+    d.addDescriptor({csInterface, 6, serialControlInterface, serialDataInterface});
     d.addDescriptor({endpoint, serialNotifyEndpoint, 3, 8, 0, 16});
     d.addDescriptor({interface, serialDataInterface, 0, 2, serialData, 0, 0, 0});
     d.addDescriptor({endpoint, serialOutEndpoint, 2, 64, 0, 0});

@@ -153,7 +153,7 @@ inline physvib_event toPhysvibEvent(const CollisionEvent& e) noexcept {
     return to;
 }
 
-inline std::optional<double> optionalOf(double value) noexcept {
+inline std::optional<double> toOptional(double value) noexcept {
     return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value};
 }
 

@@ -7,7 +7,7 @@ namespace physvib::api {
 
 namespace {
 
-constexpr std::string_view wrongSize =
+constexpr std::string_view sizeError =
     "size: expected that of the structure, as its _init sets it, and a library that is as new as the header";
 
 std::string_view eventError(const physvib_event& event) noexcept {
@@ -23,7 +23,7 @@ std::string_view eventError(const physvib_event& event) noexcept {
 
 std::string_view convert(const physvib_layout& callerLayout, ActuatorLayout& to) noexcept {
     const std::size_t bytes = validSize<physvib_layout>(&callerLayout);
-    if (bytes == 0) return wrongSize;
+    if (bytes == 0) return sizeError;
     auto from = zeroed<physvib_layout>();
     std::memcpy(&from, &callerLayout, bytes);
     if (from.count < 1 || from.count > limits::maxActuators) return "layout: expected 1 to 64 enchanters";
@@ -41,7 +41,7 @@ std::string_view convert(const physvib_layout& callerLayout, ActuatorLayout& to)
 
 int writeLayout(const ActuatorLayout& from, physvib_layout& callerLayout) noexcept {
     const std::size_t bytes = validSize<physvib_layout>(&callerLayout);
-    if (bytes == 0) return argumentError(wrongSize);
+    if (bytes == 0) return argumentError(sizeError);
     auto to = zeroed<physvib_layout>();
     to.size = callerLayout.size;
     to.extent_width_m = from.extentWidthMetres;
@@ -81,7 +81,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
 
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {
     const std::size_t bytes = validSize<physvib_event>(&from);
-    if (bytes == 0) return wrongSize;
+    if (bytes == 0) return sizeError;
     physvib_event filled = defaultEvent(); // members that an older program's event lacks keep their defaults
     std::memcpy(&filled, &from, bytes);
     const std::string_view error = eventError(filled);
@@ -116,7 +116,7 @@ std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to
                          std::int64_t capacity) noexcept {
     if (capacity == 0) return 0;
     const std::size_t bytes = validSize<physvib_event>(to);
-    if (bytes == 0) return argumentError(wrongSize);
+    if (bytes == 0) return argumentError(sizeError);
     const auto count = std::min<std::int64_t>(capacity, std::ssize(from));
     auto* raw = reinterpret_cast<std::byte*>(to);
     for (const CollisionEvent& event : from.first(static_cast<std::size_t>(count))) {

@@ -27,7 +27,7 @@ std::uint64_t countSince(std::uint64_t& lastTotal, std::uint64_t total) noexcept
 }
 
 int writeExplanation(physvib_world handle, OutputFacts* output, char* text, size_t size) noexcept {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         if (text == nullptr || size == 0) return argumentError("text: expected a place for it");
         if (output != nullptr) {
             output->late = countSince(world.late, output->late);
@@ -71,7 +71,7 @@ int physvib_output_facts_init(physvib_output_facts* facts, size_t size) {
 }
 
 int physvib_world_note(physvib_world handle, int body, int note) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         if (note < PHYSVIB_NOTE_SENSOR || note > PHYSVIB_NOTE_ASLEEP)
             return argumentError("note: expected one of PHYSVIB_NOTE_...");
         return codeFromError(world.feed.note(body, static_cast<EngineNote>(note)));

@@ -128,14 +128,14 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
     return catchExceptions([&] {
         if (!layoutPreset(name, preset))
             return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
+                        "layout: expected " + rangeList(layoutPresetNames, " to ", " or "));
         return writeLayout(preset, *layout);
     });
 }
 
 int physvib_part(const char* name) {
     if (name == nullptr || *name == '\0') return argumentError("part: expected a name");
-    return partNumberOf(name);
+    return toPartNumber(name);
 }
 
 int physvib_layout_load(const char* path, physvib_layout* layout) {

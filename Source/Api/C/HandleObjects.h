@@ -23,10 +23,10 @@ namespace physvib::api {
 /// Neither allocates nor blocks. One thread at a time.
 class Pad {
 public:
-    Pad(const PadLaw& law, double fieldWidthMetres, double fieldHeightMetres) noexcept
+    Pad(const PadModel& law, double fieldWidthMetres, double fieldHeightMetres) noexcept
         : law_{law}
-        , panner_{PadMotors::gripsOf({ActuatorLayout{fieldWidthMetres, fieldHeightMetres, 1, {}},
-                                      PanningLaw::linear, 1.0, fieldWidthMetres, fieldHeightMetres})}
+        , panner_{PadMotors::makeGripPanner({ActuatorLayout{fieldWidthMetres, fieldHeightMetres, 1, {}},
+                                             PanningLaw::linear, 1.0, fieldWidthMetres, fieldHeightMetres})}
         , motors_{law} {}
 
     /// Adds an event; false if too many are pending. An event whose command is already due starts with the
@@ -54,13 +54,13 @@ public:
     void reset() noexcept { *this = Pad{law_, panner_.fieldWidthMetres(), panner_.fieldHeightMetres()}; }
 
     std::int64_t lastPullNs() const noexcept { return lastPullNs_; }
-    const PadLaw& law() const noexcept { return law_; }
+    const PadModel& law() const noexcept { return law_; }
     PadMotors& motors() noexcept { return motors_; } ///< for a program with a timer per command, not frames
 
 private:
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
 
-    PadLaw law_;
+    PadModel law_;
     PhantomPanner panner_; // gains of the two grips, which lie at the left and right end of the field
     PadMotors motors_;
     PadCommand lastCommand_;
@@ -133,7 +133,7 @@ inline auto borrow(physvib_pads pads) noexcept {
 
 /// Locks the world or controllers of that handle and returns the result of `call`, a code or a count.
 template <class Handle, class Call>
-auto with(Handle handle, Call call) noexcept -> decltype(call(*borrow(handle))) {
+auto withObject(Handle handle, Call call) noexcept -> decltype(call(*borrow(handle))) {
     return catchExceptions([&]() -> decltype(call(*borrow(handle))) {
         const auto object = borrow(handle);
         if (!object) return unknownHandleError();

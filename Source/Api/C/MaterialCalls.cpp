@@ -35,7 +35,7 @@ int unknownMaterialError(const Materials& candidates, std::string_view name) {
     const bool listsAll = names.size() <= maxNames;
     if (!listsAll) names.resize(maxNames);
     return argumentError("material: expected one that vibrates (" +
-                         (names.empty() ? "there is none" : listed(names, listsAll ? " or " : ", ")) +
+                         (names.empty() ? "there is none" : nameList(names, listsAll ? " or " : ", ")) +
                          (listsAll ? "" : " and so on") + "), found \"" + std::string{name} + "\"");
 }
 
@@ -91,7 +91,7 @@ int physvib_material_load(const char* path, const char* name, physvib_body* body
 
 int physvib_sound(const char* name) {
     if (name == nullptr || *name == '\0') return argumentError("sound: expected a name");
-    return soundNumberOf(name);
+    return toSoundNumber(name);
 }
 
 int physvib_event_of(const char* material, double x, double y, double strength, physvib_event* event) {

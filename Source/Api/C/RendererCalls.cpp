@@ -10,14 +10,14 @@ using namespace physvib::api;
 
 namespace {
 
-constexpr std::string_view wrongTime = "time: expected 0 to 10^17 ns";
+constexpr std::string_view timeError = "time: expected 0 to 10^17 ns";
 
 bool isValidTimeNs(physvib_int64 ns) noexcept { return ns >= 0 && ns <= limits::maxTimeNs; }
 
 int queueControl(physvib_renderer handle, const RenderControl& control) noexcept {
     const auto renderer = borrow(handle);
     if (!renderer) return unknownHandleError();
-    if (!isValidTimeNs(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
+    if (!isValidTimeNs(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, timeError);
     if (control.channel < 0 || control.channel >= renderer->channels)
         return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
     if (!(control.value >= 0.0F && control.value <= 10000.0F))
@@ -31,7 +31,7 @@ int queueControl(physvib_renderer handle, const RenderControl& control) noexcept
     return PHYSVIB_OK;
 }
 
-RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
+RenderControl makeControl(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
     RenderControl control;
     control.timeNs = timeNs;
     control.kind = kind;
@@ -150,16 +150,16 @@ int physvib_renderer_pull_interleaved(physvib_renderer handle, float* samples, i
 }
 
 int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 timeNs, int channel, double gain) {
-    return queueControl(renderer, controlOf(RenderControl::Kind::gain, timeNs, channel, gain));
+    return queueControl(renderer, makeControl(RenderControl::Kind::gain, timeNs, channel, gain));
 }
 
 int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 timeNs, int channel, int isMuted) {
     return queueControl(renderer,
-                        controlOf(RenderControl::Kind::mute, timeNs, channel, isMuted != 0 ? 1.0 : 0.0));
+                        makeControl(RenderControl::Kind::mute, timeNs, channel, isMuted != 0 ? 1.0 : 0.0));
 }
 
 int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 timeNs, double gain) {
-    return queueControl(renderer, controlOf(RenderControl::Kind::level, timeNs, 0, gain));
+    return queueControl(renderer, makeControl(RenderControl::Kind::level, timeNs, 0, gain));
 }
 
 int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
@@ -168,14 +168,14 @@ int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
     RendererSettings checked;
     if (!readStruct(settings, raw, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
     if (const auto error = convert(raw, checked); !error.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, error);
-    RenderControl control = controlOf(RenderControl::Kind::panner, timeNs, 0, 0.0);
+    RenderControl control = makeControl(RenderControl::Kind::panner, timeNs, 0, 0.0);
     control.panner = &checked.panner;
     return queueControl(renderer, control);
 }
 
 int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 timeNs, physvib_int64 untilNs) {
-    if (!isValidTimeNs(untilNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
-    RenderControl control = controlOf(RenderControl::Kind::silence, timeNs, 0, 0.0);
+    if (!isValidTimeNs(untilNs)) return fail(PHYSVIB_ERROR_ARGUMENT, timeError);
+    RenderControl control = makeControl(RenderControl::Kind::silence, timeNs, 0, 0.0);
     control.untilNs = untilNs;
     return queueControl(renderer, control);
 }
@@ -258,7 +258,7 @@ int physvib_pads_free(physvib_pads pads) {
 }
 
 int physvib_pads_strike(physvib_pads handle, int pad, const physvib_event* event) {
-    return with(handle, [&](PadSet& pads) {
+    return withObject(handle, [&](PadSet& pads) {
         if (!pads.has(pad)) return unknownPadError();
         if (event == nullptr) return argumentError("event: expected one, found NULL");
         CollisionEvent converted;
@@ -271,7 +271,7 @@ int physvib_pads_strike(physvib_pads handle, int pad, const physvib_event* event
 
 physvib_int64 physvib_pads_send(physvib_pads handle, int pad, physvib_world world, physvib_int64 laterNs,
                                 int atOnce) {
-    return with(handle, [&](PadSet& pads) -> physvib_int64 {
+    return withObject(handle, [&](PadSet& pads) -> physvib_int64 {
         if (!pads.has(pad)) return unknownPadError();
         if (laterNs < -limits::maxTimeNs / 4 || laterNs > limits::maxTimeNs / 4)
             return argumentError("delay: expected at most 2.5 * 10^16 ns from 0");
@@ -292,7 +292,7 @@ physvib_int64 physvib_pads_send(physvib_pads handle, int pad, physvib_world worl
 }
 
 int physvib_pads_pull(physvib_pads handle, physvib_int64 untilNs, physvib_motors* motors, int capacity) {
-    return with(handle, [&](PadSet& pads) {
+    return withObject(handle, [&](PadSet& pads) {
         const int count = static_cast<int>(pads.pads.size());
         if (motors == nullptr || capacity < count)
             return argumentError("motors: expected a place for those of each pad");
@@ -309,14 +309,14 @@ int physvib_pads_pull(physvib_pads handle, physvib_int64 untilNs, physvib_motors
 }
 
 int physvib_pads_stop(physvib_pads handle) {
-    return with(handle, [&](PadSet& pads) {
+    return withObject(handle, [&](PadSet& pads) {
         for (Pad& pad : pads.pads) pad.reset();
         return PHYSVIB_OK;
     });
 }
 
 int physvib_pads_set_level(physvib_pads handle, double gain) {
-    return with(handle, [&](PadSet& pads) {
+    return withObject(handle, [&](PadSet& pads) {
         if (!(gain >= 0.0 && gain <= 10000.0)) return argumentError("gain: expected 0 to 10000");
         pads.levelGain = gain;
         return PHYSVIB_OK;

@@ -27,8 +27,8 @@ bool readWorldSettings(const physvib_world_settings* from, ImpactSettings& to) {
     for (const double number : {copy.field_x_m, copy.field_y_m, copy.field_radians})
         if (!(std::abs(number) <= 1.0e9)) return argumentError("field: expected numbers"), false;
     to.fieldWidthMetres = copy.field_width_m;
-    to.normalisation = optionalOf(copy.normalisation_s_per_m);
-    to.handMassKg = optionalOf(copy.hand_mass_kg);
+    to.normalisation = toOptional(copy.normalisation_s_per_m);
+    to.handMassKg = toOptional(copy.hand_mass_kg);
     to.driveGain = copy.drive_gain;
     to.location = copy.at_body != 0 ? ImpactLocation::fixture : ImpactLocation::contact;
     to.thresholdMetresPerSecond = copy.threshold_m_per_s;
@@ -42,7 +42,7 @@ bool readWorldSettings(const physvib_world_settings* from, ImpactSettings& to) {
     return true;
 }
 
-HapticFixture fixtureOf(const physvib_body& body) {
+HapticFixture toFixture(const physvib_body& body) {
     HapticFixture values;
     values.frequencyHz = body.frequency_hz;
     values.decayPerSecond = body.decay_per_s;
@@ -51,7 +51,7 @@ HapticFixture fixtureOf(const physvib_body& body) {
     values.voice = static_cast<Voice>(body.voice);
     values.surface = body.surface;
     values.gain = body.gain;
-    values.handMassKg = optionalOf(body.hand_mass_kg);
+    values.handMassKg = toOptional(body.hand_mass_kg);
     values.part = body.part;
     values.texture = {body.grain_m, body.roughness,
                       body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
@@ -60,29 +60,29 @@ HapticFixture fixtureOf(const physvib_body& body) {
     return values;
 }
 
-Vector2 vectorOf(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
-Vector3 vectorOf(double x, double y, double z) {
+Vector2 toVector(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+Vector3 toVector(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
-Vector3 vectorOf(const double* xyz) { return vectorOf(xyz[0], xyz[1], xyz[2]); }
+Vector3 toVector(const double* xyz) { return toVector(xyz[0], xyz[1], xyz[2]); }
 
-FedContact contactOf(const physvib_contact& from) {
+FedContact toContact(const physvib_contact& from) {
     FedContact contact;
     contact.a = from.a;
     contact.b = from.b;
-    contact.point = vectorOf(from.x_m, from.y_m, from.z_m);
-    contact.normal = vectorOf(from.normal_x, from.normal_y, from.normal_z);
-    contact.impulseNewtonSeconds = optionalOf(from.impulse_n_s);
+    contact.point = toVector(from.x_m, from.y_m, from.z_m);
+    contact.normal = toVector(from.normal_x, from.normal_y, from.normal_z);
+    contact.impulseNewtonSeconds = toOptional(from.impulse_n_s);
     contact.tangentialNewtonSeconds = from.tangential_n_s;
-    contact.frictionNewtonSeconds = vectorOf(from.friction_x_n_s, from.friction_y_n_s, from.friction_z_n_s);
-    contact.approachMetresPerSecond = optionalOf(from.approach_m_per_s);
+    contact.frictionNewtonSeconds = toVector(from.friction_x_n_s, from.friction_y_n_s, from.friction_z_n_s);
+    contact.approachMetresPerSecond = toOptional(from.approach_m_per_s);
     contact.restitution = from.restitution;
-    contact.effectiveMassKg = optionalOf(from.effective_mass_kg);
-    contact.fraction = optionalOf(from.fraction);
+    contact.effectiveMassKg = toOptional(from.effective_mass_kg);
+    contact.fraction = toOptional(from.fraction);
     contact.gapMetres = from.gap_m;
     contact.gapFraction = from.gap_fraction;
-    contact.alongAMetresPerSecond = optionalOf(from.along_a_m_per_s);
-    contact.alongBMetresPerSecond = optionalOf(from.along_b_m_per_s);
+    contact.alongAMetresPerSecond = toOptional(from.along_a_m_per_s);
+    contact.alongBMetresPerSecond = toOptional(from.along_b_m_per_s);
     contact.isSoft = from.is_soft != 0;
     contact.isPushWhole = from.is_soft == PHYSVIB_SOFT_WHOLE;
     contact.pointId = from.point_id;
@@ -92,10 +92,10 @@ FedContact contactOf(const physvib_contact& from) {
 
 int reportContact(physvib_world handle, const physvib_contact* contact,
                   std::string_view (ContactFeed::*report)(const FedContact&)) noexcept {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         physvib_contact copy;
         if (!readStruct(contact, copy, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
-        const std::string_view error = (world.feed.*report)(contactOf(copy));
+        const std::string_view error = (world.feed.*report)(toContact(copy));
         const int unknownBody = world.feed.counts().unknownBody;
         if (error.starts_with("body:") && (unknownBody == copy.a || unknownBody == copy.b))
             return fail(PHYSVIB_ERROR_ARGUMENT,
@@ -134,7 +134,7 @@ int physvib_world_free(physvib_world world) {
 }
 
 int physvib_world_configure(physvib_world handle, const physvib_world_settings* settings) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         ImpactSettings checked;
         if (!readWorldSettings(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
         // checked here, because without exceptions configure() could not release the lock
@@ -146,14 +146,14 @@ int physvib_world_configure(physvib_world handle, const physvib_world_settings* 
 }
 
 int physvib_world_set_body(physvib_world handle, int body, const physvib_body* values) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         physvib_body copy;
         if (!readStruct(values, copy, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
         if (copy.voice < PHYSVIB_VOICE_OWN || copy.voice > PHYSVIB_VOICE_BOTH)
             return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
         if (copy.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
         const std::string_view error =
-            world.feed.set(body, {copy.mass_kg, copy.inertia_kg_m2, copy.gravity_scale}, fixtureOf(copy));
+            world.feed.set(body, {copy.mass_kg, copy.inertia_kg_m2, copy.gravity_scale}, toFixture(copy));
         if (error.empty() && copy.device != 0)
             world.devices[body] = copy.device;
         else if (error.empty())
@@ -163,63 +163,63 @@ int physvib_world_set_body(physvib_world handle, int body, const physvib_body* v
 }
 
 int physvib_world_set_mass(physvib_world handle, int body, double massKg) {
-    return with(handle, [&](World& world) { return codeFromError(world.feed.setMass(body, massKg)); });
+    return withObject(handle, [&](World& world) { return codeFromError(world.feed.setMass(body, massKg)); });
 }
 
 int physvib_world_device(physvib_world handle, int body) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         const auto found = world.devices.find(body);
         return found == world.devices.end() ? 0 : found->second;
     });
 }
 
 int physvib_world_remove_body(physvib_world handle, int body) {
-    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.remove(body)); });
+    return withObject(handle, [&](World& world) { return codeFromFeedError(world.feed.remove(body)); });
 }
 
 int physvib_world_move(physvib_world handle, int body, double x, double y, double vx, double vy,
                        double spin) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         return codeFromError(
-            world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)}));
+            world.feed.move(body, toVector(x, y), {toVector(vx, vy), static_cast<float>(spin)}));
     });
 }
 
 int physvib_world_moved(physvib_world handle, int body, double vx, double vy, double spin) {
-    return with(handle, [&](World& world) {
-        return codeFromFeedError(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)}));
+    return withObject(handle, [&](World& world) {
+        return codeFromFeedError(world.feed.moved(body, {toVector(vx, vy), static_cast<float>(spin)}));
     });
 }
 
 int physvib_world_move_in_space(physvib_world handle, int body, const double centre[3],
                                 const double velocity[3], const double spin[3], const double inverse[6]) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         if (!centre || !velocity || !spin)
             return argumentError("motion: expected centre, velocity and spin, found NULL");
         std::optional<InverseInertia> inertia;
         if (inverse) inertia = {inverse[0], inverse[1], inverse[2], inverse[3], inverse[4], inverse[5]};
         return codeFromError(
-            world.feed.moveInSpace(body, vectorOf(centre), {vectorOf(velocity), vectorOf(spin)}, inertia));
+            world.feed.moveInSpace(body, toVector(centre), {toVector(velocity), toVector(spin)}, inertia));
     });
 }
 
 int physvib_world_moved_in_space(physvib_world handle, int body, const double velocity[3],
                                  const double spin[3]) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         if (!velocity || !spin) return argumentError("motion: expected velocity and spin, found NULL");
-        return codeFromFeedError(world.feed.movedInSpace(body, {vectorOf(velocity), vectorOf(spin)}));
+        return codeFromFeedError(world.feed.movedInSpace(body, {toVector(velocity), toVector(spin)}));
     });
 }
 
 int physvib_world_pair(physvib_world handle, int surface, int other, double frequencyHz,
                        double decayPerSecond, double gain) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         return codeFromError(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain}));
     });
 }
 
 int physvib_world_begin_step(physvib_world handle, double seconds, double gravity) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         if (!(seconds >= 0.0 && seconds <= maxStepSeconds))
             return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
         return codeFromFeedError(
@@ -238,20 +238,20 @@ int physvib_world_push(physvib_world world, const physvib_contact* contact) {
 }
 
 int physvib_world_end(physvib_world handle, int a, int b) {
-    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.end(a, b)); });
+    return withObject(handle, [&](World& world) { return codeFromFeedError(world.feed.end(a, b)); });
 }
 
 int physvib_world_end_step(physvib_world handle) {
-    return with(handle, [&](World& world) { return codeFromFeedError(world.feed.endStep()); });
+    return withObject(handle, [&](World& world) { return codeFromFeedError(world.feed.endStep()); });
 }
 
 physvib_int64 physvib_world_time_ns(physvib_world handle) {
-    return with(handle, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
+    return withObject(handle, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
 }
 
 physvib_int64 physvib_world_take(physvib_world handle, physvib_event* events, physvib_int64 capacity,
                                  int atOnce) {
-    return with(handle, [&](World& world) -> physvib_int64 {
+    return withObject(handle, [&](World& world) -> physvib_int64 {
         if (capacity < 0 || (capacity > 0 && events == nullptr))
             return argumentError("events: expected a place for them");
         moveReadyEvents(world, atOnce != 0);
@@ -264,7 +264,7 @@ physvib_int64 physvib_world_take(physvib_world handle, physvib_event* events, ph
 
 physvib_int64 physvib_world_send(physvib_world handle, physvib_renderer to, physvib_int64 laterNs,
                                  int atOnce) {
-    return with(handle, [&](World& world) -> physvib_int64 {
+    return withObject(handle, [&](World& world) -> physvib_int64 {
         const auto renderer = borrow(to);
         if (!renderer) return unknownHandleError();
         if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
@@ -282,19 +282,19 @@ physvib_int64 physvib_world_send(physvib_world handle, physvib_renderer to, phys
 }
 
 physvib_int64 physvib_world_thinned(physvib_world handle) {
-    return with(handle, [&](World& world) -> physvib_int64 {
+    return withObject(handle, [&](World& world) -> physvib_int64 {
         return static_cast<physvib_int64>(world.feed.thinned());
     });
 }
 
 physvib_int64 physvib_world_drops(physvib_world handle) {
-    return with(handle, [&](World& world) -> physvib_int64 {
+    return withObject(handle, [&](World& world) -> physvib_int64 {
         return static_cast<physvib_int64>(world.feed.drops());
     });
 }
 
 int physvib_world_get_counts(physvib_world handle, physvib_world_counts* counts) {
-    return with(handle, [&](World& world) {
+    return withObject(handle, [&](World& world) {
         const ContactCounts total = world.feed.counts();
         physvib_world_counts copy;
         if (!readStruct(counts, copy, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;

@@ -7,7 +7,7 @@
 namespace physvib::godot {
 namespace {
 // Names are cached: interning hashes the text, and each tick makes thousands of calls.
-StringName& nameOf(const char* literal) {
+StringName& intern(const char* literal) {
     static std::map<const char*, StringName> names;
     return names.try_emplace(literal, literal).first->second;
 }
@@ -44,7 +44,7 @@ Variant Variant::empty(GDExtensionVariantType type) {
 }
 
 Variant Variant::callable(GDExtensionObjectPtr object, const char* method) {
-    const Variant target(object), name(type::name, nameOf(method).get());
+    const Variant target(object), name(type::name, intern(method).get());
     const std::array<GDExtensionConstVariantPtr, 2> arguments{target.raw(), name.raw()};
     Variant result;
     GDExtensionCallError error{};
@@ -106,7 +106,7 @@ std::string Variant::text() const {
 Variant Variant::member(const char* name) const {
     Variant result;
     GDExtensionBool isPresent = 0;
-    api.getMember(raw(), nameOf(name).get(), result.raw(), &isPresent);
+    api.getMember(raw(), intern(name).get(), result.raw(), &isPresent);
     return result;
 }
 
@@ -119,7 +119,7 @@ Variant Variant::callWith(const char* name, const GDExtensionConstVariantPtr* ar
                           std::size_t count) const {
     Variant result;
     GDExtensionCallError error{};
-    api.invoke(const_cast<void*>(raw()), nameOf(name).get(), arguments, static_cast<GDExtensionInt>(count),
+    api.invoke(const_cast<void*>(raw()), intern(name).get(), arguments, static_cast<GDExtensionInt>(count),
                result.raw(), &error);
     return result;
 }
@@ -129,12 +129,12 @@ void Variant::assignTo(GDExtensionVariantPtr variant) const {
     api.copyVariant(variant, raw());
 }
 
-Variant singleton(const char* name) { return Variant(api.getSingleton(nameOf(name).get())); }
+Variant singleton(const char* name) { return Variant(api.getSingleton(intern(name).get())); }
 
 bool isInEditor() { return singleton("Engine").call("is_editor_hint").isTrue(); }
 
 bool MethodBind::find(const char* className, const char* method, std::int64_t hash) {
-    bind = api.getMethodBind(nameOf(className).get(), nameOf(method).get(), hash);
+    bind = api.getMethodBind(intern(className).get(), intern(method).get(), hash);
     return bind != nullptr;
 }
 

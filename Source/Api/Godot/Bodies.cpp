@@ -75,11 +75,11 @@ void HapticBody::onNotification(int what) {
     const Variant parent = self().call("get_parent");
     if (!isPhysicsBody(parent)) return warn("HapticBody: expected a physics body as parent");
     parentId = api.objectId(parent.object());
-    space = spaceRidOf(parent, parent.call("is_class", "PhysicsBody3D").isTrue());
+    space = readSpaceRid(parent, parent.call("is_class", "PhysicsBody3D").isTrue());
     bodiesInTree.push_back(this);
 }
 
-std::uint64_t spaceRidOf(const Variant& node, bool is3d) {
+std::uint64_t readSpaceRid(const Variant& node, bool is3d) {
     const Variant world = node.call(is3d ? "get_world_3d" : "get_world_2d");
     return world.object() == nullptr ? 0 : world.call("get_space").rid();
 }

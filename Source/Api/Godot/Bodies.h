@@ -35,7 +35,7 @@ private:
 /// reported, and then frequency and decay of the material apply.
 void applyMaterial(physvib_body& body, const Variant& material, const Variant& node);
 /// RID of the physics space of a 2D or 3D node that is in a scene tree.
-std::uint64_t spaceRidOf(const Variant& node, bool is3d);
+std::uint64_t readSpaceRid(const Variant& node, bool is3d);
 
 /// Nodes of a class in a scene, which may be its root.
 std::vector<Variant> findNodes(const Variant& scene, const char* kind);

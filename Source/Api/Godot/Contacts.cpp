@@ -36,7 +36,7 @@ bool HapticWorld::doesOtherExist(const ObservedBody& body, int i) {
     return id == 0 ? !body.state.isSleeping() : api.objectFromId(id) != nullptr;
 }
 
-double HapticWorld::restitutionOf(std::uint64_t rid) {
+double HapticWorld::readRestitution(std::uint64_t rid) {
     const auto [found, isNew] = restitutions.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
     if (isNew) found->second = server().call("body_get_param", Variant(type::rid, &rid), bounce).real();
@@ -48,7 +48,7 @@ void HapticWorld::reportTouches(ObservedBody& body) {
     double slowest = HUGE_VAL;
     for (int i = 0; i < body.state.contacts(); ++i) {
         if (involvesHapticBody(body, i) && doesOtherExist(body, i)) reportTouch(body, i);
-        const Surface surface = surfaceOf(body, i);
+        const Surface surface = contactSurface(body, i);
         if (const double speed = std::abs(approachSpeed(body, surface, i)); speed < slowest)
             support = surface, slowest = speed;
     }
@@ -106,7 +106,7 @@ bool HapticWorld::reachesSurface(const ObservedBody& body, const ObservedBody& o
     return surface.gapMetres <= stepSeconds * dot(minus(velocity, otherVelocity), surface.normal);
 }
 
-Surface HapticWorld::surfaceOf(const ObservedBody& body, int i) const {
+Surface HapticWorld::contactSurface(const ObservedBody& body, int i) const {
     const Vector place = toField(body.state.contactPosition(i)),
                  otherPlace = toField(body.state.contactOtherPosition(i));
     Vector normal = toFieldVector(body.state.contactNormal(i));
@@ -121,7 +121,7 @@ Surface HapticWorld::surfaceOf(const ObservedBody& body, int i) const {
 Surface HapticWorld::surfaceAcrossSeams(const ObservedBody& body, const ObservedBody& other, int i,
                                         std::optional<double>& supportSpeed) const {
     constexpr double maxEdgeMetres = 0.005;
-    const Surface listed = surfaceOf(body, i);
+    const Surface listed = contactSurface(body, i);
     if (goesThroughCentre(other, listed.place, listed.normal)) return listed;
     const bool isRound = goesThroughCentre(body, listed.place, listed.normal);
     const double minAlignment = isRound ? 0.0 : 0.5; // a box's lower corners touch walls at floor height
@@ -130,7 +130,7 @@ Surface HapticWorld::surfaceAcrossSeams(const ObservedBody& body, const Observed
     // The body rolls, or the solver stops it at this contact.
     const bool isListed = isRound ? slowest < 0.05 : lostSpeed(body, listed.normal) > 0.5 * slowest;
     for (int j = isRound ? -1 : 0; !isListed && j < body.state.contacts(); ++j) { // -1: of the last tick
-        Surface support = j < 0 ? body.support : surfaceOf(body, j);
+        Surface support = j < 0 ? body.support : contactSurface(body, j);
         const double height = dot(minus(listed.otherPlace, support.otherPlace), support.normal),
                      alignment = dot(listed.normal, support.normal);
         const bool isNear = std::abs(height) < maxEdgeMetres || (isRound && alignment > 0.9);
@@ -163,15 +163,15 @@ void HapticWorld::reportOrDefer(const ObservedBody& body, const ObservedBody& ot
                                 const Vector& normal, double supportSpeed) {
     const auto isSame = [&](const PendingContact& p) { return p.a == body.id && p.b == other.id; };
     const double approach = contact.approach_m_per_s,
-                 pushed = lostSpeed(body, normal) - lostSpeed(other, normal) - supportSpeed;
-    if (std::ranges::any_of(previousContacts, isSame) || pushed < 0.1 * std::abs(approach)) return;
+                 pushSpeed = lostSpeed(body, normal) - lostSpeed(other, normal) - supportSpeed;
+    if (std::ranges::any_of(previousContacts, isSame) || pushSpeed < 0.1 * std::abs(approach)) return;
     const double otherMassKg = other.description.mass_kg, massKg = body.description.mass_kg;
     contact.effective_mass_kg = otherMassKg > 0.0 ? massKg * otherMassKg / (massKg + otherMassKg) : massKg;
-    contact.restitution = 0.0, contact.point_id = 6, contact.approach_m_per_s = pushed;
-    const PendingContact pending{body.id, other.id, normal, contact, approach - pushed};
+    contact.restitution = 0.0, contact.point_id = 6, contact.approach_m_per_s = pushSpeed;
+    const PendingContact pending{body.id, other.id, normal, contact, approach - pushSpeed};
     if (const auto same = std::ranges::find_if(pendingContacts, isSame); same != pendingContacts.end()) {
-        if (same->contact.approach_m_per_s < pushed) *same = pending;
-    } else if (approach > 1.1 * pushed) {
+        if (same->contact.approach_m_per_s < pushSpeed) *same = pending;
+    } else if (approach > 1.1 * pushSpeed) {
         pendingContacts.push_back(pending);
     } else {
         reportIfError(physvib_world_touch(world, &contact));
@@ -186,11 +186,11 @@ void HapticWorld::resolvePending() {
         const auto a = bodies.find(pending.a), b = bodies.find(pending.b);
         if (a == bodies.end() || b == bodies.end()) continue;
         double& speed = pending.contact.approach_m_per_s;
-        const double pushed = lostSpeed(a->second, pending.normal) - lostSpeed(b->second, pending.normal);
-        speed += std::max(0.0, pushed);
+        const double pushSpeed = lostSpeed(a->second, pending.normal) - lostSpeed(b->second, pending.normal);
+        speed += std::max(0.0, pushSpeed);
         pending.contact.fraction = std::max(-1.0, pending.contact.fraction - 1.0); // it was a tick earlier
-        pending.remainingSpeed -= pushed;
-        if (pushed > 0.1 * speed && pending.remainingSpeed > 0.1 * speed && ++pending.ticks < maxTicks)
+        pending.remainingSpeed -= pushSpeed;
+        if (pushSpeed > 0.1 * speed && pending.remainingSpeed > 0.1 * speed && ++pending.ticks < maxTicks)
             pendingContacts.push_back(pending);
         else
             reportIfError(physvib_world_touch(world, &pending.contact));
@@ -210,14 +210,14 @@ void HapticWorld::reportTouch(const ObservedBody& body, int i) {
     bool doesReach = reachesSurface(body, *other, surface);
     for (int j = 0; !doesReach && j < state.contacts(); ++j) // other corners of a box that lands
         doesReach = state.contactOtherId(j) == state.contactOtherId(i) &&
-                    reachesSurface(body, *other, surfaceOf(body, j));
+                    reachesSurface(body, *other, contactSurface(body, j));
     if (!doesReach) return;
     const Vector velocity = velocityAt(body, place), otherVelocity = velocityAt(*other, place);
     const ImpactEstimate impact =
         estimateImpact(dot(minus(velocity, otherVelocity), normal), gapMetres,
                        dot(minus(body.acceleration, other->acceleration), normal), stepSeconds);
-    const double bounce = restitutionOf(body.rid) + restitutionOf(state.contactRid(i));
-    physvib_contact contact = contactOf(body, *other, place, normal);
+    const double bounce = readRestitution(body.rid) + readRestitution(state.contactRid(i));
+    physvib_contact contact = makeContact(body, *other, place, normal);
     contact.restitution = std::clamp(bounce, 0.0, 1.0);
     contact.approach_m_per_s = impact.approachMetresPerSecond, contact.fraction = impact.fraction;
     contact.gap_m = gapMetres;
@@ -264,7 +264,7 @@ void HapticWorld::reportSlides(ObservedBody& body) {
         const Vector normal{-hitNormal[0] / length, -hitNormal[1] / length, -hitNormal[2] / length}, none{};
         reportIfError(physvib_world_move_in_space(world, body.number, place.data(),
                                                   body.velocityBefore.data(), none.data(), nullptr));
-        physvib_contact contact = contactOf(body, *other, place, normal);
+        physvib_contact contact = makeContact(body, *other, place, normal);
         const double approach = dot(minus(body.velocityBefore, other->velocityBefore), normal);
         const double twoTickTravel = dot(tickTravel, normal) + dot(body.lastTravel, normal) -
                                      2.0 * stepSeconds * dot(other->velocityBefore, normal);

@@ -67,7 +67,7 @@ GDExtensionObjectPtr serverOf(bool is3d) {
     if (server == nullptr) server = singleton(is3d ? "PhysicsServer3D" : "PhysicsServer2D").object();
     return server;
 }
-Vector vectorOf(const FloatVector& t) { return {t[0], t[1], t[2]}; }
+Vector toVector(const FloatVector& t) { return {t[0], t[1], t[2]}; }
 
 template <class Result, class... Arguments>
 Result get(StateMethod method, bool is3d, GDExtensionObjectPtr object, const Arguments&... arguments) {
@@ -93,7 +93,7 @@ bool findStateMethods() {
     return isComplete;
 }
 
-BodyState BodyState::ofBody(std::uint64_t rid, bool is3d) {
+BodyState BodyState::find(std::uint64_t rid, bool is3d) {
     BodyState state;
     state.object = methodsOf(is3d).getDirectState.call<GDExtensionObjectPtr>(serverOf(is3d), rid);
     state.is3d = is3d;
@@ -110,20 +110,20 @@ bool isInTree(GDExtensionObjectPtr node) { return isInsideTree.call<unsigned cha
 
 double BodyState::inverseMass() const { return get<double>(inverseMassMethod, is3d, object); }
 bool BodyState::isSleeping() const { return get<unsigned char>(sleeping, is3d, object) != 0; }
-Vector BodyState::velocity() const { return vectorOf(get<FloatVector>(linearVelocity, is3d, object)); }
-Vector BodyState::gravity() const { return vectorOf(get<FloatVector>(totalGravity, is3d, object)); }
+Vector BodyState::velocity() const { return toVector(get<FloatVector>(linearVelocity, is3d, object)); }
+Vector BodyState::gravity() const { return toVector(get<FloatVector>(totalGravity, is3d, object)); }
 double BodyState::linearDamp() const { return get<double>(totalLinearDamp, is3d, object); }
 double BodyState::angularDamp() const { return get<double>(totalAngularDamp, is3d, object); }
 
 Vector BodyState::centre() const {
     const auto t = get<std::array<float, 12>>(transform, is3d, object); // its origin is last
-    const Vector offset = vectorOf(get<FloatVector>(centreOfMass, is3d, object));
+    const Vector offset = toVector(get<FloatVector>(centreOfMass, is3d, object));
     const std::size_t origin = is3d ? 9 : 4;
     return {t[origin] + offset[0], t[origin + 1] + offset[1], is3d ? t[11] + offset[2] : 0.0};
 }
 
 Vector BodyState::spin() const {
-    if (is3d) return vectorOf(get<FloatVector>(angularVelocity, is3d, object));
+    if (is3d) return toVector(get<FloatVector>(angularVelocity, is3d, object));
     return {0.0, 0.0, get<double>(angularVelocity, is3d, object)};
 }
 
@@ -135,7 +135,7 @@ std::array<double, 6> BodyState::inverseInertia() const {
 
 int BodyState::contacts() const { return static_cast<int>(get<Int64>(contactCount, is3d, object)); }
 Vector BodyState::contactVector(int method, int i) const {
-    return vectorOf(get<FloatVector>(static_cast<StateMethod>(method), is3d, object, Int64{i}));
+    return toVector(get<FloatVector>(static_cast<StateMethod>(method), is3d, object, Int64{i}));
 }
 Vector BodyState::contactPosition(int i) const { return contactVector(contactLocalPosition, i); }
 Vector BodyState::contactOtherPosition(int i) const { return contactVector(contactColliderPosition, i); }

@@ -13,7 +13,7 @@ class BodyState {
 public:
     BodyState() = default; ///< no body: converts to false
     /// `rid`: a body in a scene tree. The result is valid until the next call, and as long as the body is.
-    static BodyState ofBody(std::uint64_t rid, bool is3d);
+    static BodyState find(std::uint64_t rid, bool is3d);
     explicit operator bool() const { return object != nullptr; }
 
     double inverseMass() const;

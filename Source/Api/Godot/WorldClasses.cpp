@@ -15,7 +15,7 @@ Variant defaultOutputs() {
 }
 
 // In the order of WorldProperty. Lengths of the field are Godot's: pixels in 2D, metres in 3D.
-std::vector<Property> propertiesOf(bool is3d) {
+std::vector<Property> makeProperties(bool is3d) {
     return {
         {"metres_per_unit", type::real, is3d ? [] { return Variant(1.0); } : [] { return Variant(0.01); },
          1e-6, 1e6, "Field", hintRange, "0.0001,10,0.0001,or_greater,exp,suffix:m"},
@@ -46,7 +46,7 @@ std::vector<Property> propertiesOf(bool is3d) {
 } // namespace
 
 const std::vector<Property>& worldProperties(bool is3d) {
-    static const std::vector<Property> plane = propertiesOf(false), space = propertiesOf(true);
+    static const std::vector<Property> plane = makeProperties(false), space = makeProperties(true);
     return is3d ? space : plane;
 }
 

@@ -88,7 +88,7 @@ void HapticWorld::finishStep() {
 }
 
 void HapticWorld::reportSolvedVelocity(ObservedBody& body) {
-    body.state = BodyState::ofBody(body.rid, is3d);
+    body.state = BodyState::find(body.rid, is3d);
     if (!body.state) return;
     const Vector velocity = toFieldVector(body.state.velocity());
     const Vector spin = toFieldSpin(body.state.spin());
@@ -295,12 +295,12 @@ Variant HapticWorld::describeHit(const physvib_event& event) const {
     hit.set("amplitude", event.amplitude);
     hit.set("time_s", static_cast<double>(event.time_ns) * 1e-9);
     hit.set("frequency_hz", event.frequency_hz);
-    hit.set("body", objectOf(event.fixture));
-    hit.set("other", objectOf(event.other));
+    hit.set("body", findObject(event.fixture));
+    hit.set("other", findObject(event.other));
     return hit;
 }
 
-Variant HapticWorld::objectOf(int number) const {
+Variant HapticWorld::findObject(int number) const {
     const auto found = objectIds.find(number);
     return found == objectIds.end() ? Variant() : Variant(api.objectFromId(found->second));
 }
@@ -340,7 +340,7 @@ physvib_event HapticWorld::toScreen(const physvib_event& event) const {
 namespace {
 constexpr int minListedContacts = 16; // contacts per body and tick, unless the game wants more
 // A key for a body without a node: ids of nodes never have the highest bit set.
-std::uint64_t idOfRid(std::uint64_t rid) { return rid | std::uint64_t{1} << 63U; }
+std::uint64_t toBodyKey(std::uint64_t rid) { return rid | std::uint64_t{1} << 63U; }
 bool isRigidBody(const Variant& node, bool is3d) {
     if (!is3d) return node.call("is_class", "RigidBody2D").isTrue();
     return node.call("is_class", "RigidBody3D").isTrue() || // or of a ragdoll
@@ -350,7 +350,7 @@ bool isRigidBody(const Variant& node, bool is3d) {
 
 void HapticWorld::onNodeAdded(const Variant& node) {
     if (!isRigidBody(node, is3d)) return;
-    if (isInTree(node.object()) && spaceRidOf(node, is3d) == space)
+    if (isInTree(node.object()) && readSpaceRid(node, is3d) == space)
         rigidBodies.insert(api.objectId(node.object()));
 }
 
@@ -396,7 +396,7 @@ void HapticWorld::observeRigidBodies() {
 
 ObservedBody* HapticWorld::findOrAdd(std::uint64_t id, std::uint64_t rid, const HapticBody* hapticBody) {
     const GDExtensionObjectPtr godotObject = id != 0 ? api.objectFromId(id) : nullptr;
-    const std::uint64_t key = godotObject != nullptr ? id : idOfRid(rid);
+    const std::uint64_t key = godotObject != nullptr ? id : toBodyKey(rid);
     if (godotObject == nullptr && rid == 0) return nullptr;
     if (const auto existing = bodies.find(key); existing != bodies.end()) {
         if (hapticBody != nullptr) existing->second.hapticBody = hapticBody;
@@ -439,7 +439,7 @@ void HapticWorld::updateDescription(ObservedBody& body) {
     double massKg = 0.0;
     if (body.isRigid) {
         requestContactReports(body.rid, is3d, minListedContacts);
-        body.state = BodyState::ofBody(body.rid, is3d);
+        body.state = BodyState::find(body.rid, is3d);
         const double inverse = body.state ? body.state.inverseMass() : 0.0;
         massKg = inverse > 0.0 ? 1.0 / inverse : 0.0;
     }
@@ -449,7 +449,7 @@ void HapticWorld::updateDescription(ObservedBody& body) {
     body.describedHapticBody = body.hapticBody;
     physvib_body description;
     physvib_body_init(&description, sizeof description);
-    const Variant material = materialOf(body);
+    const Variant material = findMaterial(body);
     if (body.hapticBody != nullptr)
         body.hapticBody->applyTo(description, material);
     else
@@ -459,7 +459,7 @@ void HapticWorld::updateDescription(ObservedBody& body) {
     reportIfError(physvib_world_set_body(world, body.number, &description));
 }
 
-Variant HapticWorld::materialOf(const ObservedBody& body) const {
+Variant HapticWorld::findMaterial(const ObservedBody& body) const {
     const Variant byPhysics = get(physicsMaterials);
     if (!byPhysics.call("size").isTrue() || body.object.object() == nullptr) return {};
     const Variant physics = body.object.member("physics_material_override");

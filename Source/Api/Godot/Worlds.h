@@ -87,7 +87,7 @@ private:
     ObservedBody* findOrAdd(std::uint64_t id, std::uint64_t rid, const HapticBody* hapticBody);
     void removeBodies(); ///< removes all bodies, after ending an open step
     void updateDescription(ObservedBody& body);
-    Variant materialOf(const ObservedBody& body) const; ///< for its PhysicsMaterial; nil: none
+    Variant findMaterial(const ObservedBody& body) const; ///< for its PhysicsMaterial; nil: none
     void reportMotion(ObservedBody& body);
     void reportSolvedVelocity(ObservedBody& body);
     void reportTouches(ObservedBody& body);
@@ -95,7 +95,7 @@ private:
     bool involvesHapticBody(const ObservedBody& body, int contact) const;
     static bool doesOtherExist(const ObservedBody& body, int contact);
     void reportTouch(const ObservedBody& body, int contact);
-    Surface surfaceOf(const ObservedBody& body, int contact) const;
+    Surface contactSurface(const ObservedBody& body, int contact) const;
     Surface surfaceAcrossSeams(const ObservedBody& body, const ObservedBody& other, int contact,
                                std::optional<double>& supportSpeed) const;
     double lostSpeed(const ObservedBody& body, const Vector& normal) const;
@@ -106,7 +106,7 @@ private:
     ObservedBody* otherBody(const ObservedBody& body, int contact, const Vector& place);
     ObservedBody* addOther(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);
     void reportSlides(ObservedBody& body);
-    double restitutionOf(std::uint64_t rid);
+    double readRestitution(std::uint64_t rid);
     void emitEvents();
     physvib_event toScreen(const physvib_event& event) const;
     Vector scenePosition(const physvib_event& event) const;
@@ -114,7 +114,7 @@ private:
     Vector toFieldVector(const Vector& v) const;
     Vector toFieldSpin(const Vector& spin) const;
     Variant describeHit(const physvib_event& event) const;
-    Variant objectOf(int number) const; ///< Godot's object of a body; nil: it was freed
+    Variant findObject(int number) const; ///< Godot's object of a body; nil: it was freed
     Variant server() const;
 
     double stepSeconds = 0.0;
@@ -152,8 +152,8 @@ const std::vector<Property>& worldProperties(bool is3d);
 extern const ClassTable hapticWorld2dClass, hapticWorld3dClass;
 
 /// A contact at a place of the field, m, with a unit normal from `a` to `b`; other members have defaults.
-inline physvib_contact contactOf(const ObservedBody& a, const ObservedBody& b, const Vector& place,
-                                 const Vector& normal) {
+inline physvib_contact makeContact(const ObservedBody& a, const ObservedBody& b, const Vector& place,
+                                   const Vector& normal) {
     physvib_contact contact;
     physvib_contact_init(&contact, sizeof contact);
     contact.a = a.number, contact.b = b.number;

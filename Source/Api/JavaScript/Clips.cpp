@@ -18,9 +18,9 @@ namespace {
 Clip clip;
 SampledSound sound;
 
-ClipFormat formatOf(const char* name) {
-    const auto format = clipFormatOf(name);
-    if (!format) throwError("expected a file " + listed(clipEndings, " or "));
+ClipFormat findFormat(const char* name) {
+    const auto format = findClipFormat(name);
+    if (!format) throwError("expected a file " + nameList(clipEndings, " or "));
     return *format;
 }
 
@@ -34,13 +34,13 @@ extern "C" {
 
 /// Reads a file of that name to samples at that rate; returns the channels. Errors throw in JavaScript.
 int PHYSVIB_JS(clip_read)(const char* bytes, int count, const char* name, int rateHz) {
-    auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, formatOf(name));
+    auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, findFormat(name));
     if (!read) throwError(read.error);
     if (const std::string error = clipError(read.value); !error.empty())
         throwError(std::string{name} + ": " + error);
     clip = std::move(read.value);
     sound = clipSound(clip, rateHz);
-    textBuffer() = clip.leftOut;
+    textBuffer() = clip.omissions;
     return static_cast<int>(clip.channels.size());
 }
 
@@ -84,14 +84,14 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
 
 /// Writes one channel of the clip (-1: all) to textBuffer(), in the file name's format. Returns 0 if silent.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
-    const ClipFormat format = formatOf(name);
+    const ClipFormat format = findFormat(name);
     const Clip selected = channel < 0 ? clip : singleChannelClip(clip, channel);
     if (!(selected.seconds() > 0.0)) return 0;
     textBuffer() = clipBytes(selected, format);
     return 1;
 }
 
-int PHYSVIB_JS(clip_is_mono)(const char* name) { return isMono(formatOf(name)) ? 1 : 0; }
+int PHYSVIB_JS(clip_is_mono)(const char* name) { return isMono(findFormat(name)) ? 1 : 0; }
 const char* PHYSVIB_JS(clip_label)(int channel) {
     return clip.channels[static_cast<std::size_t>(channel)].label.c_str();
 }

@@ -19,7 +19,7 @@ struct ExportedPad : api::Pad {
 
 extern "C" {
 
-/// `law`: the numbers of a PadLaw: low and high motor (threshold, half, full, rise, fall), then the others.
+/// `law`: the numbers of a PadModel: low and high motor (threshold, half, full, rise, fall), then the others.
 /// Returns 0 and sets physvib_error() if they are invalid.
 ExportedPad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double heightMetres) {
     if (!(widthMetres > 0.0 && widthMetres <= 1e9 && heightMetres > 0.0 && heightMetres <= 1e9))
@@ -29,17 +29,17 @@ ExportedPad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, doubl
         return m.threshold >= 0.0 && m.threshold < m.half && m.half < m.full && m.full <= 1.0 &&
                m.riseSeconds > 0.0 && m.fallSeconds > 0.0;
     };
-    const PadLaw padLaw{motorOf(law), motorOf(law + 5), law[10], law[11], law[12], law[13], law[14], law[15]};
-    if (!isValidMotor(padLaw.low) || !isValidMotor(padLaw.high))
+    const PadModel pad{motorOf(law), motorOf(law + 5), law[10], law[11], law[12], law[13], law[14], law[15]};
+    if (!isValidMotor(pad.low) || !isValidMotor(pad.high))
         return api::argumentError("pad: expected 0 <= threshold < half < full <= 1, and times above 0 s"),
                nullptr;
-    if (!(padLaw.commandsPerSecond >= 1.0 && padLaw.commandsPerSecond <= 1000.0 &&
-          padLaw.leadSeconds >= 0.0 && padLaw.splitHz > 0.0 && padLaw.side >= 0.0 && padLaw.side <= 1.0 &&
-          padLaw.floor > 0.0 && padLaw.exponent > 0.0))
+    if (!(pad.commandsPerSecond >= 1.0 && pad.commandsPerSecond <= 1000.0 && pad.leadSeconds >= 0.0 &&
+          pad.splitHz > 0.0 && pad.placeWeight >= 0.0 && pad.placeWeight <= 1.0 && pad.floor > 0.0 &&
+          pad.exponent > 0.0))
         return api::argumentError(
                    "pad: expected 1 to 1000 commands a second, and numbers as in Docs/pads.md"),
                nullptr;
-    return new ExportedPad{padLaw, widthMetres, heightMetres};
+    return new ExportedPad{pad, widthMetres, heightMetres};
 }
 
 void PHYSVIB_JS(pad_free)(ExportedPad* pad) { delete pad; }

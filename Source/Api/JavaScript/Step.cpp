@@ -12,16 +12,16 @@ namespace {
 
 constexpr double absentValue = -2.0e300; // written by journal.js for a member with its default
 
-Vector3 vectorOf(const double* xyz) noexcept {
+Vector3 toVector(const double* xyz) noexcept {
     return {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2])};
 }
 double valueOr(double value, double fallback) noexcept { return value == absentValue ? fallback : value; }
-std::optional<double> toOptional(double value) noexcept {
-    return api::optionalOf(valueOr(value, PHYSVIB_UNKNOWN));
+std::optional<double> readOptional(double value) noexcept {
+    return api::toOptional(valueOr(value, PHYSVIB_UNKNOWN));
 }
 
 /// Reads an entry from the numbers of both bodies on, in the order of journal.js.
-FedContact contactOf(const double* data) noexcept {
+FedContact readContact(const double* data) noexcept {
     FedContact contact;
     contact.a = static_cast<int>(data[0]);
     contact.b = static_cast<int>(data[1]);
@@ -29,14 +29,14 @@ FedContact contactOf(const double* data) noexcept {
                      static_cast<float>(valueOr(data[4], 0.0))};
     contact.normal = {static_cast<float>(valueOr(data[5], 0.0)), static_cast<float>(valueOr(data[6], 1.0)),
                       static_cast<float>(valueOr(data[7], 0.0))};
-    contact.impulseNewtonSeconds = toOptional(data[8]);
-    contact.approachMetresPerSecond = toOptional(data[9]);
+    contact.impulseNewtonSeconds = readOptional(data[8]);
+    contact.approachMetresPerSecond = readOptional(data[9]);
     contact.restitution = valueOr(data[10], 0.0);
-    contact.fraction = toOptional(data[11]);
+    contact.fraction = readOptional(data[11]);
     contact.gapMetres = valueOr(data[12], 0.0);
     contact.gapFraction = valueOr(data[13], 0.0);
-    contact.alongAMetresPerSecond = toOptional(data[14]);
-    contact.alongBMetresPerSecond = toOptional(data[15]);
+    contact.alongAMetresPerSecond = readOptional(data[14]);
+    contact.alongBMetresPerSecond = readOptional(data[15]);
     const int softness = static_cast<int>(valueOr(data[16], 0.0));
     contact.isSoft = softness != 0;
     contact.isPushWhole = softness == PHYSVIB_SOFT_WHOLE;
@@ -59,15 +59,15 @@ int reportEntry(ContactFeed& feed, const double* entry, std::string_view& error)
         error = feed.moved(
             body, {{static_cast<float>(data[0]), static_cast<float>(data[1])}, static_cast<float>(data[2])});
         return 5;
-    case 2: error = feed.touch(contactOf(entry + 1)); return 19;
+    case 2: error = feed.touch(readContact(entry + 1)); return 19;
     case 3: { // motion in space before the solver
         const bool hasInertia = data[9] != 0.0;
         std::optional<InverseInertia> inertia;
         if (hasInertia) inertia = {data[10], data[11], data[12], data[13], data[14], data[15]};
-        error = feed.moveInSpace(body, vectorOf(data), {vectorOf(data + 3), vectorOf(data + 6)}, inertia);
+        error = feed.moveInSpace(body, toVector(data), {toVector(data + 3), toVector(data + 6)}, inertia);
         return hasInertia ? 18 : 12;
     }
-    default: error = feed.movedInSpace(body, {vectorOf(data), vectorOf(data + 3)}); return 8;
+    default: error = feed.movedInSpace(body, {toVector(data), toVector(data + 3)}); return 8;
     }
 }
 
@@ -76,7 +76,7 @@ int reportEntry(ContactFeed& feed, const double* entry, std::string_view& error)
 /// Skips entries with invalid numbers, so that one body does not end the haptics of all. Returns 0, or the
 /// number + 1 of the first body skipped, with the error in textBuffer(), or a negative error code.
 extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int count) {
-    return api::with(world, [&](api::World& object) -> int {
+    return api::withObject(world, [&](api::World& object) -> int {
         int firstRejected = 0;
         std::string_view error;
         for (const double *entry = first, *end = first + count; entry < end;) {

@@ -24,7 +24,7 @@ int submitControl(LiveRig& live, RenderControl control) {
 }
 
 int queueControl(physvib_live handle, RenderControl::Kind kind, int channel, double value) noexcept {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         if (channel < 0 || channel >= live.session().channels())
             return argumentError("channel: expected one of the device's enchanters");
         if (!(value >= 0.0 && value <= 10000.0)) return argumentError("gain: expected 0 to 10000");
@@ -74,7 +74,7 @@ int physvib_live_receipt_init(physvib_live_receipt* receipt, size_t size) {
 
 int physvib_live_left(physvib_live handle, physvib_int64 fromNs, physvib_int64 toNs, int actuator,
                       physvib_live_receipt* receipt) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         physvib_live_receipt result;
         if (!readStruct<physvib_live_receipt>(receipt, result, physvib_live_receipt_init))
             return PHYSVIB_ERROR_ARGUMENT;
@@ -87,7 +87,7 @@ int physvib_live_left(physvib_live handle, physvib_int64 fromNs, physvib_int64 t
         result.mean_square = measured.meanSquare;
         result.running = measured.isRunning ? 1 : 0;
         result.opening = static_cast<int>(measured.opening);
-        result.over = measured.isOver ? 1 : 0;
+        result.over = measured.hasEnded ? 1 : 0;
         result.kept = measured.isInMemory ? 1 : 0;
         std::memcpy(receipt, &result, result.size);
         return PHYSVIB_OK;
@@ -95,18 +95,19 @@ int physvib_live_left(physvib_live handle, physvib_int64 fromNs, physvib_int64 t
 }
 
 physvib_int64 physvib_live_now_ns(physvib_live handle) {
-    return with(handle, [](LiveRig& live) -> physvib_int64 { return live.session().timeline().presentNs(); });
+    return withObject(handle,
+                      [](LiveRig& live) -> physvib_int64 { return live.session().timeline().presentNs(); });
 }
 
 physvib_int64 physvib_live_latency_ns(physvib_live handle) {
-    return with(handle, [](LiveRig& live) -> physvib_int64 {
+    return withObject(handle, [](LiveRig& live) -> physvib_int64 {
         return live.session().timeline().outputLatencyFrames() * 1'000'000'000 /
                std::max(1, live.status().rateHz);
     });
 }
 
 int physvib_live_strike(physvib_live handle, const physvib_event* events, physvib_int64 count) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         if (count < 0 || (events == nullptr && count > 0))
             return argumentError("events: expected some, found NULL");
         return submitEvents(live, events, count, 0);
@@ -114,7 +115,7 @@ int physvib_live_strike(physvib_live handle, const physvib_event* events, physvi
 }
 
 int physvib_live_align(physvib_live handle, physvib_world world, physvib_int64* startNs) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         if (startNs == nullptr) return argumentError("start: expected a place for it, found NULL");
         const physvib_int64 timeNs = physvib_world_time_ns(world);
         if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
@@ -131,7 +132,7 @@ int physvib_live_align(physvib_live handle, physvib_world world, physvib_int64* 
 }
 
 physvib_int64 physvib_live_send(physvib_live handle, physvib_world world, physvib_int64 startNs, int) {
-    return with(handle, [&](LiveRig& live) -> physvib_int64 {
+    return withObject(handle, [&](LiveRig& live) -> physvib_int64 {
         if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4)
             return argumentError("start: expected at most 2.5 * 10^16 ns from 0");
         return forEachBatch(world, [&](std::span<const physvib_event> batch) {
@@ -159,7 +160,7 @@ physvib_int64 physvib_live_send_each(const physvib_live* lives, int count, physv
                                          return (device < count ? device : 0) == k;
                                      });
                 if (!deviceEvents.empty())
-                    code = with(lives[k], [&](LiveRig& live) {
+                    code = withObject(lives[k], [&](LiveRig& live) {
                         return submitEvents(live, deviceEvents.data(), std::ssize(deviceEvents), startsNs[k]);
                     });
             }
@@ -177,7 +178,7 @@ int physvib_live_set_mute(physvib_live live, int channel, int isMuted) {
 }
 
 int physvib_live_set_layout(physvib_live handle, const physvib_renderer_settings* renderer) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         RendererSettings checked;
         if (!readRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
         if (checked.panner.channels() > live.session().channels())
@@ -187,7 +188,7 @@ int physvib_live_set_layout(physvib_live handle, const physvib_renderer_settings
 }
 
 int physvib_live_set_level(physvib_live handle, double levelDb) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         if (!isValidLevelDb(levelDb)) return argumentError("level: expected -90 to 0 dB");
         live.output().setLevel(gainFromDb(levelDb));
         return PHYSVIB_OK;
@@ -199,15 +200,15 @@ int physvib_live_silence(physvib_live handle, int isSilent) {
         live.output().setSilent(isSilent != 0);
         return PHYSVIB_OK;
     };
-    const int code = with(handle, setSilent);
+    const int code = withObject(handle, setSilent);
     if (code != PHYSVIB_OK && isSilent != 0) // without its handle, the caller may mean any of them
         for (const std::uintptr_t open : openLiveHandles())
-            with(reinterpret_cast<physvib_live>(open), setSilent);
+            withObject(reinterpret_cast<physvib_live>(open), setSilent);
     return code;
 }
 
 int physvib_live_get_status(physvib_live handle, physvib_live_status* status) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         physvib_live_status result;
         if (!readStruct<physvib_live_status>(status, result, physvib_live_status_init))
             return PHYSVIB_ERROR_ARGUMENT;
@@ -284,7 +285,7 @@ std::vector<physvib_device> allDevices() {
         all.push_back(makeDevice(device.type + ":" + device.name, {}, PHYSVIB_DEVICE_SOUND, device.channels));
     for (const SinkKind& kind : sinkKinds())
         for (const SinkUnit& place : kind.listUnits())
-            all.push_back(makeDevice(std::string{kind.name} + ":" + place.address, place.about,
+            all.push_back(makeDevice(std::string{kind.name} + ":" + place.address, place.label,
                                      kind.name == "BOARD" ? PHYSVIB_DEVICE_BOARD : PHYSVIB_DEVICE_PAD,
                                      kind.actuators));
     return all;
@@ -314,7 +315,7 @@ using namespace physvib::api;
 
 namespace {
 
-const char* nameOfMuteHolder(const MuteRequests& requests) noexcept {
+const char* muteHolderName(const MuteRequests& requests) noexcept {
     if (requests.isRequestedBy(MuteRequester::osc)) return "OSC (/physvib/silence)";
     if (requests.isRequestedBy(MuteRequester::standardInput)) return "a line of standard input";
     return "physvib_live_silence";
@@ -334,14 +335,14 @@ physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
 } // namespace
 
 int physvib_live_explain(physvib_live handle, physvib_world world, char* text, size_t size) {
-    return with(handle, [&](LiveRig& live) {
+    return withObject(handle, [&](LiveRig& live) {
         const LiveRigStatus current = live.status();
         const physvib_renderer_settings settings = settingsOf(live.session().panner());
         physvib_output_facts facts;
         physvib_output_facts_init(&facts, sizeof facts);
         facts.is_missing = live.output().isPlaying() ? 0 : 1;
         facts.is_silent = live.output().isSilent() ? 1 : 0;
-        facts.silent_by = nameOfMuteHolder(live.output().silence());
+        facts.silent_by = muteHolderName(live.output().silence());
         const std::string dropped = droppedEventsText(live.session().pulse().dropped());
         facts.trouble = current.problem.empty() ? dropped.c_str() : current.problem.c_str();
         facts.level = static_cast<double>(live.output().level());

@@ -83,7 +83,7 @@ std::vector<std::uintptr_t> openLiveHandles();
 
 /// Calls `call(live)`, or returns the error for an unknown handle.
 template <class Call>
-auto with(physvib_live handle, Call call) noexcept -> decltype(call(std::declval<LiveRig&>())) {
+auto withObject(physvib_live handle, Call call) noexcept -> decltype(call(std::declval<LiveRig&>())) {
     return catchExceptions([&]() -> decltype(call(std::declval<LiveRig&>())) {
         const auto live = liveRigs().borrow(handleNumber(handle));
         if (!live) return unknownHandleError();

@@ -96,7 +96,7 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
     setup.panner = renderer.panner;
     setup.limiterEnabled = renderer.limiterEnabled;
     setup.log = LogUse::none;
-    if (s.sound_output >= 0) setup.contactSound.emplace(), setup.ears = 2;
+    if (s.sound_output >= 0) setup.contactSound.emplace(), setup.contactChannels = 2;
     return setup;
 }
 
@@ -146,7 +146,7 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         rig.output.sampleRateHz = copy.rate_hz;
         rig.output.blockFrames = copy.block_frames;
         rig.output.level = gainFromDb(copy.level_db);
-        rig.output.enchanters = checked.panner.channels();
+        rig.output.actuatorCount = checked.panner.channels();
         rig.output.channelMap.resize(static_cast<std::size_t>(checked.outputs()));
         std::iota(rig.output.channelMap.begin(), rig.output.channelMap.end(), copy.first_output);
         rig.output.listening.contactDb = copy.sound_db;

@@ -21,7 +21,7 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
     const auto& [resonator, band] = actuator;
     if (!actuator.isKnown() || band.highHz >= 0.5 * sampleRateHz_) return;
     const double lowHz = edgeRatio * band.lowHz, highHz = band.highHz / edgeRatio;
-    const auto poles = [this](double hz, double q) { return RootPair::of(hz, q, sampleRateHz_); };
+    const auto poles = [this](double hz, double q) { return RootPair::exact(hz, q, sampleRateHz_); };
     sections_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};
     // the other two zeros at 0 Hz cancel those of H
     sections_[1] = {1.0, atZero, poles(lowHz, butterworthQ[1])};
@@ -50,10 +50,10 @@ bool ActuatorEqualiser::isAtRest() const noexcept {
 }
 
 std::complex<double> ActuatorEqualiser::at(double frequencyHz) const noexcept {
-    std::complex<double> all = 1.0;
+    std::complex<double> product = 1.0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(sectionCount_); ++k)
-        all *= sections_[k].at(frequencyHz, sampleRateHz_);
-    return all;
+        product *= sections_[k].at(frequencyHz, sampleRateHz_);
+    return product;
 }
 
 double ActuatorEqualiser::flatLevel(double driveLimit) const noexcept {

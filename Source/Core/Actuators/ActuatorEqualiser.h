@@ -23,7 +23,7 @@ struct RootPair {
     /// The roots of s^2 + (w0/q) s + w0^2, each mapped to exp(s / rate). They lie in the unit circle, so both
     /// the section with these poles and its inverse are stable. Frequency warping is smaller than under the
     /// bilinear transform.
-    static RootPair of(double frequencyHz, double q, double sampleRateHz) noexcept {
+    static RootPair exact(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double angle = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz, decay = 0.5 * angle / q;
         const double turn = angle * angle - decay * decay; // < 0: two real roots
         const double cosine = turn >= 0.0 ? portable::cos(std::sqrt(turn)) : portable::cosh(std::sqrt(-turn));

@@ -166,8 +166,8 @@ public:
     }
 
     /// After the ramp a muted channel is exactly silent, so it does not affect the limiter.
-    void setMuted(int channel, bool muted) noexcept {
-        muted_[index(channel)] = muted;
+    void setMuted(int channel, bool isMuted) noexcept {
+        muted_[index(channel)] = isMuted;
         updateTarget(channel);
     }
 
@@ -200,7 +200,7 @@ public:
     bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
         if (isSilent && isAsleep_) return true;
-        bool allSilent = true;
+        bool areAllSilent = true;
         isAsleep_ = isSilent;
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
@@ -211,10 +211,10 @@ public:
                 ramps_[c].skip(frames);
             else
                 ramps_[c].apply(io + j, 1, frames);
-            allSilent = allSilent && isOutputSilent;
+            areAllSilent = areAllSilent && isOutputSilent;
             isAsleep_ = isAsleep_ && isOutputSilent && delays_[c].isResting() && ramps_[c].isResting();
         }
-        return allSilent;
+        return areAllSilent;
     }
 
 private:

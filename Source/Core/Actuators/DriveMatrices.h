@@ -21,10 +21,10 @@ struct DriveMatrices {
 
     /// The drives in phase with the strike, and those a quarter turn ahead. Linear interpolation between
     /// frequencies; beyond them the nearest matrix. A list holds `channels` numbers. Any thread, wait-free.
-    void apply(double frequencyHz, const double* gains, double* inPhase, double* ahead) const noexcept {
-        const auto above = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) -
+    void apply(double frequencyHz, const double* gains, double* inPhase, double* quadrature) const noexcept {
+        const auto upper = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) -
                                                     frequenciesHz.begin());
-        const std::size_t high = std::min(above, frequenciesHz.size() - 1), low = above == 0 ? 0 : above - 1;
+        const std::size_t high = std::min(upper, frequenciesHz.size() - 1), low = upper == 0 ? 0 : upper - 1;
         const double step = frequenciesHz[high] - frequenciesHz[low];
         const double share = step > 0.0 ? (frequencyHz - frequenciesHz[low]) / step : 0.0;
         for (std::size_t i = 0; i < channels; ++i) {
@@ -34,7 +34,7 @@ struct DriveMatrices {
                 sum += at(high, i, j) * (gains[j] * share);
             }
             inPhase[i] = sum.re;
-            ahead[i] = sum.im;
+            quadrature[i] = sum.im;
         }
     }
 

@@ -37,10 +37,10 @@ double transition(double hz) noexcept {
 Biquad matched(RootPair poles, double rateHz, double (*magnitude)(double), double lowHz,
                double highHz) noexcept {
     const auto squareAt = [&](double f) {
-        const double wanted =
+        const double target =
             magnitude(f) *
             std::abs(poles.at(portable::exp(std::complex{0.0, -2.0 * std::numbers::pi * f / rateHz})));
-        return wanted * wanted;
+        return target * target;
     };
     // |b0 + b1 z^-1 + b2 z^-2|^2 = atZero (1 - p) + atTop p + 4 bend p (1 - p), p = sin^2(w / 2)
     const double atZero = squareAt(0.0),
@@ -66,15 +66,15 @@ HandWeighting::HandWeighting(int sampleRateHz) noexcept
     // 1 at half the rate; warping is negligible at such low frequencies
     sections_ = {
         Biquad{0.25 * (1.0 - low.first + low.second), {-2.0, 1.0}, low},
-        matched(RootPair::of(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),
-        matched(RootPair::of(transitionHz, transitionQ, sampleRateHz_), sampleRateHz_, transition,
+        matched(RootPair::exact(highHz, bandQ, sampleRateHz_), sampleRateHz_, lowPass, 0.5 * highHz, highHz),
+        matched(RootPair::exact(transitionHz, transitionQ, sampleRateHz_), sampleRateHz_, transition,
                 transitionHz, highHz)};
 }
 
 double HandWeighting::gainAt(double hz) const noexcept {
-    double all = 1.0;
-    for (const Biquad& section : sections_) all *= std::abs(section.at(hz, sampleRateHz_));
-    return all;
+    double product = 1.0;
+    for (const Biquad& section : sections_) product *= std::abs(section.at(hz, sampleRateHz_));
+    return product;
 }
 
 } // namespace physvib

@@ -78,7 +78,7 @@ public:
             weighted += w * w;
         }
         sums_.weighted[j] += weighted / framesPerSecond_;
-        isAtRest_[j] = isSilent && weighted < faded * frames;
+        isAtRest_[j] = isSilent && weighted < silentSquare * frames;
         if (isAtRest_[j]) weightings_[j].clear(); // before its tail becomes denormal
     }
 
@@ -89,7 +89,7 @@ public:
     const ExposureSums& read() noexcept { return published_.read(); }
 
 private:
-    static constexpr double faded = 1e-24; // -240 dB
+    static constexpr double silentSquare = 1e-24; // -240 dB
 
     double framesPerSecond_ = 1.0;
     std::array<HandWeighting, static_cast<std::size_t>(limits::maxActuators)> weightings_;

@@ -82,13 +82,13 @@ public:
                 rest_[j]};
     }
     /// Restores the sums of a channel, as if their extremes had just happened. Call it after prepare().
-    void restore(std::size_t j, const GuardSums& m) noexcept {
+    void restore(std::size_t j, const GuardSums& saved) noexcept {
         const std::size_t newest = (part_ + parts - 1) % parts;
-        oldHigh_[j] = highs_[newest][j] = m.high;
-        oldLow_[j] = lows_[newest][j] = m.low;
+        oldHigh_[j] = highs_[newest][j] = saved.high;
+        oldLow_[j] = lows_[newest][j] = saved.low;
         sum_[j] = high_[j] = low_[j] = 0.0f;
-        slow_[j] = m.slow, speed_[j] = m.speed, load_[j] = m.load;
-        rest_[j] = to_[j] = m.rest;
+        slow_[j] = saved.slow, speed_[j] = saved.speed, load_[j] = saved.load;
+        rest_[j] = ends_[j] = saved.rest;
         silentSeconds_ = 0.0f;
     }
     /// Adds a channel, at rest. R.
@@ -105,17 +105,17 @@ public:
             clear();
             return false;
         }
-        const float lowest = follow(areas);
+        const float lowest = updateGains(areas);
         if (++partTile_ >= partTiles_) endPart();
         episodes_ += lowest < 1.0f && gain_ == 1.0f ? 1 : 0;
-        const bool acts = lowest < 1.0f || gain_ < 1.0f;
+        const bool isActing = lowest < 1.0f || gain_ < 1.0f;
         gain_ = lowest;
-        return acts;
+        return isActing;
     }
 
     /// Gain at the start of the next tile; it changes linearly to endGain() at its end.
-    float startGain(std::size_t channel) const noexcept { return from_[channel]; }
-    float endGain(std::size_t channel) const noexcept { return to_[channel]; }
+    float startGain(std::size_t channel) const noexcept { return starts_[channel]; }
+    float endGain(std::size_t channel) const noexcept { return ends_[channel]; }
 
     bool isAtRest() const noexcept {
         return silentSeconds_ >= forgetSeconds;
@@ -136,8 +136,8 @@ private:
         for (Row* row : {&sum_, &high_, &low_, &oldHigh_, &oldLow_, &slow_, &speed_, &load_}) row->fill(0.0f);
         for (auto& row : highs_) row.fill(0.0f);
         for (auto& row : lows_) row.fill(0.0f);
-        from_.fill(1.0f);
-        to_.fill(1.0f);
+        starts_.fill(1.0f);
+        ends_.fill(1.0f);
         rest_.fill(1.0f);
         gain_ = 1.0f;
         silentSeconds_ = forgetSeconds;
@@ -147,7 +147,7 @@ private:
 
     // A second-order low-pass in steps of a tile. The quadratic form, by w, is the energy that its output
     // would still have without further input. Returns the lowest of the new gains.
-    float follow(const Row& areas) noexcept {
+    float updateGains(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
         auto lowest = std::bit_cast<std::int32_t>(1.0f); // gains from +0 on are in order as their bits are
@@ -165,12 +165,12 @@ private:
             const float load =
                 load_[j] + (limits::guardOfSlow * z * z + z * v + limits::guardOfSpeed * v * v) * (0.5f / w);
             const float room = lesser((maxArea_ - area) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
-            from_[j] = to_[j];
-            const float to = greater(0.0f, lesser(room, rest_[j]));
-            to_[j] = to;
-            lowest = std::min(lowest, std::bit_cast<std::int32_t>(to));
+            starts_[j] = ends_[j];
+            const float newGain = greater(0.0f, lesser(room, rest_[j]));
+            ends_[j] = newGain;
+            lowest = std::min(lowest, std::bit_cast<std::int32_t>(newGain));
             // Above half of a bound it only falls: a reduced tone gets one gain and keeps its waveform.
-            const float up = lesser(1.0f, rest_[j] + rise_), down = rest_[j] - fall_ * (rest_[j] - to_[j]);
+            const float up = lesser(1.0f, rest_[j] + rise_), down = rest_[j] - fall_ * (rest_[j] - ends_[j]);
             const float half = area < 0.5f * maxArea_ ? up : down;
             rest_[j] = load < 0.5f * maxLoad_ ? half : down;
         }
@@ -201,7 +201,7 @@ private:
     std::uint32_t episodes_ = 0;
     Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // of the part; its extremes; those of earlier ones
     std::array<Row, parts> highs_{}, lows_{};
-    Row slow_{}, speed_{}, load_{}, from_{}, to_{}, rest_{};
+    Row slow_{}, speed_{}, load_{}, starts_{}, ends_{}, rest_{};
 };
 
 } // namespace physvib

@@ -11,9 +11,9 @@ namespace physvib {
 
 static constexpr std::int32_t infiniteBits = 0x7f800000;
 
-bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, InstructionSet set) noexcept {
+bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool isEnabled, InstructionSet set) noexcept {
     channels_ = channels;
-    enabled_ = enabled;
+    isEnabled_ = isEnabled;
     window_ = windowAt(sampleRateHz);
     releaseStep_ = static_cast<std::int64_t>(unit / (sampleRateHz * limits::limiterReleaseSeconds));
     const TileKernel* kernels = tileKernel(set);
@@ -25,8 +25,8 @@ bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, Instru
     position_ = 0;
     frame_ = 0;
     firstCandidate_ = candidateCount_ = 0;
-    released_ = unit;
-    averaged_.fill(unit);
+    releasedGain_ = unit;
+    averagedGains_.fill(unit);
     sum_ = unit * window_;
     gain_ = 1.0f;
     nonFinite_ = 0;
@@ -48,13 +48,13 @@ void LinkedLimiter::setCeiling(int channel, float ceiling) noexcept {
     const float before = bounds_[j];
     ceilings_[j].moveTo(ceiling, rampFrames_);
     setBound(j, ceilings_[j].minAhead());
-    bounds_[j] = std::max({before, bounds_[j], enabled_ ? ceiling : 0.0f});
+    bounds_[j] = std::max({before, bounds_[j], isEnabled_ ? ceiling : 0.0f});
     settledFrame_ = frame_ + rampFrames_ + latencyFrames();
     isSettled_ = false;
 }
 
 void LinkedLimiter::setBound(std::size_t channel, float ceiling) noexcept {
-    bounds_[channel] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
+    bounds_[channel] = isEnabled_ ? ceiling : std::numeric_limits<float>::infinity();
     maxBits_[channel] = std::min(std::bit_cast<std::int32_t>(bounds_[channel]), infiniteBits - 1);
 }
 
@@ -93,7 +93,7 @@ void LinkedLimiter::processAll(const float* const* in, float* const* out, int fr
         part = std::min(maxPartFrames, all - first);
         if (!isSettled_) part = std::min(part, static_cast<std::size_t>(settledFrame_ - frame_));
         processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), copy,
-                     floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
+                     floatsPerLine, frontFloats(), static_cast<std::size_t>(latencyFrames())});
     }
 }
 
@@ -158,7 +158,7 @@ void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcep
         for (const float ceiling = ceilings_[j].current(); n < lines.frames; ++n) compare(n, ceiling);
     }
     for (std::size_t n = 0; n < lines.frames; ++n) {
-        const bool isOver = enabled_ && excess[n] > 1;
+        const bool isOver = isEnabled_ && excess[n] > 1;
         gain_ = gains[n] =
             advanceGain(isOver ? static_cast<std::int64_t>(static_cast<double>(unit) / excess[n]) : unit);
         position_ = position_ + 1 == window_ ? 0 : position_ + 1;
@@ -178,7 +178,7 @@ void LinkedLimiter::skipFrames(std::size_t frames) noexcept {
 // Rounding may lift the product above the ceiling by one bit, or lower it to a denormal; both are corrected.
 void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                                   float ceiling) const noexcept {
-    const float* const delayed = line + front() - latencyFrames();
+    const float* const delayed = line + frontFloats() - latencyFrames();
     const auto limited = [ceiling](float x, float gain) {
         const float y = std::min(std::max(x * gain, -ceiling), ceiling);
         return std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
@@ -187,29 +187,29 @@ void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frame
         std::transform(delayed, delayed + frames, gains, samples, limited);
     else
         std::copy_n(delayed, frames, samples); // within its ceiling when it came
-    std::copy_n(line + frames, front(), line);
+    std::copy_n(line + frames, frontFloats(), line);
 }
 
 // Monotone queue: an entry that needs at least the newcomer's gain can never be the minimum again.
-std::int64_t LinkedLimiter::slidingMinimum(std::int64_t needed) noexcept {
+std::int64_t LinkedLimiter::slidingMinimum(std::int64_t neededGain) noexcept {
     const auto at = [this](std::size_t k) -> Candidate& {
         return candidates_[(firstCandidate_ + k) % candidates_.size()];
     };
-    while (candidateCount_ > 0 && at(candidateCount_ - 1).needed >= needed) --candidateCount_;
-    at(candidateCount_++) = {needed, frame_};
+    while (candidateCount_ > 0 && at(candidateCount_ - 1).neededGain >= neededGain) --candidateCount_;
+    at(candidateCount_++) = {neededGain, frame_};
     if (at(0).frame + window_ <= frame_) {
         firstCandidate_ = (firstCandidate_ + 1) % candidates_.size();
         --candidateCount_;
     }
     ++frame_;
-    return at(0).needed;
+    return at(0).neededGain;
 }
 
-float LinkedLimiter::advanceGain(std::int64_t needed) noexcept {
-    released_ = std::min(slidingMinimum(needed), released_ + releaseStep_);
-    auto& oldest = averaged_[static_cast<std::size_t>(position_)];
-    sum_ += released_ - oldest;
-    oldest = released_;
+float LinkedLimiter::advanceGain(std::int64_t neededGain) noexcept {
+    releasedGain_ = std::min(slidingMinimum(neededGain), releasedGain_ + releaseStep_);
+    auto& oldest = averagedGains_[static_cast<std::size_t>(position_)];
+    sum_ += releasedGain_ - oldest;
+    oldest = releasedGain_;
     return static_cast<float>(static_cast<double>(sum_) / static_cast<double>(unit * window_));
 }
 

@@ -60,9 +60,9 @@ public:
     /// not depend on the output latency. Without it the grid starts at prepare. R.
     void moveTo(std::int64_t frame) noexcept {
         if (frame == frame_) return; // the usual case needs no division
-        const auto at = static_cast<int>((frame % tile_ + tile_) % tile_);
-        if (at != filled_ && hasSums_) endTile();
-        filled_ = at;
+        const auto position = static_cast<int>((frame % tile_ + tile_) % tile_);
+        if (position != filled_ && hasSums_) endTile();
+        filled_ = position;
         frame_ = frame;
     }
 
@@ -76,11 +76,11 @@ public:
         }
         for (int first = 0, count; first < frames; first += count) {
             if (!isSilent && !isActing_ && filled_ == 0 && frames - first >= tile_ * tilesTogether) {
-                count = passTiles(io, first);
+                count = processTiles(io, first);
                 continue;
             }
             count = std::min(frames - first, tile_ - filled_);
-            if (!isSilent) pass(io, first, count);
+            if (!isSilent) processPart(io, first, count);
             filled_ += count;
             if (filled_ == tile_) endTile();
         }
@@ -98,13 +98,13 @@ private:
     using Sums = std::array<std::int32_t, GuardUnits::stride * GuardUnits::tiles>;
 
     // Passes on whole tiles, up to the first that is to be attenuated. Returns how many frames they have.
-    int passTiles(float* const* io, int first) noexcept {
+    int processTiles(float* const* io, int first) noexcept {
         Sums sums;
         sumTiles(io, first, tile_, GuardUnits::tiles, sums);
-        int passed = 0;
-        for (std::size_t t = 0; t < GuardUnits::tiles && !isActing_; ++t, passed += tile_)
+        int processed = 0;
+        for (std::size_t t = 0; t < GuardUnits::tiles && !isActing_; ++t, processed += tile_)
             endTile(sums.data() + t * GuardUnits::stride);
-        return passed;
+        return processed;
     }
     void sumTiles(float* const* io, int first, int frames, std::size_t tiles, Sums& sums) const noexcept {
         const auto from = static_cast<std::size_t>(first), count = static_cast<std::size_t>(frames);
@@ -116,7 +116,7 @@ private:
                 for (std::size_t k = 0; at != nullptr && k < count; ++k) sum += GuardUnits::fromSample(at[k]);
             }
     }
-    void pass(float* const* io, int first, int count) noexcept {
+    void processPart(float* const* io, int first, int count) noexcept {
         hasSums_ = true;
         for (std::size_t j = 0; isActing_ && j < channels_; ++j)
             if (io[j] != nullptr && (law_.startGain(j) != 1.0f || law_.endGain(j) != 1.0f))
@@ -125,11 +125,11 @@ private:
         sumTiles(io, first, count, 1, sums);
         for (std::size_t j = 0; j < channels_; ++j) sums_[j] += sums[j];
     }
-    void attenuate(std::size_t j, float* at, int count) noexcept {
+    void attenuate(std::size_t j, float* samples, int count) noexcept {
         const float step = (law_.endGain(j) - law_.startGain(j)) / static_cast<float>(tile_);
         for (int k = 0; k < count; ++k) {
-            const float y = at[k] * (law_.startGain(j) + step * static_cast<float>(filled_ + k + 1));
-            at[k] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
+            const float y = samples[k] * (law_.startGain(j) + step * static_cast<float>(filled_ + k + 1));
+            samples[k] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
         }
     }
     void endTile() noexcept {
@@ -169,7 +169,7 @@ class LinkedLimiter {
 public:
     /// Resets everything; ceilings 1. If disabled, it only delays and replaces invalid samples. The bits do
     /// not depend on the instruction set. False: no memory. M, not while rendering.
-    bool prepare(int sampleRateHz, int channels, bool enabled,
+    bool prepare(int sampleRateHz, int channels, bool isEnabled,
                  InstructionSet set = InstructionSet::best) noexcept;
 
     /// Largest absolute sample of that channel, > 0 and finite. After the first frame it changes in a ramp.
@@ -209,21 +209,21 @@ private:
     void followGains(const LimiterLines& lines, Gains& gains) noexcept;
     void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                        float ceiling) const noexcept;
-    bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
+    bool isResting() const noexcept { return releasedGain_ == unit && sum_ == unit * window_; }
     void skipFrames(std::size_t frames) noexcept;
     void setBound(std::size_t channel, float ceiling) noexcept;
     void settle() noexcept;
-    std::int64_t slidingMinimum(std::int64_t needed) noexcept;
-    float advanceGain(std::int64_t needed) noexcept;
+    std::int64_t slidingMinimum(std::int64_t neededGain) noexcept;
+    float advanceGain(std::int64_t neededGain) noexcept;
 
     int channels_ = 1;
     int window_ = 1;
-    bool enabled_ = true;
+    bool isEnabled_ = true;
     std::int64_t releaseStep_ = unit;
     static constexpr std::size_t step = 16, // floats of the widest vector
         floatsPerLine = (maxWindowFrames + maxPartFrames + 2 * step - 2) / step * step;
     // of latencyFrames(), whole vectors
-    std::size_t front() const noexcept {
+    std::size_t frontFloats() const noexcept {
         return (static_cast<std::size_t>(window_) + step - 2) / step * step;
     }
     const LimiterKernel* kernel_ = nullptr;
@@ -239,15 +239,15 @@ private:
     int position_ = 0;                                  // in the ring of `window_` gains
     std::int64_t frame_ = 0;
     struct Candidate {
-        std::int64_t needed = unit;
+        std::int64_t neededGain = unit;
         std::int64_t frame = 0;
     };
     std::array<Candidate, maxWindowFrames + 1> candidates_{}; // rising gains: the front is the window's
                                                               // minimum
     std::size_t firstCandidate_ = 0;
     std::size_t candidateCount_ = 0;
-    std::int64_t released_ = unit;
-    std::array<std::int64_t, maxWindowFrames> averaged_{};
+    std::int64_t releasedGain_ = unit;
+    std::array<std::int64_t, maxWindowFrames> averagedGains_{};
     std::int64_t sum_ = 0;
     float gain_ = 1.0f;
     std::uint64_t nonFinite_ = 0;

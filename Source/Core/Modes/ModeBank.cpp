@@ -21,7 +21,7 @@ bool ModeBank::prepare(int sampleRateHz, int channels, InstructionSet set, int m
     stolen_ = 0;
     nextEnd_ = Strike::never;
     if (!allocate(set, gates)) return false;
-    recent_.fill(0);
+    recentSlots_.fill(0);
     freeCount_ = slots_;
     for (int i = 0; i < slots_; ++i) freeSlots_[static_cast<std::size_t>(i)] = slots_ - 1 - i;
     for (int i = 0; i < slots_; ++i) mode(i).generation = 0;
@@ -31,13 +31,13 @@ bool ModeBank::prepare(int sampleRateHz, int channels, InstructionSet set, int m
 }
 
 bool ModeBank::allocate(InstructionSet set, int gates) noexcept {
-    const auto count = static_cast<std::size_t>(slots_), each = static_cast<std::size_t>(channels_);
+    const auto count = static_cast<std::size_t>(slots_), perSlot = static_cast<std::size_t>(channels_);
     if (!index_.resize(slots_) || !tiles_.prepare(channels_, set, slots_)) return false;
-    return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) &&
-           amplitudes_.resize(count * each + padding) &&
-           tileAmplitudes_.resize(tiles_.isOn() ? 0 : count * each) && cosPowers_.resize(count * tileSize) &&
-           sinPowers_.resize(count * tileSize) && gates_.resize(gates) &&
-           gateGains_.resize(static_cast<std::size_t>(gates) * each) &&
+    return activeSlots_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) &&
+           amplitudes_.resize(count * perSlot + padding) &&
+           tileAmplitudes_.resize(tiles_.isOn() ? 0 : count * perSlot) &&
+           cosPowers_.resize(count * tileSize) && sinPowers_.resize(count * tileSize) &&
+           gates_.resize(gates) && gateGains_.resize(static_cast<std::size_t>(gates) * perSlot) &&
            freeGates_.resize(static_cast<std::size_t>(gates));
 }
 
@@ -45,7 +45,7 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     enterTile(fromFrame);
     tiles_.finishStrikes();
     const double ratio = sampleRateHz / rate_;
-    const auto moved = [=](std::int64_t frame) { // the frame at the same distance in time from `toFrame`
+    const auto toNewFrame = [=](std::int64_t frame) { // the frame at the same distance in time from `toFrame`
         return frame == Strike::never
                    ? frame
                    : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
@@ -55,21 +55,21 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     nextEnd_ = toFrame; // forces the next tile to recompute it
     index_.clear();
     for (int i = 0; i < activeCount_; ++i) {
-        const int slot = active_[static_cast<std::size_t>(i)];
+        const int slot = activeSlots_[static_cast<std::size_t>(i)];
         Mode& m = mode(slot);
-        const auto sounding = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
-                              decayFactor<double>(m.decayIncrement * (fromFrame - m.referenceFrame));
+        const auto oldFactor = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
+                               decayFactor<double>(m.decayIncrement * (fromFrame - m.referenceFrame));
         setIncrements(m);
-        const auto turn =
-            sounding *
+        const auto factor =
+            oldFactor *
             unitPhasor<double>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
             decayFactor<double>(-m.decayIncrement * (toFrame - tileStart_));
         for (int j = 0; j < channels_; ++j) {
             auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
-            z = z * turn;
+            z = z * factor;
         }
         m.referenceFrame = tileStart_;
-        m.endFrame = moved(m.endFrame);
+        m.endFrame = toNewFrame(m.endFrame);
         if (!m.isFading) index_.insert(m.hash(), slot);
         if (tiles_.isOn()) tiles_.remove(slot);
         updateMode(slot);
@@ -77,8 +77,8 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     }
     if (tiles_.isOn()) tiles_.begin();
     gates_.retime([=](std::int64_t closeFrame, Gate& gate) {
-        gate.onset.frame = moved(gate.onset.frame);
-        return moved(closeFrame);
+        gate.onset.frame = toNewFrame(gate.onset.frame);
+        return toNewFrame(closeFrame);
     });
 }
 
@@ -89,7 +89,7 @@ bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     if (isGated && freeGateCount_ == 0) return false;
     enterTile(strike.onset.frame);
     tiles_.settle();
-    const int slot = slotFor(strike);
+    const int slot = findOrCreateSlot(strike);
     Mode& struck = mode(slot);
     add(slot, strike, gains);
     struck.endFrame =
@@ -100,13 +100,13 @@ bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
 }
 
 // The slot of the mode that the strike merges with, or of a new mode.
-int ModeBank::slotFor(const Strike& strike) noexcept {
+int ModeBank::findOrCreateSlot(const Strike& strike) noexcept {
     const auto hash = static_cast<std::uint32_t>(
         std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
-    auto& recent = recent_[(hash >> 24) % recent_.size()];
-    if (mode(recent).isOf(strike)) return recent;
-    const Mode wanted = modeFor(strike);
-    int slot = index_.find(wanted.hash(), [&](int at) { return mode(at).matches(wanted); });
+    auto& recentSlot = recentSlots_[(hash >> 24) % recentSlots_.size()];
+    if (mode(recentSlot).fits(strike)) return recentSlot;
+    const Mode newMode = makeMode(strike);
+    int slot = index_.find(newMode.hash(), [&](int other) { return mode(other).matches(newMode); });
     if (slot < 0) {
         if (activeCount_ - fadingCount_ == modes_) {
             tiles_.finishStrikes();
@@ -117,9 +117,9 @@ int ModeBank::slotFor(const Strike& strike) noexcept {
             tiles_.finishStrikes();
             release(quietest(true));
         }
-        slot = create(wanted);
+        slot = create(newMode);
     }
-    return recent = slot;
+    return recentSlot = slot;
 }
 
 void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept {
@@ -128,18 +128,18 @@ void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept
         const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
         m.referenceFrame = tileStart_;
         return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
-                             {onsetTurn(m, strike.onset, strike.phase),
+                             {onsetPhaseDecay(m, strike.onset, strike.phase),
                               m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves},
                              strike.amplitude, gains, &amplitudes_[row(slot)]);
     }
     rebase(slot);
-    const auto phasor = phasorOf(onsetTurn(m, strike.onset, strike.phase));
+    const auto phasor = toPhasor(onsetPhaseDecay(m, strike.onset, strike.phase));
     for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
         amplitudes_[row(slot) + j] += phasor * (strike.amplitude * gains[j]);
     refreshTile(slot);
 }
 
-ModeBank::Mode ModeBank::modeFor(const Strike& strike) const noexcept {
+ModeBank::Mode ModeBank::makeMode(const Strike& strike) const noexcept {
     Mode m;
     m.frequencyHz = strike.frequencyHz;
     m.decayPerSecond = strike.decayPerSecond;
@@ -157,7 +157,7 @@ void ModeBank::setIncrements(Mode& m) const noexcept {
 
 int ModeBank::create(const Mode& m) noexcept {
     const int slot = freeSlots_[static_cast<std::size_t>(--freeCount_)];
-    active_[static_cast<std::size_t>(activeCount_++)] = slot;
+    activeSlots_[static_cast<std::size_t>(activeCount_++)] = slot;
     mode(slot) = m;
     mode(slot).generation = ++generations_;
     std::fill_n(amplitudes_.data() + row(slot), channels_, Complex<double>{});
@@ -167,9 +167,9 @@ int ModeBank::create(const Mode& m) noexcept {
 }
 
 void ModeBank::release(int slot) noexcept {
-    int* const end = active_.data() + activeCount_;
-    int* const at = std::find(active_.data(), end, slot);
-    std::copy(at + 1, end, at);
+    int* const end = activeSlots_.data() + activeCount_;
+    int* const position = std::find(activeSlots_.data(), end, slot);
+    std::copy(position + 1, end, position);
     --activeCount_;
     recycle(slot);
 }
@@ -212,7 +212,7 @@ void ModeBank::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
     tiles_.finishStrikes();
     for (int i = 0; i < activeCount_; ++i)
-        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading)
+        if (const int slot = activeSlots_[static_cast<std::size_t>(i)]; !mode(slot).isFading)
             fade(slot, frame, perSecond);
 }
 
@@ -220,7 +220,7 @@ int ModeBank::quietest(bool isFading) const noexcept {
     int quietestSlot = -1;
     double lowest = 0;
     for (int i = 0; i < activeCount_; ++i) {
-        const int slot = active_[static_cast<std::size_t>(i)];
+        const int slot = activeSlots_[static_cast<std::size_t>(i)];
         if (mode(slot).isFading != isFading) continue;
         double level = 0;
         for (int j = 0; j < channels_; ++j) {
@@ -242,9 +242,9 @@ void ModeBank::fillPowers(int slot) noexcept {
     for (int k = 0; k < tile; ++k) {
         const auto power = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(k)) *
                            decayFactor<double>(m.decayIncrement * k);
-        const std::size_t at = static_cast<std::size_t>(slot) * tileSize + static_cast<std::size_t>(k);
-        cosPowers_[at] = power.re;
-        sinPowers_[at] = power.im;
+        const std::size_t index = static_cast<std::size_t>(slot) * tileSize + static_cast<std::size_t>(k);
+        cosPowers_[index] = power.re;
+        sinPowers_[index] = power.im;
     }
 }
 
@@ -253,11 +253,11 @@ void ModeBank::updateMode(int slot) noexcept {
     fillPowers(slot);
     if (!tiles_.isOn()) return;
     const Mode& m = mode(slot);
-    const double turn =
+    const double radians =
         static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
-    const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
+    const double nepers = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
     const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
-    tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], portable::hypot(turn, decay),
+    tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], portable::hypot(radians, nepers),
                       unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) *
                           decayFactor<double>(m.decayIncrement * tile),
                       m.isGated});
@@ -288,10 +288,10 @@ void ModeBank::renewCarrier(int slot) noexcept {
 
 void ModeBank::refreshTile(int slot) noexcept {
     if (tiles_.isOn()) return tiles_.setAmplitudes(slot, &amplitudes_[row(slot)]);
-    const auto turn = carrier(mode(slot));
+    const auto factor = carrier(mode(slot));
     for (int j = 0; j < channels_; ++j) {
-        const std::size_t at = row(slot) + static_cast<std::size_t>(j);
-        tileAmplitudes_[at] = amplitudes_[at] * turn;
+        const std::size_t index = row(slot) + static_cast<std::size_t>(j);
+        tileAmplitudes_[index] = amplitudes_[index] * factor;
     }
 }
 
@@ -309,9 +309,9 @@ void ModeBank::retireModes() noexcept {
     int remaining = 0;
     nextEnd_ = Strike::never;
     for (int i = 0; i < activeCount_; ++i) {
-        const int slot = active_[static_cast<std::size_t>(i)];
+        const int slot = activeSlots_[static_cast<std::size_t>(i)];
         if (mode(slot).endFrame > tileStart_) {
-            active_[static_cast<std::size_t>(remaining++)] = slot;
+            activeSlots_[static_cast<std::size_t>(remaining++)] = slot;
             nextEnd_ = std::min(nextEnd_, mode(slot).endFrame);
         } else {
             recycle(slot);
@@ -331,7 +331,7 @@ void ModeBank::refreshAll(bool isNextTile) noexcept {
             if (mode(slot).generation != 0) renewCarrier(slot);
         return tiles_.begin();
     }
-    for (int i = 0; i < activeCount_; ++i) refreshTile(active_[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < activeCount_; ++i) refreshTile(activeSlots_[static_cast<std::size_t>(i)]);
 }
 
 bool ModeBank::openGate(int slot, const Strike& strike, const double* gains) noexcept {
@@ -352,7 +352,7 @@ void ModeBank::closeNextGate() noexcept {
     Mode& m = mode(gate.slot);
     if (m.generation != gate.generation) return;
     rebase(gate.slot);
-    const auto phasor = phasorOf(onsetTurn(m, gate.onset, gate.phase));
+    const auto phasor = toPhasor(onsetPhaseDecay(m, gate.onset, gate.phase));
     --m.openGates;
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
@@ -366,17 +366,17 @@ void ModeBank::closeNextGate() noexcept {
     tiles_.invalidateFrom(m.isGated, static_cast<int>(closeFrame - tileStart_));
 }
 
-Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
+PhaseDecay ModeBank::onsetPhaseDecay(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
     const auto leadPhase =
         static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay =
         static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has decayed, if other strikes keep the mode alive.
-    constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
+    constexpr std::int64_t inaudibleOctaves = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t age = m.referenceFrame - onset.frame;
-    const bool hasDied = age > 0 && m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
+    const bool hasDecayed = age > 0 && m.decayIncrement > 0 && age > inaudibleOctaves / m.decayIncrement;
     return {phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame),
-            hasDied ? inaudible : m.decayIncrement * age + leadDecay};
+            hasDecayed ? inaudibleOctaves : m.decayIncrement * age + leadDecay};
 }
 
 bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcept {
@@ -384,16 +384,16 @@ bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcep
     tiles_.finishStrikes();
     const int from = static_cast<int>(first - tileStart_);
     if (tiles_.isOn()) return tiles_.render(out, from, frames);
-    const ModeTable table{active_.data(),         activeCount_,      channels_,
+    const ModeTable table{activeSlots_.data(),    activeCount_,      channels_,
                           tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
     renderScalar(table, out, from, frames);
     return activeCount_ > 0;
 }
 
-bool ModeBank::sumsAt(const float** at, std::int64_t first) noexcept {
+bool ModeBank::findSums(const float** sums, std::int64_t first) noexcept {
     if (!tiles_.isOn()) return false;
     enterTile(first);
-    return tiles_.sumsAt(at, static_cast<int>(first - tileStart_));
+    return tiles_.findSums(sums, static_cast<int>(first - tileStart_));
 }
 
 } // namespace physvib

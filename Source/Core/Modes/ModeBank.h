@@ -49,27 +49,27 @@ public:
     /// The slot for which `isMatch(slot)` is true, -1 if there is none.
     template <class Predicate>
     int find(std::uint64_t hash, Predicate isMatch) const noexcept {
-        for (std::size_t at = home(hash); entries_[at].slot >= 0; at = after(at))
-            if (entries_[at].hash == tag(hash) && isMatch(entries_[at].slot)) return entries_[at].slot;
+        for (std::size_t i = home(hash); entries_[i].slot >= 0; i = nextIndex(i))
+            if (entries_[i].hash == tag(hash) && isMatch(entries_[i].slot)) return entries_[i].slot;
         return -1;
     }
 
     void insert(std::uint64_t hash, int slot) noexcept {
-        std::size_t at = home(hash);
-        while (entries_[at].slot >= 0) at = after(at);
-        entries_[at] = {tag(hash), slot};
+        std::size_t i = home(hash);
+        while (entries_[i].slot >= 0) i = nextIndex(i);
+        entries_[i] = {tag(hash), slot};
     }
 
     /// Removes a slot that was inserted with this hash. Later entries move up, so that linear probing still
     /// finds them.
     void erase(std::uint64_t hash, int slot) noexcept {
         std::size_t gap = home(hash);
-        while (entries_[gap].slot != slot) gap = after(gap);
-        for (std::size_t at = after(gap); entries_[at].slot >= 0; at = after(at)) {
-            const std::size_t homeIndex = entries_[at].hash >> (32 - bits_);
-            if (((at - homeIndex) & mask()) < ((at - gap) & mask())) continue; // its home lies behind the gap
-            entries_[gap] = entries_[at];
-            gap = at;
+        while (entries_[gap].slot != slot) gap = nextIndex(gap);
+        for (std::size_t i = nextIndex(gap); entries_[i].slot >= 0; i = nextIndex(i)) {
+            const std::size_t homeIndex = entries_[i].hash >> (32 - bits_);
+            if (((i - homeIndex) & mask()) < ((i - gap) & mask())) continue; // its home lies behind the gap
+            entries_[gap] = entries_[i];
+            gap = i;
         }
         entries_[gap] = {};
     }
@@ -85,7 +85,7 @@ private:
     static std::uint32_t tag(std::uint64_t hash) noexcept { return static_cast<std::uint32_t>(hash >> 32); }
     std::size_t mask() const noexcept { return size_ - 1; }
     std::size_t home(std::uint64_t hash) const noexcept { return tag(hash) >> (32 - bits_); }
-    std::size_t after(std::size_t at) const noexcept { return (at + 1) & mask(); }
+    std::size_t nextIndex(std::size_t i) const noexcept { return (i + 1) & mask(); }
     Storage<Entry, std::size_t{1} << bitsFor(Slots), true> entries_;
     std::size_t size_ = 0;
     int bits_ = 1;
@@ -148,7 +148,7 @@ public:
 
     /// Alternative to render, without a copy: pointers to each channel's samples from frame `first` on. False
     /// if they do not exist in that form; then call render.
-    bool sumsAt(const float** at, std::int64_t first) noexcept;
+    bool findSums(const float** sums, std::int64_t first) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
     std::uint64_t stolenModes() const noexcept { return stolen_; }
@@ -168,7 +168,7 @@ private:
         bool isGated = false; // gated and other strikes do not merge, so that closing can leave exact zeros
         bool isFading = false;
         std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
-        bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have
+        bool fits(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have
                                                     // the same increments
             return generation != 0 && !isFading && frequencyHz == s.frequencyHz &&
                    decayPerSecond == s.decayPerSecond && isGated == (s.closeFrame != Strike::never);
@@ -187,9 +187,9 @@ private:
     };
 
     bool allocate(InstructionSet set, int gates) noexcept;
-    Mode modeFor(const Strike& strike) const noexcept;
+    Mode makeMode(const Strike& strike) const noexcept;
     void setIncrements(Mode& mode) const noexcept;
-    int slotFor(const Strike& strike) noexcept;
+    int findOrCreateSlot(const Strike& strike) noexcept;
     int create(const Mode& mode) noexcept;
     void add(int slot, const Strike& strike, const double* gains) noexcept;
     void release(int slot) noexcept;
@@ -206,9 +206,9 @@ private:
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<double> carrier(const Mode& mode) const noexcept;
-    static Turn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
-    static Complex<double> phasorOf(const Turn& turn) noexcept {
-        return unitPhasor<double>(turn.phase) * decayFactor<double>(turn.octaves);
+    static PhaseDecay onsetPhaseDecay(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
+    static Complex<double> toPhasor(const PhaseDecay& factor) noexcept {
+        return unitPhasor<double>(factor.phase) * decayFactor<double>(factor.octaves);
     }
     Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
@@ -226,8 +226,8 @@ private:
     double rate_ = 48000.0;
     std::int64_t tileStart_ = 0;
     int slots_ = 0, modes_ = 0;
-    Buffer<int, slots> active_;    // slots in the order of their first strike
-    Buffer<int, slots> freeSlots_; // a stack
+    Buffer<int, slots> activeSlots_; // slots in the order of their first strike
+    Buffer<int, slots> freeSlots_;   // a stack
     int activeCount_ = 0;
     int freeCount_ = 0;
     int fadingCount_ = 0;
@@ -237,7 +237,7 @@ private:
     Buffer<Mode, slots> slotModes_;
     ModeIndex<slotCount> index_; // of modes that are not fading
     ModeTiles tiles_;
-    std::array<std::int32_t, 256> recent_{}; // slots that were struck recently, by hash of the frequency
+    std::array<std::int32_t, 256> recentSlots_{}; // slots that were struck recently, by hash of the frequency
     Buffer<Complex<double>, slots * width + padding> amplitudes_; // at the mode's reference frame
     Buffer<Complex<double>, slots * width> tileAmplitudes_; // at the tile's first frame; scalar kernel only
     Buffer<double, slots * tileSize> cosPowers_;

@@ -26,7 +26,7 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int maxSlots) noexcept
     slotsInUse_ = 0;
     strikes_.count = 0;
     if (!allocate()) return false;
-    for (std::size_t s = 0; s < index(slots_); ++s) places_[s].isUsed = false;
+    for (std::size_t s = 0; s < index(slots_); ++s) slotRows_[s].isUsed = false;
     std::fill_n(amplitudes_.data(), slots_ * floatsPerSlot_, 0.0f);
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_})
         std::fill_n(values->data(), (slots_ + 7) / 8 * 8, 0.0);
@@ -43,8 +43,8 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int maxSlots) noexcept
 bool ModeTiles::allocate() noexcept {
     const auto count = index(slots_), wide = (count + 7) / 8 * 8,
                tile = isOn() ? index(channels_) * frames : 0;
-    bool hasMemory = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::maxCount : 0) &&
-                     places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) &&
+    bool hasMemory = scaledGains_.resize(isOn() ? 2 * index(channels_) * TileStrikes::maxCount : 0) &&
+                     slotRows_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) &&
                      rows_.resize(count * rowFloats);
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) hasMemory = hasMemory && values->resize(wide);
     for (auto* values : {&roundedRe_, &roundedIm_}) hasMemory = hasMemory && values->resize(wide);
@@ -54,7 +54,7 @@ bool ModeTiles::allocate() noexcept {
 }
 
 float* ModeTiles::rowAt(std::size_t rank, int row) noexcept {
-    return rows_.data() + index(slots_) * floatsBefore[rank] + index(row) * 2 * index(tiles::ranks[rank]);
+    return rows_.data() + index(slots_) * rankOffsets[rank] + index(row) * 2 * index(tiles::ranks[rank]);
 }
 
 void ModeTiles::add(int slot, const TileMode& mode) noexcept {
@@ -62,7 +62,7 @@ void ModeTiles::add(int slot, const TileMode& mode) noexcept {
     const auto rank = index(
         static_cast<int>(std::find(tiles::ranks.begin(), tiles::ranks.end(), wanted) - tiles::ranks.begin()));
     const int row = rowFor(mode.isGated, layers_[mode.isGated].counts[rank]++);
-    places_[index(slot)] = {static_cast<int>(rank), row, mode, true};
+    slotRows_[index(slot)] = {static_cast<int>(rank), row, mode, true};
     rowSlots_[rank][index(row)] = slot;
     basis_->project(mode.cosPowers, mode.sinPowers, wanted, rowAt(rank, row));
     stepRe_[index(slot)] = mode.tileFactor.re;
@@ -72,18 +72,18 @@ void ModeTiles::add(int slot, const TileMode& mode) noexcept {
 
 // The layer's last row replaces the removed one.
 void ModeTiles::remove(int slot) noexcept {
-    Place& place = places_[index(slot)];
-    const auto rank = index(place.rank);
-    const int last = rowFor(place.mode.isGated, --layers_[place.mode.isGated].counts[rank]);
-    if (last != place.row) {
-        std::copy_n(rowAt(rank, last), 2 * tiles::ranks[rank], rowAt(rank, place.row));
+    SlotRow& slotRow = slotRows_[index(slot)];
+    const auto rank = index(slotRow.rank);
+    const int last = rowFor(slotRow.mode.isGated, --layers_[slotRow.mode.isGated].counts[rank]);
+    if (last != slotRow.row) {
+        std::copy_n(rowAt(rank, last), 2 * tiles::ranks[rank], rowAt(rank, slotRow.row));
         const int moved = rowSlots_[rank][index(last)];
-        rowSlots_[rank][index(place.row)] = moved;
-        places_[index(moved)].row = place.row;
+        rowSlots_[rank][index(slotRow.row)] = moved;
+        slotRows_[index(moved)].row = slotRow.row;
     }
-    place.isUsed = false;
+    slotRow.isUsed = false;
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) (*values)[index(slot)] = 0.0;
-    while (slotsInUse_ > 0 && !places_[index(slotsInUse_ - 1)].isUsed) --slotsInUse_;
+    while (slotsInUse_ > 0 && !slotRows_[index(slotsInUse_ - 1)].isUsed) --slotsInUse_;
 }
 
 void ModeTiles::setCarrier(int slot, Complex<double> carrier) noexcept {
@@ -173,13 +173,13 @@ TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
 void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains,
                        Complex<double>* amplitudes) noexcept {
     const auto s = index(slot);
-    const TileMode& mode = places_[s].mode;
+    const TileMode& mode = slotRows_[s].mode;
     const int count = strikes_.count;
     if (count == TileStrikes::maxCount ||
-        (count > 0 && (mode.isGated != areGated_ || from < strikes_.entries[index(count - 1)].from)))
-        strikeAll();
-    areGated_ = mode.isGated;
-    double* const scaled = scaled_.data() + index(strikes_.count * channels_) * 2;
+        (count > 0 && (mode.isGated != areStrikesGated_ || from < strikes_.entries[index(count - 1)].from)))
+        flushStrikes();
+    areStrikesGated_ = mode.isGated;
+    double* const scaled = scaledGains_.data() + index(strikes_.count * channels_) * 2;
     for (std::size_t j = 0; j < index(channels_); ++j)
         scaled[2 * j] = scaled[2 * j + 1] = amplitude * gains[j];
     const auto last = index(strikes_.count++);
@@ -195,10 +195,10 @@ void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double ampl
                               from};
 }
 
-void ModeTiles::strikeAll() noexcept {
-    Layer& layer = layers_[areGated_];
+void ModeTiles::flushStrikes() noexcept {
+    Layer& layer = layers_[areStrikesGated_];
     strikes_.channels = channels_;
-    strikes_.scaled = scaled_.data();
+    strikes_.scaled = scaledGains_.data();
     strikes_.tails = layer.tails.data();
     strikes_.carriers = carriers();
     kernel_->strike(strikes_);
@@ -206,11 +206,11 @@ void ModeTiles::strikeAll() noexcept {
     layer.tailsFrom = std::min(layer.tailsFrom, strikes_.entries[0].from);
 }
 
-bool ModeTiles::sumsAt(const float** at, int first) noexcept {
+bool ModeTiles::findSums(const float** sums, int first) noexcept {
     finishStrikes();
     settle();
     for (std::size_t j = 0; j < index(channels_); ++j)
-        at[j] = layers_[0].base.data() + j * frames + index(first);
+        sums[j] = layers_[0].base.data() + j * frames + index(first);
     return isPlain() && layers_[0].hasBase;
 }
 
@@ -233,25 +233,25 @@ bool ModeTiles::render(float* const* out, int first, int count) noexcept {
 // Base plus tails; before the first strike the base alone.
 void ModeTiles::addTails(const Layer& layer, float* const* out, int first, int count) const noexcept {
     constexpr int panel = 16; // whole vectors
-    const int before = std::clamp((layer.tailsFrom - first) / panel * panel, 0, count);
+    const int baseCount = std::clamp((layer.tailsFrom - first) / panel * panel, 0, count);
     for (std::size_t j = 0; j < index(channels_); ++j) {
         const std::size_t at = j * frames + index(first);
-        std::copy_n(layer.base.data() + at, before, out[j]);
-        kernel_->sum(layer.base.data() + at + index(before), layer.tails.data() + at + index(before),
-                     count - before, out[j] + before);
+        std::copy_n(layer.base.data() + at, baseCount, out[j]);
+        kernel_->sum(layer.base.data() + at + index(baseCount), layer.tails.data() + at + index(baseCount),
+                     count - baseCount, out[j] + baseCount);
     }
 }
 
 void ModeTiles::sum(float* const* out, int first, int count) const noexcept {
     for (std::size_t j = 0; j < index(channels_); ++j) {
-        std::array<double, frames> all{};
+        std::array<double, frames> sums{};
         for (const auto& layer : layers_) {
             const std::size_t at = j * frames + index(first);
             for (std::size_t k = 0; layer.hasBase && k < index(count); ++k)
-                all[k] += static_cast<double>(layer.base[at + k]);
-            for (std::size_t k = 0; layer.hasTails() && k < index(count); ++k) all[k] += layer.tails[at + k];
+                sums[k] += static_cast<double>(layer.base[at + k]);
+            for (std::size_t k = 0; layer.hasTails() && k < index(count); ++k) sums[k] += layer.tails[at + k];
         }
-        std::transform(all.begin(), all.begin() + count, out[j],
+        std::transform(sums.begin(), sums.begin() + count, out[j],
                        [](double y) { return static_cast<float>(y); });
     }
 }
@@ -274,8 +274,8 @@ LowRankBasis::LowRankBasis() noexcept {
         }
         for (int pass = 0; pass < 2; ++pass)
             for (std::size_t j = k % 2; j < k; j += 2) {
-                const double along = dot(k, j);
-                for (std::size_t t = 0; t < half; ++t) at(k, t) -= along * at(j, t);
+                const double projection = dot(k, j);
+                for (std::size_t t = 0; t < half; ++t) at(k, t) -= projection * at(j, t);
             }
         const double length = std::sqrt(dot(k, k));
         for (std::size_t t = 0; t < half; ++t) at(k, t) /= length;

@@ -63,7 +63,7 @@ public:
     /// Phase and decay by which a strike is turned at its onset; those of its mode's carrier; and the decay
     /// that brings the mode's amplitudes to the tile's first frame.
     struct StrikeTurns {
-        Turn onset;
+        PhaseDecay onset;
         std::uint64_t carrierPhase = 0;
         std::int64_t decayOctaves = 0;
     };
@@ -73,12 +73,12 @@ public:
                 Complex<double>* amplitudes) noexcept;
     /// To be called before amplitudes are read, or are changed by anything but strikes.
     void finishStrikes() noexcept {
-        if (strikes_.count > 0) strikeAll();
+        if (strikes_.count > 0) flushStrikes();
     }
 
     /// Pointers to each channel's samples from frame `first` on of the tile, if each channel is a single sum.
     /// Otherwise false: use render.
-    bool sumsAt(const float** at, int first) noexcept;
+    bool findSums(const float** sums, int first) noexcept;
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
 
@@ -95,7 +95,7 @@ private:
     using RoundedPerSlot = Buffer<float, padded>;
 
     // Rows of one rank: ungated modes from the front, gated ones from the back, each without gaps.
-    struct Place {
+    struct SlotRow {
         int rank = 0;
         int row = 0;
         TileMode mode;
@@ -121,7 +121,7 @@ private:
     void addTails(const Layer& layer, float* const* out, int first, int count) const noexcept;
     bool allocate() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
-    void strikeAll() noexcept;
+    void flushStrikes() noexcept;
     // the output is the sum of ungated modes, or silence
     bool isPlain() const noexcept {
         return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
@@ -131,24 +131,24 @@ private:
                !layers_[1].hasTails();
     }
 
-    static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // offset of a rank's rows, per
-                                                                            // slot
+    static constexpr std::array<std::size_t, rankCount> rankOffsets = [] { // offset of a rank's rows, per
+                                                                           // slot
         std::array<std::size_t, rankCount> offsets{};
         for (std::size_t r = 1; r < rankCount; ++r)
             offsets[r] = offsets[r - 1] + 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
         return offsets;
     }();
     static constexpr std::size_t rowFloats =
-        floatsBefore.back() + 2 * static_cast<std::size_t>(tiles::ranks.back());
+        rankOffsets.back() + 2 * static_cast<std::size_t>(tiles::ranks.back());
 
     const TileKernel* kernel_ = nullptr;
     const LowRankBasis* basis_ = nullptr;
     int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, slotsInUse_ = 0;
-    Buffer<Place, slots> places_;
+    Buffer<SlotRow, slots> slotRows_;
     std::array<Layer, 2> layers_; // ungated, gated
     TileStrikes strikes_;         // deferred strikes, all of one layer
-    bool areGated_ = false;
-    Buffer<double, 2 * width * TileStrikes::maxCount> scaled_;
+    bool areStrikesGated_ = false;
+    Buffer<double, 2 * width * TileStrikes::maxCount> scaledGains_;
     PerSlot re_, im_, stepRe_, stepIm_;
     RoundedPerSlot roundedRe_, roundedIm_;
     Buffer<float, slots * width * 4> amplitudes_;

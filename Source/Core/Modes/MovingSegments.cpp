@@ -33,12 +33,12 @@ Complex<float> phasorAfter(const BoardSegment& segment, std::uint32_t frames) no
 } // namespace
 
 bool MovingSegments::add(const BoardSegment& segment, std::uint32_t now) noexcept {
-    const auto missed = std::max<std::int32_t>(0, ageOf(segment.frame, now));
-    if (count_ == capacity || missed >= segment.frames) return false;
+    const auto missedFrames = std::max<std::int32_t>(0, ageOf(segment.frame, now));
+    if (count_ == capacity || missedFrames >= segment.frames) return false;
     const auto turn = unitPhasor<float>(static_cast<std::uint64_t>(segment.turn) << 32) *
                       decayFactor<float>(boardOctaves(segment.decay16));
     slots_[at(count_++)] = {
-        segment.frame, segment.frames, phasorAfter(segment, static_cast<std::uint32_t>(missed)),
+        segment.frame, segment.frames, phasorAfter(segment, static_cast<std::uint32_t>(missedFrames)),
         turn,          segment.start,  segment.end};
     return true;
 }

@@ -16,15 +16,15 @@ constexpr float phasorSilence = 1.0e-12f; // squared: far below retireOctaves, f
 constexpr float amplitudeStep = 1.0f / limits::board::amplitudeUnit;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-constexpr std::int32_t between(std::uint32_t from, std::uint32_t to) noexcept {
+constexpr std::int32_t framesBetween(std::uint32_t from, std::uint32_t to) noexcept {
     return static_cast<std::int32_t>(to - from);
 }
 
 // Index of channel `c` in the order "loudest, ratio 0, ratio 1, ratio 2".
-constexpr int place(int c, int loudest) noexcept { return c == loudest ? 0 : (c == 0 ? loudest : c); }
+constexpr int orderIndex(int c, int loudest) noexcept { return c == loudest ? 0 : (c == 0 ? loudest : c); }
 
 // p: phase advance and decay per frame.
-Complex<float> turnOf(const BoardEvent& event) noexcept {
+Complex<float> frameFactor(const BoardEvent& event) noexcept {
     constexpr double perStep = 1.0 / (limits::board::gridPerHz * limits::board::sampleRateHz);
     constexpr auto phase = static_cast<std::uint64_t>(18446744073709551616.0 * perStep);
     return unitPhasor<float>(phase * event.frequency16) * decayFactor<float>(boardOctaves(event.decay16));
@@ -45,13 +45,13 @@ std::uint32_t lifeFrames(float level, std::uint16_t decay16) noexcept {
 #define PHYSVIB_CORTEX_M 1
 #endif
 
-struct Loaded {
+struct LoadedMode {
     Complex<float> b, c, d, phasor, turn;
 };
 
 // Arm's manual: one load of ten registers takes 11 cycles, ten loads take 20 (6 % of the board's load; not
 // measured).
-inline Loaded load(const PhasorBank::Mode& mode) noexcept {
+inline LoadedMode load(const PhasorBank::Mode& mode) noexcept {
 #ifdef PHYSVIB_CORTEX_M
     register float b0 asm("s0"), b1 asm("s1"), c0 asm("s2"), c1 asm("s3"), d0 asm("s4"), d1 asm("s5"),
         w0 asm("s6"), w1 asm("s7"), p0 asm("s8"), p1 asm("s9");
@@ -84,7 +84,7 @@ void PhasorBank::clear() noexcept {
 void PhasorBank::render(std::uint32_t frame, Block& out) noexcept {
     frame_ = frame;
     for (auto& row : out) row.fill(0.0f);
-    if (liveModes() > 0 && between(frame, nextEnd_) < frames) retire(out);
+    if (liveModes() > 0 && framesBetween(frame, nextEnd_) < frames) retire(out);
     renderResidue(out);
     auto& [a, b, c, d] = out;
     Mode* const all = modes_.data();
@@ -146,26 +146,26 @@ void PhasorBank::renderResidue(Block& io) noexcept {
 void PhasorBank::retire(Block& io) noexcept {
     nextEnd_ = frame_ + 0x7FFFFFFF;
     for (int i = 0; i < liveModes();) {
-        const std::int32_t remaining = between(frame_, endFrames_[at(i)]);
+        const std::int32_t remaining = framesBetween(frame_, endFrames_[at(i)]);
         if (remaining >= frames) {
-            if (between(nextEnd_, endFrames_[at(i)]) < 0) nextEnd_ = endFrames_[at(i)];
+            if (framesBetween(nextEnd_, endFrames_[at(i)]) < 0) nextEnd_ = endFrames_[at(i)];
             ++i;
             continue;
         }
         for (int k = 0; k < remaining; ++k) {
-            const Phasors now = phasorsOf(i);
-            for (int j = 0; j < channels; ++j) io[at(j)][at(k)] += now[at(j)].im;
+            const Phasors phasors = phasorsOf(i);
+            for (int j = 0; j < channels; ++j) io[at(j)][at(k)] += phasors[at(j)].im;
             modes_[at(i)].phasor = modes_[at(i)].phasor * modes_[at(i)].turn;
         }
         removeMode(i);
     }
 }
 
-void PhasorBank::moveMode(int to, int from) noexcept {
-    modes_[at(to)] = modes_[at(from)];
-    keys_[at(to)] = keys_[at(from)];
-    endFrames_[at(to)] = endFrames_[at(from)];
-    gated_[at(to)] = gated_[at(from)];
+void PhasorBank::moveMode(int target, int source) noexcept {
+    modes_[at(target)] = modes_[at(source)];
+    keys_[at(target)] = keys_[at(source)];
+    endFrames_[at(target)] = endFrames_[at(source)];
+    isGated_[at(target)] = isGated_[at(source)];
 }
 
 int PhasorBank::groupOf(int i) const noexcept {
@@ -197,12 +197,12 @@ void PhasorBank::removeMode(int i) noexcept {
 PhasorBank::Phasors PhasorBank::phasorsOf(int i) const noexcept {
     const Mode& m = modes_[at(i)];
     const int loudest = groupOf(i);
-    Phasors all;
+    Phasors phasors;
     for (int j = 0; j < channels; ++j) {
-        const int k = place(j, loudest);
-        all[at(j)] = k == 0 ? m.phasor : m.ratios[at(k - 1)] * m.phasor;
+        const int k = orderIndex(j, loudest);
+        phasors[at(j)] = k == 0 ? m.phasor : m.ratios[at(k - 1)] * m.phasor;
     }
-    return all;
+    return phasors;
 }
 
 // Moves the mode to the group of its loudest channel. Returns its new slot, or -1 if it has decayed.
@@ -219,20 +219,20 @@ int PhasorBank::setPhasors(int i, const Phasors& phasors) noexcept {
     if (loudest != groupOf(i)) {
         const Mode mode = modes_[at(i)];
         const auto key = keys_[at(i)], end = endFrames_[at(i)];
-        const bool isGated = gated_[at(i)];
+        const bool isGated = isGated_[at(i)];
         removeMode(i);
         i = insertSlot(loudest);
         modes_[at(i)] = mode;
         keys_[at(i)] = key;
         endFrames_[at(i)] = end;
-        gated_[at(i)] = isGated;
+        isGated_[at(i)] = isGated;
     }
     const float scale = 1.0f / norm;
     const Complex<float> inverse{w.re * scale, -w.im * scale};
     Mode& m = modes_[at(i)];
     m.phasor = w;
     for (int j = 0; j < channels; ++j)
-        if (const int k = place(j, loudest); k > 0) m.ratios[at(k - 1)] = phasors[at(j)] * inverse;
+        if (const int k = orderIndex(j, loudest); k > 0) m.ratios[at(k - 1)] = phasors[at(j)] * inverse;
     return i;
 }
 
@@ -241,18 +241,18 @@ void PhasorBank::strike(const BoardEvent& event, std::uint32_t onset, Block& io)
     const std::uint32_t key = static_cast<std::uint32_t>(event.frequency16) << 16 | event.decay16;
     int i = isGated ? -1 : find(key);
     if (i < 0) i = create(event, key);
-    gated_[at(i)] = isGated;
+    isGated_[at(i)] = isGated;
     const auto turn = modes_[at(i)].turn;
 
     Complex<float> w{1.0f, 0.0f}; // of this strike alone, from its onset to the end of the block
-    Phasors all = phasorsOf(i);
+    Phasors phasors = phasorsOf(i);
     std::array<float, at(channels)> gains;
     for (int j = 0; j < channels; ++j)
         gains[at(j)] = static_cast<float>(event.amplitudes[at(j)]) * amplitudeStep;
-    for (int k = between(frame_, onset); k < frames; ++k, w = w * turn)
+    for (int k = framesBetween(frame_, onset); k < frames; ++k, w = w * turn)
         for (int j = 0; j < channels; ++j) io[at(j)][at(k)] += gains[at(j)] * w.im;
-    for (int j = 0; j < channels; ++j) all[at(j)] += w * gains[at(j)];
-    i = setPhasors(i, all);
+    for (int j = 0; j < channels; ++j) phasors[at(j)] += w * gains[at(j)];
+    i = setPhasors(i, phasors);
     if (i < 0) return;
 
     constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
@@ -264,13 +264,13 @@ void PhasorBank::strike(const BoardEvent& event, std::uint32_t onset, Block& io)
 
 void PhasorBank::setEnd(int i, std::uint32_t end) noexcept {
     endFrames_[at(i)] = end;
-    if (liveModes() == 1 || between(nextEnd_, end) < 0) nextEnd_ = end;
+    if (liveModes() == 1 || framesBetween(nextEnd_, end) < 0) nextEnd_ = end;
 }
 
 int PhasorBank::find(std::uint32_t key) const noexcept {
     const auto end = keys_.begin() + liveModes();
     for (auto here = std::find(keys_.begin(), end, key); here != end; here = std::find(here + 1, end, key))
-        if (const auto i = static_cast<int>(here - keys_.begin()); !gated_[at(i)]) return i;
+        if (const auto i = static_cast<int>(here - keys_.begin()); !isGated_[at(i)]) return i;
     return -1;
 }
 
@@ -280,7 +280,7 @@ int PhasorBank::create(const BoardEvent& event, std::uint32_t key) noexcept {
         ++stolen_;
     }
     const int i = insertSlot(0);
-    modes_[at(i)] = {{}, {}, turnOf(event)};
+    modes_[at(i)] = {{}, {}, frameFactor(event)};
     keys_[at(i)] = key;
     endFrames_[at(i)] = 0; // the caller sets it
     return i;
@@ -294,8 +294,8 @@ int PhasorBank::quietest() const noexcept {
 }
 
 void PhasorBank::steal(int i) noexcept {
-    const Phasors all = phasorsOf(i);
-    for (int j = 0; j < channels; ++j) residue_[at(j)] += all[at(j)].im;
+    const Phasors phasors = phasorsOf(i);
+    for (int j = 0; j < channels; ++j) residue_[at(j)] += phasors[at(j)].im;
     removeMode(i);
 }
 

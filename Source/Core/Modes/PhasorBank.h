@@ -54,7 +54,7 @@ private:
     int groupOf(int i) const noexcept;
     int insertSlot(int group) noexcept;
     void removeMode(int i) noexcept;
-    void moveMode(int to, int from) noexcept;
+    void moveMode(int target, int source) noexcept;
     int find(std::uint32_t key) const noexcept;
     int create(const BoardEvent& event, std::uint32_t key) noexcept;
     int quietest() const noexcept;
@@ -66,7 +66,7 @@ private:
     std::array<Mode, slots> modes_{};              // sorted by loudest channel
     std::array<std::uint32_t, slots> keys_{};      // frequency16 and decay16: the merge key
     std::array<std::uint32_t, slots> endFrames_{}; // first frame after the mode's end
-    std::array<bool, slots> gated_{};              // strikes with a duration are cut, so they do not merge
+    std::array<bool, slots> isGated_{};            // strikes with a duration are cut, so they do not merge
     // modes whose loudest is channel c end before slot ends_[c]
     std::array<int, static_cast<std::size_t>(channels)> ends_{};
     // values of stolen modes, which decay to 0 without a step

@@ -87,8 +87,8 @@ HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t 
 }
 
 // z = amplitude * carrier for `count` modes and the channels of `lines` lines.
-HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::size_t count,
-                     std::size_t firstLine, std::size_t lines, float* z) {
+HWY_INLINE void multiplyByCarrier(const TileLayer& layer, const std::int32_t* slots, std::size_t count,
+                                  std::size_t firstLine, std::size_t lines, float* z) {
     const Line d;
     constexpr std::size_t lanes = hn::MaxLanes(Line());
     for (std::size_t i = 0; i < count; ++i, z += lines * 8) {
@@ -139,7 +139,7 @@ void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstC
     const std::size_t lines = (channels + 3) / 4, rowFloats = 2 * static_cast<std::size_t>(modes.rank);
     for (std::size_t first = 0; first < static_cast<std::size_t>(modes.count); first += chunkModes) {
         const std::size_t count = HWY_MIN(chunkModes, static_cast<std::size_t>(modes.count) - first);
-        turn(layer, modes.slots + first, count, firstChannel / 4, lines, z);
+        multiplyByCarrier(layer, modes.slots + first, count, firstChannel / 4, lines, z);
         addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats, z, lines * 8, channels, sums,
                  sumStride);
     }
@@ -452,8 +452,8 @@ namespace {
 // `make` is compiled for its instruction set too, so it is called only where that set is available.
 template <typename Make>
 const TileKernel* ifSupported(std::int64_t target, Make make) noexcept {
-    static const std::int64_t here = hwy::SupportedTargets();
-    if ((here & target) == 0) return nullptr;
+    static const std::int64_t supported = hwy::SupportedTargets();
+    if ((supported & target) == 0) return nullptr;
     static const TileKernel kernel = make();
     return &kernel;
 }

@@ -94,7 +94,7 @@ struct TileCarriers {
 };
 
 /// A complex factor: unitPhasor(phase) * decayFactor(octaves).
-struct Turn {
+struct PhaseDecay {
     std::uint64_t phase = 0;
     std::int64_t octaves = 0;
 };
@@ -131,8 +131,8 @@ struct alignas(64) MeasuredLanes {
     float peaks[16]{}, squares[16]{};
 
     void add(float x) noexcept {
-        const float size = x < 0.0f ? -x : x;
-        peaks[0] = peaks[0] < size ? size : peaks[0];
+        const float magnitude = x < 0.0f ? -x : x;
+        peaks[0] = peaks[0] < magnitude ? magnitude : peaks[0];
         squares[0] += x * x;
     }
 };
@@ -150,8 +150,8 @@ struct TileKernel {
     /// Adds outputs[j][first, first + frames) to to[j] for up to 64 outputs; returns bit j where one is null.
     std::uint64_t (*measure)(const float* const* outputs, std::size_t count, std::size_t first,
                              std::size_t frames, MeasuredLanes* to) = nullptr;
-    /// all[j] becomes the result of all lanes of of[j], which are set to 0
-    void (*join)(MeasuredLanes* of, std::size_t count, Measured* all) = nullptr;
+    /// results[j] becomes the result of all lanes of lanes[j], which are set to 0
+    void (*join)(MeasuredLanes* lanes, std::size_t count, Measured* results) = nullptr;
 };
 
 /// Null for scalar and for sets that this build or processor lacks. Any thread.

@@ -9,40 +9,40 @@ namespace {
 
 double secondsOf(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 // rounded up, so that a command does not fall below a threshold
-double inHundredths(double command) noexcept {
+double roundUpToHundredth(double command) noexcept {
     return std::clamp(std::ceil(100.0 * command - 1e-9) / 100.0, 0.0, 1.0) + 0.0;
 }
 constexpr double negligibleStrength = 0.03; // of full strength: an imperceptible difference that would cost a
                                             // command
 
 /// 0: all in the left grip, 1: all in the right one.
-double sideOf(const CollisionEvent& event, const PhantomPanner& grips) noexcept {
+double sideOf(const CollisionEvent& event, const PhantomPanner& gripPanner) noexcept {
     PhantomPanner::Gains gains{};
-    grips.gainsAt(event, gains);
+    gripPanner.gainsAt(event, gains);
     const double left = gains[0] * gains[0], right = gains[1] * gains[1];
     return left + right > 0.0 ? right / (left + right) : 0.5;
 }
 
 } // namespace
 
-PhantomPanner PadMotors::gripsOf(const PhantomPanner& field) noexcept {
+PhantomPanner PadMotors::makeGripPanner(const PhantomPanner& field) noexcept {
     ActuatorLayout layout{field.layout().extentWidthMetres, field.layout().extentHeightMetres, 2, {}};
     layout.places[0] = {0.0, 0.5 * layout.extentHeightMetres};
     layout.places[1] = {layout.extentWidthMetres, 0.5 * layout.extentHeightMetres};
     return {layout, PanningLaw::energy, 1.0, field.fieldWidthMetres(), field.fieldHeightMetres()};
 }
 
-bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept {
+bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& gripPanner) noexcept {
     if (!isPlayable(event) || isClip(event.sound) || event.amplitude == 0.0) return true;
     Voice voice;
     voice.startNs = std::max<std::int64_t>(0, event.timeNs - leadNs());
     voice.endNs = event.durationNs > 0 ? voice.startNs + event.durationNs : 0;
     voice.decayPerSecond = event.decayPerSecond;
     voice.energy = event.amplitude * event.amplitude;
-    voice.heavyShare = 1.0 / (1.0 + portable::pow(event.frequencyHz / law_.splitHz, 4.0));
+    voice.heavyShare = 1.0 / (1.0 + portable::pow(event.frequencyHz / pad_.splitHz, 4.0));
     voice.travelNs = event.course.travelNs;
-    voice.fromSide = sideOf(event, grips);
-    voice.toSide = voice.travelNs > 0 ? sideOf(movedAlong(event, 1.0), grips) : voice.fromSide;
+    voice.fromSide = sideOf(event, gripPanner);
+    voice.toSide = voice.travelNs > 0 ? sideOf(movedAlong(event, 1.0), gripPanner) : voice.fromSide;
     const Energies energies = shareEnergy(voice.energy, voice.heavyShare, voice.fromSide);
     voice.low = energies.low, voice.high = energies.high;
     if (pendingCount_ == pending_.size()) { // the weakest is lost
@@ -79,8 +79,8 @@ std::int64_t PadMotors::dueNs() const noexcept {
 
 // Frequency determines the energy's split at the centre; place moves it to one grip. The sum is kept.
 PadMotors::Energies PadMotors::shareEnergy(double energy, double heavyShare, double side) const noexcept {
-    const double low = heavyShare * (1.0 - law_.side + 2.0 * law_.side * (1.0 - side)),
-                 high = (1.0 - heavyShare) * (1.0 - law_.side + 2.0 * law_.side * side);
+    const double low = heavyShare * (1.0 - pad_.placeWeight + 2.0 * pad_.placeWeight * (1.0 - side)),
+                 high = (1.0 - heavyShare) * (1.0 - pad_.placeWeight + 2.0 * pad_.placeWeight * side);
     const double sum = low + high;
     return sum > 0.0 ? Energies{energy * low / sum, energy * high / sum}
                      : Energies{energy * heavyShare, energy * (1.0 - heavyShare)};
@@ -97,16 +97,16 @@ PadMotors::Energies PadMotors::energiesAt(const Voice& voice, std::int64_t timeN
 }
 
 double PadMotors::strengthFor(double amplitude) const noexcept {
-    if (amplitude < law_.floor) return 0.0;
+    if (amplitude < pad_.floor) return 0.0;
     return minPerceptibleStrength +
-           (1.0 - minPerceptibleStrength) * portable::pow(std::min(1.0, amplitude), law_.exponent);
+           (1.0 - minPerceptibleStrength) * portable::pow(std::min(1.0, amplitude), pad_.exponent);
 }
 
 // An impact above the perception floor drives at least the motor with the larger share.
 void PadMotors::begin(const Voice& voice, double level) noexcept {
     const double amplitudeSum = std::sqrt(voice.low + voice.high) * level;
     double low = std::sqrt(voice.low) * level, high = std::sqrt(voice.high) * level;
-    if (amplitudeSum >= law_.floor) (low > high ? low : high) = std::max(law_.floor, low > high ? low : high);
+    if (amplitudeSum >= pad_.floor) (low > high ? low : high) = std::max(pad_.floor, low > high ? low : high);
     const auto kick = [&](MotorState& state, double amplitude) {
         const double strength = strengthFor(amplitude);
         if (strength <= 0.0 || strength < state.kick) return;
@@ -151,7 +151,7 @@ double PadMotors::drive(MotorState& state, const PadMotor& motor, double amplitu
     if (state.command > 0.0 &&
         std::abs(motor.strengthAfter(state.strength, state.command, seconds) - strength) < negligibleStrength)
         return state.command;
-    const double share = motor.shareOfWay(seconds, strength > state.strength);
+    const double share = motor.shareOfChange(seconds, strength > state.strength);
     return std::max(motor.threshold, motor.commandOf((strength - state.strength * (1.0 - share)) / share));
 }
 
@@ -169,7 +169,7 @@ PadMotors::Energies PadMotors::soundingEnergiesAt(std::int64_t nowNs) noexcept {
     for (std::size_t i = 0; i < soundingCount_;) {
         const Energies energies = energiesAt(voices_[i], nowNs);
         sum.low += energies.low, sum.high += energies.high;
-        if (std::sqrt(energies.low + energies.high) < 0.1 * law_.floor)
+        if (std::sqrt(energies.low + energies.high) < 0.1 * pad_.floor)
             voices_[i] = voices_[--soundingCount_];
         else
             ++i;
@@ -180,17 +180,17 @@ PadMotors::Energies PadMotors::soundingEnergiesAt(std::int64_t nowNs) noexcept {
 PadCommand PadMotors::next(double level) noexcept {
     const std::int64_t nowNs = dueNs();
     const double seconds = secondsOf(nowNs - lastNs_);
-    low_.strength = law_.low.strengthAfter(low_.strength, low_.command, seconds);
-    high_.strength = law_.high.strengthAfter(high_.strength, high_.command, seconds);
+    low_.strength = pad_.low.strengthAfter(low_.strength, low_.command, seconds);
+    high_.strength = pad_.high.strengthAfter(high_.strength, high_.command, seconds);
     beginUntil(nowNs, level);
     for (MotorState* state : {&low_, &high_})
         if (level <= 0.0 || nowNs >= state->kickEndNs || state->strength >= 0.95 * state->kick)
             state->kick = 0.0;
     const Energies sum = soundingEnergiesAt(nowNs);
     lastNs_ = nowNs;
-    const double interval = 1.0 / law_.commandsPerSecond;
-    low_.command = inHundredths(drive(low_, law_.low, std::sqrt(sum.low) * level, interval));
-    high_.command = inHundredths(drive(high_, law_.high, std::sqrt(sum.high) * level, interval));
+    const double interval = 1.0 / pad_.commandsPerSecond;
+    low_.command = roundUpToHundredth(drive(low_, pad_.low, std::sqrt(sum.low) * level, interval));
+    high_.command = roundUpToHundredth(drive(high_, pad_.high, std::sqrt(sum.high) * level, interval));
     return {nowNs, low_.command, high_.command};
 }
 

@@ -41,26 +41,26 @@ struct PadMotor {
         return half + (2.0 * strength - 1.0) * (full - half);
     }
     /// The share of a change of strength that is reached after `seconds`: a first-order lag.
-    double shareOfWay(double seconds, bool rises) const noexcept {
+    double shareOfChange(double seconds, bool rises) const noexcept {
         constexpr double logOfTen = 2.302585092994046;
         return 1.0 - portable::exp(-logOfTen * seconds / (rises ? riseSeconds : fallSeconds));
     }
     double strengthAfter(double strength, double command, double seconds) const noexcept {
         const double target = strengthOf(command);
-        return strength + (target - strength) * shareOfWay(seconds, target > strength);
+        return strength + (target - strength) * shareOfChange(seconds, target > strength);
     }
 };
 
 /// Parameters of the conversion of events to commands for two motors.
-struct PadLaw {
+struct PadModel {
     PadMotor low{}, high{};          ///< the heavy motor, in the left grip; the light one, in the right grip
     double commandsPerSecond = 30.0; ///< at most; more of them queue up on the link
     double leadSeconds = 0.03; ///< an impact's command is sent this much earlier, because motors are slow
     double splitHz = 100.0;    ///< below it the heavy motor has the larger share
-    double side = 0.5;         ///< weight of the impact's place beside its frequency, 0 to 1
+    double placeWeight = 0.5;  ///< weight of the impact's place beside its frequency, 0 to 1
     double floor = 0.01;       ///< weakest perceptible amplitude, of full scale
     double exponent = 0.7;     ///< strength grows with this power of the amplitude
-    bool operator==(const PadLaw&) const = default;
+    bool operator==(const PadModel&) const = default;
 };
 
 /// Commands of both motors from `timeNs` on, in steps of 1/100: motors do not resolve finer ones.
@@ -78,16 +78,16 @@ public:
                                                           ///< assumed
     static constexpr std::int64_t kickNs = 80'000'000;    ///< maximum time for which an onset is overdriven
 
-    explicit PadMotors(const PadLaw& law) noexcept
-        : law_{law} {}
+    explicit PadMotors(const PadModel& pad) noexcept
+        : pad_{pad} {}
 
     /// A layout of two places, one per grip, over that field. Any thread.
-    static PhantomPanner gripsOf(const PhantomPanner& field) noexcept;
+    static PhantomPanner makeGripPanner(const PhantomPanner& field) noexcept;
 
     /// Adds an event at the session time at which it is to be felt; late events begin at once. Clips are
     /// skipped, because their level is not known. If too many are pending, the weakest is lost; false if it
     /// is this one.
-    bool strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept;
+    bool strike(const CollisionEvent& event, const PhantomPanner& gripPanner) noexcept;
 
     /// Ends all voices and discards events before `atNs`; the next command is not earlier.
     void stop(std::int64_t atNs) noexcept;
@@ -109,7 +109,7 @@ public:
     DueCommands nextUntil(std::int64_t untilNs, double level) noexcept;
 
     std::int64_t intervalNs() const noexcept { ///< between two commands
-        return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond);
+        return static_cast<std::int64_t>(1e9 / pad_.commandsPerSecond);
     }
     std::uint64_t lost() const noexcept { return lost_; } ///< events for which there was no room
 
@@ -132,7 +132,7 @@ private:
         std::int64_t kickEndNs = 0;
     };
 
-    std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
+    std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * pad_.leadSeconds); }
     Energies shareEnergy(double energy, double heavyShare, double side) const noexcept;
     Energies energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept;
     double strengthFor(double amplitude) const noexcept;
@@ -145,7 +145,7 @@ private:
         return soundingCount_ == 0 && low_.command == 0.0 && high_.command == 0.0;
     }
 
-    PadLaw law_;
+    PadModel pad_;
     std::array<Voice, 256> pending_{}; // by startNs
     std::array<Voice, 64> voices_{};
     std::size_t pendingCount_ = 0, soundingCount_ = 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr double maxWindowSeconds = 0.0335; // rounded down to a power of two samples, 17 to 33 ms: two
                                             // periods of a bass drum, but short against a beat
 constexpr unsigned hopsPerWindow = 8;
-constexpr int pickedHopsLater = 2; // aubio's picker needs the hop after the peak, and smooths over one more
+constexpr int pickerDelayHops = 2; // aubio's picker needs the hop after the peak, and smooths over one more
 constexpr double earlyHops = 0.35; // the flux peaks this long before the onset reaches the middle of the
                                    // window (measured: Docs/music.md)
 constexpr double minOnsetGapSeconds = 0.05; // per band: at most twenty onsets a second
@@ -21,7 +21,7 @@ constexpr double minRise = 3.0;          // relative to the mean flux
 constexpr double minFlux = 1e-3;         // about that of a starting sine at -60 dB
 constexpr double minShareAtOne = 0.0625; // of the strongest onset; to the power of the sensitivity
 
-unsigned windowOf(int rateHz) noexcept {
+unsigned windowSamples(int rateHz) noexcept {
     return std::max(16u, std::bit_floor(static_cast<unsigned>(maxWindowSeconds * rateHz)));
 }
 
@@ -29,11 +29,11 @@ unsigned windowOf(int rateHz) noexcept {
 
 BeatDetector::BeatDetector(int sampleRateHz, double sensitivity)
     : rateHz_{sampleRateHz}
-    , hop_{new_fvec(windowOf(sampleRateHz) / hopsPerWindow)}
+    , hop_{new_fvec(windowSamples(sampleRateHz) / hopsPerWindow)}
     , flux_{new_fvec(1)}
     , peak_{new_fvec(1)}
-    , spectrum_{new_cvec(windowOf(sampleRateHz))}
-    , vocoder_{new_aubio_pvoc(windowOf(sampleRateHz), hop_->length)} {
+    , spectrum_{new_cvec(windowSamples(sampleRateHz))}
+    , vocoder_{new_aubio_pvoc(windowSamples(sampleRateHz), hop_->length)} {
     setSensitivity(sensitivity);
     for (std::size_t i = 0; i < bands_.size(); ++i) makeBand(i);
 }
@@ -43,32 +43,32 @@ void BeatDetector::setSensitivity(double sensitivity) noexcept {
 }
 
 void BeatDetector::makeBand(std::size_t index) {
-    const double hzPerBin = static_cast<double>(rateHz_) / windowOf(rateHz_);
+    const double hzPerBin = static_cast<double>(rateHz_) / windowSamples(rateHz_);
     const uint_t end = spectrum_->length - 1; // half the sample rate
-    const auto binOf = [=](double hz) {
+    const auto toBin = [=](double hz) {
         return std::min(end, static_cast<uint_t>(std::lround(hz / hzPerBin)));
     };
-    const uint_t first = std::max(1u, binOf(beatBands[index].lowHz)),
-                 behind = std::max(first + 1, binOf(beatBands[index].highHz) + 1);
+    const uint_t first = std::max(1u, toBin(beatBands[index].lowHz)),
+                 endBin = std::max(first + 1, toBin(beatBands[index].highHz) + 1);
     if (first >= end) return;
     Band& band = bands_[index];
-    band.spectrum = {std::min(end, behind) - first, spectrum_->norm + first, spectrum_->phas + first};
+    band.spectrum = {std::min(end, endBin) - first, spectrum_->norm + first, spectrum_->phas + first};
     band.flux.reset(new_aubio_specdesc("specflux", 2 * band.spectrum.length));
     band.peaks.reset(new_aubio_peakpicker());
 }
 
 void BeatDetector::analyse() noexcept {
     ++hops_;
-    foundCount_ = 0;
+    onsetCount_ = 0;
     aubio_pvoc_do(vocoder_.get(), hop_.get(), spectrum_.get());
     for (std::size_t i = 0; i < bands_.size(); ++i)
         if (bands_[i].flux) detectOnset(i);
 }
 
-void BeatDetector::measure(Band& band) noexcept {
+void BeatDetector::measureFlux(Band& band) noexcept {
     aubio_specdesc_do(band.flux.get(), &band.spectrum, flux_.get());
-    std::rotate(band.latest.begin(), band.latest.begin() + 1, band.latest.end());
-    band.latest.back() = flux_->data[0];
+    std::rotate(band.recentFlux.begin(), band.recentFlux.begin() + 1, band.recentFlux.end());
+    band.recentFlux.back() = flux_->data[0];
     aubio_peakpicker_do(band.peaks.get(), flux_.get(), peak_.get());
 }
 
@@ -79,12 +79,12 @@ void BeatDetector::updateAverages(Band& band) noexcept {
     band.maskingThreshold *= decay(maskingSeconds);
     // at first the plain mean of all hops
     band.meanFlux += std::max(1.0 - decay(meanFluxSeconds), 1.0 / static_cast<double>(hops_)) *
-                     (band.latest.back() - band.meanFlux);
+                     (band.recentFlux.back() - band.meanFlux);
 }
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {
     const bool isSoon =
-        band.hasLast && static_cast<double>(frame - band.lastFrame) < minOnsetGapSeconds * rateHz_;
+        band.hasOnset && static_cast<double>(frame - band.lastOnsetFrame) < minOnsetGapSeconds * rateHz_;
     return frame >= 0 && !isSoon &&
            height >=
                std::max({minFlux, minRise * band.meanFlux, minShare_ * band.maxFlux, band.maskingThreshold});
@@ -92,18 +92,18 @@ bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) 
 
 void BeatDetector::detectOnset(std::size_t index) noexcept {
     Band& band = bands_[index];
-    measure(band);
-    const double picked = peak_->data[0]; // 0, or the position of the peak in hops, about 1
-    if (picked != 0.0) {
-        const double height = std::ranges::max(band.latest);
+    measureFlux(band);
+    const double peakHops = peak_->data[0]; // 0, or the position of the peak in hops, about 1
+    if (peakHops != 0.0) {
+        const double height = std::ranges::max(band.recentFlux);
         band.maxFlux = std::max(band.maxFlux, height);
-        const double hop = static_cast<double>(hops_ - pickedHopsLater) + picked - 1.0 + earlyHops;
+        const double hop = static_cast<double>(hops_ - pickerDelayHops) + peakHops - 1.0 + earlyHops;
         const auto frame =
             static_cast<std::int64_t>(std::llround((hop - 0.5 * hopsPerWindow) * hop_->length));
         if (isOnset(band, height, frame)) {
-            found_[foundCount_++] = {frame, static_cast<int>(index), height / band.maxFlux};
-            band.lastFrame = frame;
-            band.hasLast = true;
+            onsets_[onsetCount_++] = {frame, static_cast<int>(index), height / band.maxFlux};
+            band.lastOnsetFrame = frame;
+            band.hasOnset = true;
             band.maskingThreshold = height;
         }
     }
@@ -111,7 +111,7 @@ void BeatDetector::detectOnset(std::size_t index) noexcept {
 }
 
 std::int64_t BeatDetector::delayFrames() const noexcept {
-    return static_cast<std::int64_t>(hopsPerWindow / 2 + pickedHopsLater + 1) * hop_->length;
+    return static_cast<std::int64_t>(hopsPerWindow / 2 + pickerDelayHops + 1) * hop_->length;
 }
 
 // aubio's objects remember one window and the few hops of the peak picker. This many zero hops return them to
@@ -122,13 +122,13 @@ void BeatDetector::reset() noexcept {
     for (unsigned i = 0; i < rememberedHops; ++i) {
         aubio_pvoc_do(vocoder_.get(), hop_.get(), spectrum_.get());
         for (Band& band : bands_)
-            if (band.flux) measure(band);
+            if (band.flux) measureFlux(band);
     }
     for (Band& band : bands_) {
         band.meanFlux = band.maxFlux = band.maskingThreshold = 0.0;
-        band.hasLast = false;
+        band.hasOnset = false;
     }
-    filled_ = 0;
+    hopFill_ = 0;
     hops_ = 0;
 }
 

@@ -108,11 +108,11 @@ public:
     template <class OnOnset>
     void process(std::span<const float> samples, OnOnset&& onOnset) noexcept(noexcept(onOnset(BandOnset{}))) {
         for (const float sample : samples) {
-            hop_->data[filled_] = sample;
-            if (++filled_ < hop_->length) continue;
-            filled_ = 0;
+            hop_->data[hopFill_] = sample;
+            if (++hopFill_ < hop_->length) continue;
+            hopFill_ = 0;
             analyse();
-            for (std::size_t i = 0; i < foundCount_; ++i) onOnset(found_[i]);
+            for (std::size_t i = 0; i < onsetCount_; ++i) onOnset(onsets_[i]);
         }
     }
 
@@ -124,14 +124,14 @@ private:
         cvec_t spectrum{}; // bins of the spectrum; empty if the sample rate has none of the band
         AubioPointer<aubio_specdesc_t, del_aubio_specdesc> flux;
         AubioPointer<aubio_peakpicker_t, del_aubio_peakpicker> peaks;
-        std::array<double, 4> latest{};       // flux of the last hops, among them the peak
+        std::array<double, 4> recentFlux{};   // flux of the last hops, among them the peak
         double meanFlux = 0.0, maxFlux = 0.0; // running mean and maximum of the flux
         double maskingThreshold = 0.0;        // threshold after the last onset, decaying
-        std::int64_t lastFrame = 0;
-        bool hasLast = false;
+        std::int64_t lastOnsetFrame = 0;
+        bool hasOnset = false;
     };
     void makeBand(std::size_t index);
-    void measure(Band& band) noexcept;
+    void measureFlux(Band& band) noexcept;
     void updateAverages(Band& band) noexcept;
     bool isOnset(const Band& band, double height, std::int64_t frame) const noexcept;
     void detectOnset(std::size_t index) noexcept;
@@ -143,9 +143,9 @@ private:
     AubioPointer<cvec_t, del_cvec> spectrum_;
     AubioPointer<aubio_pvoc_t, del_aubio_pvoc> vocoder_;
     std::array<Band, beatBands.size()> bands_;
-    std::array<BandOnset, beatBands.size()> found_{};
-    std::size_t foundCount_ = 0;
-    unsigned filled_ = 0; // samples in the current hop
+    std::array<BandOnset, beatBands.size()> onsets_{};
+    std::size_t onsetCount_ = 0;
+    unsigned hopFill_ = 0; // samples in the current hop
     std::int64_t hops_ = 0;
 };
 

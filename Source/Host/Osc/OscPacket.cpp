@@ -47,7 +47,7 @@ double finite(double number) {
     return number;
 }
 
-OscValue valueOf(char type, const lo_arg* value) {
+OscValue toOscValue(char type, const lo_arg* value) {
     switch (type) {
     case LO_INT32: return static_cast<double>(unalignedValue<std::int32_t>(value));
     case LO_INT64: return static_cast<double>(unalignedValue<std::int64_t>(value));
@@ -61,7 +61,7 @@ OscValue valueOf(char type, const lo_arg* value) {
     }
 }
 
-OscMessage messageOf(std::span<const char> bytes, OscTag tag) {
+OscMessage readMessage(std::span<const char> bytes, OscTag tag) {
     std::vector<char> buffer(bytes.begin(), bytes.end()); // liblo needs a mutable buffer
     int errorCode = 0;
     const MessagePointer message{lo_message_deserialise(buffer.data(), buffer.size(), &errorCode)};
@@ -72,7 +72,7 @@ OscMessage messageOf(std::span<const char> bytes, OscTag tag) {
     const char* const types = lo_message_get_types(message.get());
     lo_arg** const values = lo_message_get_argv(message.get());
     for (int i = 0; i < lo_message_get_argc(message.get()); ++i)
-        read.values.push_back(valueOf(types[i], values[i]));
+        read.values.push_back(toOscValue(types[i], values[i]));
     return read;
 }
 
@@ -80,7 +80,7 @@ void readElement(std::span<const char> bytes, OscTag tag, int depth, std::vector
     if (bytes.empty() || bytes.size() % 4 != 0)
         throw OscError{"expected a multiple of four bytes, found " + std::to_string(bytes.size())};
     if (!std::string_view(bytes.data(), bytes.size()).starts_with(bundleMark))
-        return all.push_back(messageOf(bytes, tag));
+        return all.push_back(readMessage(bytes, tag));
     if (depth == maxBundleDepth)
         throw OscError{"expected bundles at most " + std::to_string(maxBundleDepth) + " deep"};
     if (bytes.size() < 16) throw OscError{"expected a time tag in a bundle"};
@@ -103,13 +103,13 @@ MessagePointer makeLoMessage(const PlainMessage& plain) {
         else if (const auto* number = std::get_if<double>(&value.value))
             lo_message_add_float(message.get(), static_cast<float>(*number));
         else
-            for (const double one : std::get<std::vector<double>>(value.value))
-                lo_message_add_float(message.get(), static_cast<float>(one));
+            for (const double part : std::get<std::vector<double>>(value.value))
+                lo_message_add_float(message.get(), static_cast<float>(part));
     }
     return message;
 }
 
-std::vector<char> bytesOf(const MessagePointer& message, const std::string& address) {
+std::vector<char> toBytes(const MessagePointer& message, const std::string& address) {
     std::vector<char> bytes(lo_message_length(message.get(), address.c_str()));
     lo_message_serialise(message.get(), address.c_str(), bytes.data(), nullptr);
     return bytes;
@@ -140,13 +140,13 @@ Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes) {
 }
 
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message) {
-    return bytesOf(makeLoMessage(message), address);
+    return toBytes(makeLoMessage(message), address);
 }
 
 std::vector<char> oscStringPacket(const std::string& address, std::initializer_list<std::string> words) {
     const MessagePointer message{lo_message_new()};
     for (const std::string& word : words) lo_message_add_string(message.get(), word.c_str());
-    return bytesOf(message, address);
+    return toBytes(message, address);
 }
 
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag) {
@@ -162,28 +162,28 @@ std::vector<char> oscBundle(const std::string& address, const PlainMessage& mess
 // matcher reads beyond the end of an address.)
 bool matchesOscPattern(std::string_view pattern, std::string_view address) {
     const auto next = [&](std::uint64_t reached, auto matches) {
-        std::uint64_t further = 0;
+        std::uint64_t advanced = 0;
         for (std::size_t i = 0; i < address.size(); ++i)
-            if ((reached >> i & 1U) != 0 && matches(address[i])) further |= std::uint64_t{2} << i;
-        return further;
+            if ((reached >> i & 1U) != 0 && matches(address[i])) advanced |= std::uint64_t{2} << i;
+        return advanced;
     };
     std::uint64_t reached = 1;
     for (std::size_t at = 0; at < pattern.size() && reached != 0; ++at) {
-        const char mark = pattern[at];
-        const std::size_t end = pattern.find(mark == '[' ? ']' : mark == '{' ? '}' : mark, at);
+        const char lead = pattern[at];
+        const std::size_t end = pattern.find(lead == '[' ? ']' : lead == '{' ? '}' : lead, at);
         if (end == pattern.npos) return false; // the bracket is not closed
         const std::string_view inside = pattern.substr(at + 1, end - std::min(end, at + 1));
         at = end;
-        if (mark == '*')
+        if (lead == '*')
             reached = ~std::uint64_t{0} << std::countr_zero(reached);
-        else if (mark == '{') {
-            std::uint64_t any = 0, one = reached;
+        else if (lead == '{') {
+            std::uint64_t any = 0, part = reached;
             for (const char c : inside)
-                one = c == ',' ? (any |= one, reached) : next(one, [c](char found) { return found == c; });
-            reached = any | one;
+                part = c == ',' ? (any |= part, reached) : next(part, [c](char found) { return found == c; });
+            reached = any | part;
         } else
             reached = next(
-                reached, [&](char c) { return mark == '[' ? isInSet(inside, c) : mark == '?' || mark == c; });
+                reached, [&](char c) { return lead == '[' ? isInSet(inside, c) : lead == '?' || lead == c; });
     }
     return (reached >> address.size() & 1U) != 0;
 }

@@ -32,17 +32,17 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
 
 OscPort::~OscPort() {
     session_.sinks().detach(*this);
-    stop_ = true;
+    isStopping_ = true;
     if (reader_.joinable()) reader_.join();
     if (executor_.joinable()) executor_.join();
 }
 
 // A packet that finds the queue full still silences. Its sender gets no reply and may repeat it.
 void OscPort::runReader() {
-    while (!stop_) {
+    while (!isStopping_) {
         if (!inputSocket_.wait(pollMilliseconds)) continue;
         MuteRequests& silence = device_.silence();
-        while (!stop_) {
+        while (!isStopping_) {
             const auto bytes = inputSocket_.receive();
             if (!bytes) break;
             const std::uint64_t before = silence.requestCount(MuteRequester::osc),
@@ -57,7 +57,7 @@ void OscPort::runReader() {
 }
 
 void OscPort::runExecutor() {
-    while (!stop_) {
+    while (!isStopping_) {
         const bool hasPacket = packets_.wait(std::chrono::milliseconds{pollMilliseconds});
         updateClock();
         if (hasPacket || lost_ > 0) receive();
@@ -110,7 +110,7 @@ void OscPort::sendRefusal(const OscRefusal& refusal, const UdpSender& to) {
 void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
     const std::lock_guard lock{mutex_};
     if (lateRefusals_.size() < maxPerRound)
-        lateRefusals_.emplace_back(refusalOf(origin.address, reason), origin.from);
+        lateRefusals_.emplace_back(makeRefusal(origin.address, reason), origin.from);
     else
         ++droppedLateRefusals_;
 }

@@ -175,7 +175,7 @@ private:
     std::vector<std::pair<OscRefusal, UdpSender>> lateRefusals_; // the port's thread sends them
     std::uint64_t droppedLateRefusals_ = 0;                      // refusals that found `lateRefusals_` full
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
-    std::atomic<bool> stop_{false};
+    std::atomic<bool> isStopping_{false};
     InputQueue<Packet> packets_;
     std::atomic<std::uint64_t> lost_{0}; // packets dropped here or by the system, not yet counted
     std::thread executor_, reader_;

@@ -16,11 +16,11 @@ bool isReply(std::string_view address) {
     return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress;
 }
 
-std::string_view textOf(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
+std::string_view toText(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
 
 /// The address of a packet that is not valid OSC, as far as it resembles one.
-std::string_view addressIn(std::span<const char> bytes) {
-    const std::string_view text = textOf(bytes);
+std::string_view readAddress(std::span<const char> bytes) {
+    const std::string_view text = toText(bytes);
     return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
 }
 
@@ -32,7 +32,7 @@ bool isForSilence(std::string_view address) {
 
 /// Whether a packet that cannot be read may have been meant for silence.
 bool resemblesSilence(std::span<const char> bytes) {
-    const std::string_view text = textOf(bytes);
+    const std::string_view text = toText(bytes);
     if (containsSilenceWord(text)) return true;
     for (std::size_t at = text.find('/'); at != text.npos; at = text.find('/', text.find('\0', at)))
         if (isForSilence(text.substr(at, text.find('\0', at) - at))) return true;
@@ -41,7 +41,7 @@ bool resemblesSilence(std::span<const char> bytes) {
 
 /// What a message to such an address requests. A malformed message has an error and still requests silence.
 /// The control needs no scene.
-Result<SilenceControl> silenceOf(const OscMessage& message) {
+Result<SilenceControl> readSilence(const OscMessage& message) {
     if (message.address != oscSilenceAddress) return Failure{"expected " + std::string(oscSilenceAddress)};
     const auto plain = parseOscValues(oscSilenceAddress.substr(oscPrefix.size()), message.values);
     return plain ? readPlainSilence(plain.value.values) : Failure{plain.error};
@@ -65,7 +65,7 @@ void OscReceiver::receive(std::span<const char> bytes, const OscClock& clock,
     const auto read = readOscPacket(bytes);
     if (!read) {
         ++counts_.malformed;
-        origin_.address = addressIn(bytes);
+        origin_.address = readAddress(bytes);
         refuse(origin_.address, resemblesSilence(bytes) ? silence(Failure{read.error}, answers) : read.error);
     }
     for (const OscMessage& message : read.value) {
@@ -78,21 +78,21 @@ void OscReceiver::receive(std::span<const char> bytes, const OscClock& clock,
     }
 }
 
-OscRefusal refusalOf(std::string_view address, std::string_view reason) {
+OscRefusal makeRefusal(std::string_view address, std::string_view reason) {
     return {printable(address), cleanLine(reason)};
 }
 
 void OscReceiver::refuse(std::string_view address, std::string_view reason) {
-    OscRefusal refusal = refusalOf(address, reason);
+    OscRefusal refusal = makeRefusal(address, reason);
     counts_.lastError = refusal.reason;
     if (!isReply(address)) refusals_.push_back(std::move(refusal));
 }
 
 std::string OscReceiver::execute(const OscMessage& message, const OscClock& clock,
                                  std::vector<std::vector<char>>& answers) {
-    if (isForSilence(message.address)) return silence(silenceOf(message), answers);
+    if (isForSilence(message.address)) return silence(readSilence(message), answers);
     if (hooks_.closed)
-        if (auto why = hooks_.closed(); !why.empty()) return why;
+        if (auto reason = hooks_.closed(); !reason.empty()) return reason;
     // phone sensors have no address with our prefix: /physvib/gravity is an input
     const bool isOurs = message.address.starts_with(oscPrefix);
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) {
@@ -124,11 +124,11 @@ std::string OscReceiver::silence(const Result<SilenceControl>& request,
 
 std::string OscReceiver::route(const PlainMessage& plain, OscTag tag, const OscClock& clock,
                                std::vector<std::vector<char>>& answers) {
-    MessageTag at;
+    MessageTag messageTag;
     const bool isTagged = tag != oscNow && clock.isReady(); // before the first block, every message acts now
-    if (isTagged) at.sessionNs = clock.sessionNsFromUnix(unixNsFromTag(tag));
-    auto answer = messages_.handle(plain, isTagged ? &at : nullptr, hooks_.clips);
-    if (at.isLate && answer) ++counts_.late;
+    if (isTagged) messageTag.sessionNs = clock.sessionNsFromUnix(unixNsFromTag(tag));
+    auto answer = messages_.handle(plain, isTagged ? &messageTag : nullptr, hooks_.clips);
+    if (messageTag.isLate && answer) ++counts_.late;
     if (answer.value.name.empty()) return answer.error;
     if (answer.value.name == "status") addCounts(answer.value);
     answers.push_back(oscPacket(std::string(oscAnswerPrefix) + answer.value.name, answer.value));
@@ -152,12 +152,12 @@ PlainMessage OscReceiver::status() {
 }
 
 std::uint64_t countSilenceRequests(std::span<const char> bytes) {
-    if (!containsSilenceWord(textOf(bytes)) &&
-        textOf(bytes).find_first_of(oscPatternCharacters) == std::string_view::npos)
+    if (!containsSilenceWord(toText(bytes)) &&
+        toText(bytes).find_first_of(oscPatternCharacters) == std::string_view::npos)
         return 0;
     const auto read = readOscPacket(bytes);
     const auto silences = [](const OscMessage& message) {
-        return isForSilence(message.address) && silenceOf(message).value.isOn;
+        return isForSilence(message.address) && readSilence(message).value.isOn;
     };
     return read ? static_cast<std::uint64_t>(std::ranges::count_if(read.value, silences))
                 : static_cast<std::uint64_t>(resemblesSilence(bytes));
@@ -193,16 +193,16 @@ OscTag tagFromUnixNs(std::int64_t unixNs) noexcept {
 }
 
 std::int64_t unixMinusSteadyNs() noexcept {
-    std::int64_t best = INT64_MAX, ahead = 0;
+    std::int64_t shortestNs = INT64_MAX, offsetNs = 0;
     for (int k = 0; k < 3; ++k) { // the thread may be interrupted between two clock reads
         const std::int64_t before = clockNs<std::chrono::steady_clock>(),
                            unix = clockNs<std::chrono::system_clock>(),
                            after = clockNs<std::chrono::steady_clock>();
-        if (after - before >= best) continue;
-        best = after - before;
-        ahead = unix - before - best / 2;
+        if (after - before >= shortestNs) continue;
+        shortestNs = after - before;
+        offsetNs = unix - before - shortestNs / 2;
     }
-    return ahead;
+    return offsetNs;
 }
 
 void OscClock::update(const OutputMoment& moment, std::int64_t unixMinusSteadyNs) noexcept {

@@ -134,7 +134,7 @@ struct OscRefusal {
 };
 
 /// Any thread.
-OscRefusal refusalOf(std::string_view address, std::string_view reason);
+OscRefusal makeRefusal(std::string_view address, std::string_view reason);
 
 /// Counts since the port was opened.
 struct OscCounts {

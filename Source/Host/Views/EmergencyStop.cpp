@@ -71,7 +71,7 @@ private:
     // still down.
     void poll() {
         listen();
-        const auto* target = targetCell(nullptr);
+        const auto* target = keyTarget(nullptr);
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
         if (isDown && !wasEscapeDown_ && target != nullptr) silence(*target);
         wasEscapeDown_ = isDown;
@@ -89,7 +89,7 @@ private:
     }
     bool keyPressed(const juce::KeyPress& key, juce::Component* at) override {
         if (!key.isKeyCode(juce::KeyPress::escapeKey)) return false;
-        const auto* target = targetCell(at);
+        const auto* target = keyTarget(at);
         if (at != target && isListenedTo(target)) return false; // a parent's listener: already handled
         silence(*at);
         return std::exchange(wasEscapeDown_, isEscapeDown()); // a repeated key silences again and does
@@ -99,7 +99,7 @@ private:
     static bool isEscapeDown() { return juce::KeyPress::isKeyCurrentlyDown(juce::KeyPress::escapeKey); }
     /// The component that gets a key now, as juce::ComponentPeer determines it. `at`: a component of the
     /// window with keyboard focus.
-    static juce::Component* targetCell(juce::Component* at) {
+    static juce::Component* keyTarget(juce::Component* at) {
         auto* const focused = juce::Component::getCurrentlyFocusedComponent();
         auto* const target = focused != nullptr || at == nullptr ? focused : at->getTopLevelComponent();
         auto* const modal = juce::Component::getCurrentlyModalComponent();
@@ -114,7 +114,7 @@ private:
         const auto& desktop = juce::Desktop::getInstance();
         for (int i = 0; i < desktop.getNumComponents(); ++i)
             listenTo(desktop.getComponent(i)); // without a focus, these get the keys
-        listenTo(targetCell(nullptr));
+        listenTo(keyTarget(nullptr));
     }
     void listenTo(juce::Component* component) {
         if (component == nullptr) return;

@@ -13,17 +13,17 @@ using Argb = palette::Argb;
 constexpr int firstShadeId = 0x7068b00; // JUCE colour ids of this project
 constexpr float corner = 5.0f;
 
-int idOf(Shade which) { return firstShadeId + static_cast<int>(which); }
+int colourId(Shade which) { return firstShadeId + static_cast<int>(which); }
 
 struct Shades {
-    juce::Colour ground, panel, raised, well, line, text, muted, now, limit, camera, accent;
+    juce::Colour ground, panel, raised, well, line, text, muted, highlight, limit, camera, accent;
 };
 
-const Shades& shadesOf(Theme theme) {
-    static const Shades dark{palette::ground, palette::panel,       juce::Colour{Argb{0xff272a33}},
-                             palette::well,   palette::line,        palette::text,
-                             palette::muted,  palette::highlight,   palette::limit,
-                             palette::camera, palette::enchanter(0)};
+const Shades& findShades(Theme theme) {
+    static const Shades dark{palette::ground, palette::panel,      juce::Colour{Argb{0xff272a33}},
+                             palette::well,   palette::line,       palette::text,
+                             palette::muted,  palette::highlight,  palette::limit,
+                             palette::camera, palette::actuator(0)};
     static const Shades light{
         juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffd3d9e4}},
         juce::Colour{Argb{0xffffffff}}, juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}},
@@ -43,12 +43,12 @@ juce::Colour tintOf(const juce::Component& c) {
                : shade(c, Shade::accent);
 }
 
-juce::Colour readableOn(juce::Colour ground) {
+juce::Colour textColourOn(juce::Colour ground) {
     return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white;
 }
 
 /// Relative luminance by WCAG 2, 0 to 1.
-double luminanceOf(juce::Colour colour) {
+double relativeLuminance(juce::Colour colour) {
     const auto linear = [](float v) {
         return v <= 0.04045f ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
     };
@@ -60,11 +60,11 @@ double luminanceOf(juce::Colour colour) {
 juce::Colour readableActuatorColour(Theme theme, int index) {
     constexpr double minContrast = 4.6;
     const bool isLight = theme == Theme::light;
-    const auto panel = luminanceOf(shadesOf(theme).panel);
-    auto colour = palette::enchanter(index);
+    const auto panel = relativeLuminance(findShades(theme).panel);
+    auto colour = palette::actuator(index);
     if (isLight) colour = colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f);
     const auto contrast = [&] {
-        const double luminance = luminanceOf(colour);
+        const double luminance = relativeLuminance(colour);
         return (std::max(luminance, panel) + 0.05) / (std::min(luminance, panel) + 0.05);
     };
     while (contrast() < minContrast)
@@ -96,7 +96,7 @@ void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const 
     g.setColour(shade(slider, Shade::line)); // its end is visible on any background
     g.strokePath(bar, juce::PathStrokeType{1.0f});
     if (!slider.isEnabled()) return;
-    const juce::Graphics::ScopedSaveState whole{g};
+    const juce::Graphics::ScopedSaveState savedState{g};
     g.reduceClipRegion(bar);
     g.setColour(tintOf(slider).withMultipliedAlpha(0.4f));
     g.fillRect(area.withRight(place));
@@ -105,18 +105,18 @@ void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const 
 } // namespace
 
 juce::Colour shade(const juce::Component& component, Shade which) {
-    return component.findColour(idOf(which));
+    return component.findColour(colourId(which));
 }
 
 juce::Colour actuatorColour(const juce::Component& component, int index) {
     using All = std::array<juce::Colour, limits::maxActuators>;
-    const auto made = [](Theme theme) {
+    const auto makeColours = [](Theme theme) {
         All all;
         for (int j = 0; j < limits::maxActuators; ++j)
             all[static_cast<std::size_t>(j)] = readableActuatorColour(theme, j);
         return all;
     };
-    static const All dark = made(Theme::dark), light = made(Theme::light);
+    static const All dark = makeColours(Theme::dark), light = makeColours(Theme::light);
     const bool isLight = shade(component, Shade::panel).getPerceivedBrightness() > 0.5f;
     return (isLight ? light : dark)[static_cast<std::size_t>(index) % dark.size()];
 }
@@ -124,30 +124,30 @@ juce::Colour actuatorColour(const juce::Component& component, int index) {
 void Look::setTheme(Theme theme) {
     using namespace juce;
     theme_ = theme;
-    const Shades& s = shadesOf(theme);
-    const std::array all{s.ground, s.panel, s.raised, s.well,   s.line,  s.text,
-                         s.muted,  s.now,   s.limit,  s.camera, s.accent};
+    const Shades& s = findShades(theme);
+    const std::array all{s.ground, s.panel,     s.raised, s.well,   s.line,  s.text,
+                         s.muted,  s.highlight, s.limit,  s.camera, s.accent};
     for (std::size_t i = 0; i < all.size(); ++i) setColour(firstShadeId + static_cast<int>(i), all[i]);
     setColourScheme(
         {s.ground, s.well, s.panel, s.line, s.text, s.accent.withAlpha(0.35f), s.text, s.raised, s.text});
-    const auto give = [this](Colour colour, std::initializer_list<int> ids) {
+    const auto set = [this](Colour colour, std::initializer_list<int> ids) {
         for (const int id : ids) setColour(id, colour);
     };
     setColour(ResizableWindow::backgroundColourId, s.ground);
-    give(s.raised, {ComboBox::backgroundColourId, TextButton::buttonColourId, Slider::backgroundColourId,
-                    Slider::rotarySliderOutlineColourId});
-    give(Colours::transparentBlack, {ComboBox::outlineColourId, Slider::textBoxOutlineColourId});
-    give(s.panel, {PopupMenu::backgroundColourId, TooltipWindow::backgroundColourId});
+    set(s.raised, {ComboBox::backgroundColourId, TextButton::buttonColourId, Slider::backgroundColourId,
+                   Slider::rotarySliderOutlineColourId});
+    set(Colours::transparentBlack, {ComboBox::outlineColourId, Slider::textBoxOutlineColourId});
+    set(s.panel, {PopupMenu::backgroundColourId, TooltipWindow::backgroundColourId});
     setColour(PopupMenu::highlightedBackgroundColourId, s.accent.withAlpha(0.22f));
-    give(s.text, {PopupMenu::highlightedTextColourId, TextButton::textColourOffId, TextButton::textColourOnId,
-                  ToggleButton::textColourId, Label::textColourId, Slider::thumbColourId,
-                  Slider::textBoxTextColourId, TooltipWindow::textColourId});
-    give(s.muted, {PopupMenu::headerTextColourId, ToggleButton::tickDisabledColourId});
-    give(s.well,
-         {TextEditor::backgroundColourId, ListBox::backgroundColourId, ProgressBar::backgroundColourId});
-    give(s.line, {TextEditor::outlineColourId, TooltipWindow::outlineColourId});
-    give(s.accent, {TextEditor::focusedOutlineColourId, ToggleButton::tickColourId, Slider::trackColourId,
-                    Slider::rotarySliderFillColourId, ProgressBar::foregroundColourId});
+    set(s.text, {PopupMenu::highlightedTextColourId, TextButton::textColourOffId, TextButton::textColourOnId,
+                 ToggleButton::textColourId, Label::textColourId, Slider::thumbColourId,
+                 Slider::textBoxTextColourId, TooltipWindow::textColourId});
+    set(s.muted, {PopupMenu::headerTextColourId, ToggleButton::tickDisabledColourId});
+    set(s.well,
+        {TextEditor::backgroundColourId, ListBox::backgroundColourId, ProgressBar::backgroundColourId});
+    set(s.line, {TextEditor::outlineColourId, TooltipWindow::outlineColourId});
+    set(s.accent, {TextEditor::focusedOutlineColourId, ToggleButton::tickColourId, Slider::trackColourId,
+                   Slider::rotarySliderFillColourId, ProgressBar::foregroundColourId});
     setColour(TextButton::buttonOnColourId, s.accent.withAlpha(0.35f));
     setColour(ScrollBar::thumbColourId, s.muted.withAlpha(0.75f));
 }
@@ -179,9 +179,9 @@ void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, boo
     auto colour = shade(button, Shade::text);
     if (isTrue(button, stopProperty))
         colour =
-            button.getToggleState() ? readableOn(shade(button, Shade::limit)) : shade(button, Shade::limit);
+            button.getToggleState() ? textColourOn(shade(button, Shade::limit)) : shade(button, Shade::limit);
     else if (button.getToggleState())
-        colour = readableOn(tintOf(button));
+        colour = textColourOn(tintOf(button));
     else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty))
         colour = shade(button, Shade::accent);
     g.setColour(button.isEnabled() ? colour : shade(button, Shade::muted));
@@ -227,7 +227,7 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
                              bool isActive, bool isHighlighted, bool isTicked, bool hasSubMenu,
                              const juce::String& words, const juce::String& keys, const juce::Drawable* icon,
                              const juce::Colour* colour) {
-    const auto muted = findColour(idOf(Shade::muted));
+    const auto muted = findColour(colourId(Shade::muted));
     juce::LookAndFeel_V4::drawPopupMenuItem(g, area, isSeparator, true, isHighlighted && isActive, isTicked,
                                             hasSubMenu, words, keys, icon, isActive ? colour : &muted);
 }
@@ -317,7 +317,7 @@ void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, in
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
-            of = &c;
+            focused = &c;
             constexpr int handle = 30; // a fader's scale begins beside it
             auto ring = c.getScreenBounds().expanded(2);
             if (c.getProperties()[faderProperty]) ring = ring.withSizeKeepingCentre(handle, ring.getHeight());
@@ -325,11 +325,11 @@ std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::C
             return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }
         void drawOutline(juce::Graphics& g, int width, int height) override {
-            if (of != nullptr) g.setColour(shade(*of, Shade::accent)); // of the current theme
+            if (focused != nullptr) g.setColour(shade(*focused, Shade::accent)); // of the current theme
             g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f,
                                    2.0f);
         }
-        juce::Component::SafePointer<juce::Component> of;
+        juce::Component::SafePointer<juce::Component> focused;
     };
     return std::make_unique<juce::FocusOutline>(std::make_unique<Ring>());
 }

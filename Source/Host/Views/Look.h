@@ -28,7 +28,7 @@ inline const juce::Colour ground = juceColour(picture::palette::ground),
 using Argb = juce::uint32;
 using picture::palette::materialCount;
 
-inline juce::Colour enchanter(int index) { return juceColour(picture::palette::enchanter(index)); }
+inline juce::Colour actuator(int index) { return juceColour(picture::palette::actuator(index)); }
 inline juce::Colour material(const auto& list, int index) {
     return juceColour(picture::palette::materialOf(list, index));
 }

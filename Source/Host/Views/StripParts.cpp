@@ -68,7 +68,7 @@ void PeakMeter::set(float peak, float hold) {
 void PeakMeter::paint(juce::Graphics& g) {
     const auto bar = getLocalBounds().toFloat();
     fillMeter(g, *this);
-    const auto green = palette::enchanter(3);
+    const auto green = palette::actuator(3);
     const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
     if (lit.getHeight() > 0.5f) {
         juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(),
@@ -145,7 +145,7 @@ StripParts::StripParts(const juce::String& label)
     };
     toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
     toggle(solo_, "Solo", palette::highlight, &Strip::isSolo);
-    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
+    toggle(polarity_, "Polarity", palette::actuator(4), &Strip::isInverted);
     delay_.setTitle("Delay of " + label);
     delay_.onClick = [this] { showDelayMenu(); };
     level_.setTitle("Level of " + label + " in g");
@@ -189,20 +189,20 @@ void StripParts::showDelayMenu() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
 }
 
-void StripParts::place(juce::Rectangle<int> area, int left, bool areBeside) {
+void StripParts::place(juce::Rectangle<int> area, int left, bool hasButtonColumn) {
     auto row = area.removeFromBottom(18);
     level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
     ceilingLabel_.setBounds(row);
-    row = area.removeFromBottom(areBeside ? 0 : 24);
+    row = area.removeFromBottom(hasButtonColumn ? 0 : 24);
     area.removeFromBottom(8);
     constexpr int column = 24, figuresEnd = 103;
-    if (areBeside)
+    if (hasButtonColumn)
         row =
             area.withX(std::min(left + figuresEnd, getWidth() - column - 1)).withWidth(column).expanded(0, 8);
-    const int each = (areBeside ? row.getHeight() : row.getWidth()) / 4;
+    const int buttonSize = (hasButtonColumn ? row.getHeight() : row.getWidth()) / 4;
     for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
-        button->setBounds(areBeside ? row.removeFromTop(each).reduced(0, 1)
-                                    : row.removeFromLeft(each).reduced(1, 0));
+        button->setBounds(hasButtonColumn ? row.removeFromTop(buttonSize).reduced(0, 1)
+                                          : row.removeFromLeft(buttonSize).reduced(1, 0));
     meter_.setBounds(area.withWidth(12).withX(left + 10));
     ceiling_.placeOver(meter_.getBounds());
     fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
@@ -217,8 +217,8 @@ void StripParts::paint(juce::Graphics& g, int actuator, const juce::String& name
     const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
     const double gainDb = fader_.getValue();
     const auto gain = isQuiet ? why : gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
-    constexpr int between = 5;
-    const int gainWidth = text::pixelWidth(plain, gain) + between, nameWidth = text::pixelWidth(bold, name);
+    constexpr int spacing = 5;
+    const int gainWidth = text::pixelWidth(plain, gain) + spacing, nameWidth = text::pixelWidth(bold, name);
     if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
         row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
         g.setColour(shade(*this, Shade::muted));

@@ -79,8 +79,8 @@ protected:
     virtual void change(const juce::String& name, const std::function<void(Strip&)>& edit) = 0;
     void show(const Strip& strip, double ceilingG);
     /// Places meter and fader from `left` on, above the figures. The buttons lie between them, or with
-    /// `areBeside` in a column, which makes the fader longer.
-    void place(juce::Rectangle<int> area, int left, bool areBeside = false);
+    /// `hasButtonColumn` in a column, which makes the fader longer.
+    void place(juce::Rectangle<int> area, int left, bool hasButtonColumn = false);
     /// Draws the name and beside it, if there is room, the fader's gain unless it is 0 dB, or `why` the strip
     /// is silent; and the meter's scale.
     void paint(juce::Graphics& g, int actuator, const juce::String& name, const juce::String& why);

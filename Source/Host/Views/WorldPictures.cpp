@@ -23,7 +23,7 @@ constexpr std::array<LookProperties, 4> lookTable{{{"rubber", 0xff8c3f35, 600.0}
                                                    {"wood", 0xffb8894f, 0.0},
                                                    {"steel", 0xff9db0c2, 4000.0}}};
 
-const LookProperties& propertiesOf(MaterialLook look) { return lookTable[static_cast<std::size_t>(look)]; }
+const LookProperties& findProperties(MaterialLook look) { return lookTable[static_cast<std::size_t>(look)]; }
 
 /// Brightness offset of a pixel, -1 to 1.
 float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
@@ -43,10 +43,10 @@ float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
     return 0.0f;
 }
 
-juce::Image tileOf(MaterialLook look) {
+juce::Image makeTile(MaterialLook look) {
     juce::Image image{juce::Image::RGB, tilePixels, tilePixels, true};
     juce::Random random{1};
-    const juce::Colour base{propertiesOf(look).colour};
+    const juce::Colour base{findProperties(look).colour};
     juce::Image::BitmapData pixels{image, juce::Image::BitmapData::writeOnly};
     for (int y = 0; y < tilePixels; ++y)
         for (int x = 0; x < tilePixels; ++x) {
@@ -58,8 +58,8 @@ juce::Image tileOf(MaterialLook look) {
 }
 
 const juce::Image& tile(MaterialLook look) {
-    static const std::array tiles{tileOf(MaterialLook::rubber), tileOf(MaterialLook::concrete),
-                                  tileOf(MaterialLook::wood), tileOf(MaterialLook::steel)};
+    static const std::array tiles{makeTile(MaterialLook::rubber), makeTile(MaterialLook::concrete),
+                                  makeTile(MaterialLook::wood), makeTile(MaterialLook::steel)};
     return tiles[static_cast<std::size_t>(look)];
 }
 
@@ -78,8 +78,8 @@ void drawEdges(juce::Graphics& g, const juce::Path& path, const juce::AffineTran
 
 } // namespace
 
-const MaterialPicture* pictureOf(const std::vector<MaterialPicture>& pictures,
-                                 std::string_view material) noexcept {
+const MaterialPicture* findPicture(const std::vector<MaterialPicture>& pictures,
+                                   std::string_view material) noexcept {
     const auto found = std::ranges::find_if(pictures, [material](const MaterialPicture& picture) {
         return material.find(picture.word) != std::string_view::npos;
     });
@@ -108,14 +108,14 @@ std::optional<MaterialLook> findMaterialLook(std::string_view name) noexcept {
 }
 
 bool isHollowDensity(MaterialLook look, double densityKgPerSquareMetre) noexcept {
-    return densityKgPerSquareMetre < propertiesOf(look).maxHollowDensity;
+    return densityKgPerSquareMetre < findProperties(look).maxHollowDensity;
 }
 
 void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& transform,
                       MaterialLook look, bool isHollow) {
     g.setFillType(juce::FillType{tile(look), transform});
     g.fillPath(path, transform);
-    drawEdges(g, path, transform, juce::Colour{propertiesOf(look).colour}.darker(0.9f), isHollow);
+    drawEdges(g, path, transform, juce::Colour{findProperties(look).colour}.darker(0.9f), isHollow);
 }
 
 namespace {
@@ -144,7 +144,7 @@ DiscPictures::DiscCache& DiscPictures::cacheOf(const Disc& disc) {
         disc, std::vector<juce::Image>(static_cast<std::size_t>(spokeAngles * subpixels * subpixels)));
 }
 
-juce::Image DiscPictures::pictureOf(const Disc& disc, int turn, juce::Point<int> phase) const {
+juce::Image DiscPictures::renderDisc(const Disc& disc, int turn, juce::Point<int> phase) const {
     const int side = sideOf(disc.radius, scale_);
     juce::Image image{juce::Image::ARGB, side, side, true, juce::SoftwareImageType{}};
     juce::Graphics g{image};
@@ -178,7 +178,7 @@ bool DiscPictures::draw(juce::Graphics& g, const Disc& disc, juce::Point<float> 
     const juce::Point<int> pixel{whole(quarters.x), whole(quarters.y)}, phase = quarters - pixel * subpixels;
     auto& picture =
         cacheOf(disc).pictures[static_cast<std::size_t>((turn * subpixels + phase.y) * subpixels + phase.x)];
-    if (picture.isNull()) picture = pictureOf(disc, turn, phase);
+    if (picture.isNull()) picture = renderDisc(disc, turn, phase);
     drawAround(g, picture, pixel, scale, 1.0f);
     return true;
 }
@@ -208,7 +208,7 @@ void GlowPictures::draw(juce::Graphics& g, juce::Point<float> centre, float radi
 namespace {
 
 using Badges = std::vector<juce::Rectangle<float>>;
-constexpr float twoLetters = 24.0f;
+constexpr float twoLettersWidth = 24.0f;
 
 /// Minimum distance of two different places, along the axis where they are farther apart.
 float minDistance(std::span<const juce::Point<float>> places) {
@@ -216,15 +216,15 @@ float minDistance(std::span<const juce::Point<float>> places) {
     for (std::size_t i = 0; i < places.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) {
             const auto offset = places[k] - places[i];
-            const float apart = std::max(std::abs(offset.x), std::abs(offset.y));
-            if (apart >= 1.0f) nearest = std::min(nearest, apart);
+            const float distance = std::max(std::abs(offset.x), std::abs(offset.y));
+            if (distance >= 1.0f) nearest = std::min(nearest, distance);
         }
     return nearest;
 }
 
 /// Width of a badge: half of the way to each neighbour in its row, or more if the neighbour needs less.
-float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::span<const float> widths,
-              float minWidth, float height) {
+float badgeWidth(std::size_t i, std::span<const juce::Point<float>> places, std::span<const float> widths,
+                 float minWidth, float height) {
     float width = std::min(maxBadgeWidth, widths[i]);
     for (std::size_t k = 0; k < places.size(); ++k) {
         const auto offset = places[k] - places[i];
@@ -261,8 +261,8 @@ Badges layOutBadges(std::span<const juce::Point<float>> places, std::span<const 
     const float height = juce::jlimit(minBadgeHeight, maxBadgeHeight, 0.75f * minDistance(places));
     Badges home;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const float minWidth = std::max(height, std::min(twoLetters, textWidths[i]));
-        home.push_back(juce::Rectangle<float>{widthOf(i, places, textWidths, minWidth, height), height}
+        const float minWidth = std::max(height, std::min(twoLettersWidth, textWidths[i]));
+        home.push_back(juce::Rectangle<float>{badgeWidth(i, places, textWidths, minWidth, height), height}
                            .withCentre(places[i])
                            .constrainedWithin(room));
     }

@@ -45,8 +45,8 @@ struct MaterialPicture {
 };
 
 /// The picture of a material; null: none. Any thread.
-const MaterialPicture* pictureOf(const std::vector<MaterialPicture>& pictures,
-                                 std::string_view material) noexcept;
+const MaterialPicture* findPicture(const std::vector<MaterialPicture>& pictures,
+                                   std::string_view material) noexcept;
 
 /// Fills `path`, centred on 0,0 and transformed by `transform`, with a picture scaled to cover it. M.
 void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& transform,
@@ -81,7 +81,7 @@ private:
         std::vector<juce::Image> pictures; // null until they are needed
     };
     DiscCache& cacheOf(const Disc& disc);
-    juce::Image pictureOf(const Disc& disc, int turn, juce::Point<int> phase) const;
+    juce::Image renderDisc(const Disc& disc, int turn, juce::Point<int> phase) const;
 
     float scale_ = 1.0f; // of the pictures
     std::vector<DiscCache> discCaches_;

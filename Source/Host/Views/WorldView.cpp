@@ -116,7 +116,7 @@ void WorldView::update(WorldFrame moment) {
     if (hasChanged) repaint();
 }
 
-juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
+juce::Colour WorldView::eventColour(const CollisionEvent& event) const {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
         if (scene_.materials[i].frequencyHz == event.frequencyHz &&
             scene_.materials[i].decayPerSecond == event.decayPerSecond)
@@ -166,66 +166,66 @@ void WorldView::followInputs() {
 }
 
 // The pose in the world, or the start pose of a body that has not appeared yet.
-BodyPose WorldView::poseBefore(std::size_t body) const {
+BodyPose WorldView::worldPose(std::size_t body) const {
     if (!pendingPoses_.empty() && body < pendingPoses_.front().poses.size())
         return pendingPoses_.front().poses[body];
     if (const int before = bodyStates_[body].replaced; before >= 0)
-        if (const BodyPose pose = poseBefore(static_cast<std::size_t>(before)); pose.isPresent) return pose;
+        if (const BodyPose pose = worldPose(static_cast<std::size_t>(before)); pose.isPresent) return pose;
     const auto& b = bodies_[body];
     return {b.positionMetres.x, b.positionMetres.y, b.angleRadians,
             body < scene_.bodies.size() || body >= firstInputBody_};
 }
 
-BodyPose WorldView::poseOf(std::size_t body) const {
-    BodyPose pose = poseBefore(body);
+BodyPose WorldView::bodyPose(std::size_t body) const {
+    BodyPose pose = worldPose(body);
     pose.isPresent = pose.isPresent && !bodyStates_[body].isGone;
     return pose;
 }
 
-juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const FieldTransform& at) const {
+juce::AffineTransform WorldView::toTransform(const BodyPose& pose, const FieldTransform& view) const {
     return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians))
-        .translated(at.at(pose.xMetres, pose.yMetres));
+        .translated(view.toPixel(pose.xMetres, pose.yMetres));
 }
 
-juce::AffineTransform WorldView::placeOf(const FixtureDescription& fixture, const BodyPose& pose,
-                                         const FieldTransform& at) const {
+juce::AffineTransform WorldView::toTransform(const FixtureDescription& fixture, const BodyPose& pose,
+                                             const FieldTransform& view) const {
     return juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
-        .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre,
-                    static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
-        .followedBy(placeOf(pose, at));
+        .translated(static_cast<float>(fixture.offsetMetres.x) * view.pixelsPerMetre,
+                    static_cast<float>(-fixture.offsetMetres.y) * view.pixelsPerMetre)
+        .followedBy(toTransform(pose, view));
 }
 
 juce::Point<float> WorldView::actuatorPixel(int actuator) const {
     const auto& layout = layout_.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(actuator)];
-    return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres,
-                    place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
+    return map().toPixel(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres,
+                         place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
 }
 
-juce::Point<float> WorldView::pixelOfShare(FieldShare at) const {
-    return map().at(at.x * scene_.fieldWidthMetres, at.y * scene_.fieldHeightMetres);
+juce::Point<float> WorldView::pixelOfShare(FieldShare place) const {
+    return map().toPixel(place.x * scene_.fieldWidthMetres, place.y * scene_.fieldHeightMetres);
 }
 
 juce::Point<float> WorldView::pixelOfBody(const std::string& name) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (const auto pose = poseOf(i); bodies_[i].name == name && pose.isPresent)
-            return map().at(pose.xMetres, pose.yMetres);
+        if (const auto pose = bodyPose(i); bodies_[i].name == name && pose.isPresent)
+            return map().toPixel(pose.xMetres, pose.yMetres);
     return {-1e4f, -1e4f};
 }
 
 std::optional<BodyPose> WorldView::poseOfBody(const std::string& name) const {
     for (std::size_t i = bodies_.size(); i-- > 0;)
-        if (const auto pose = poseOf(i); bodies_[i].name == name && pose.isPresent) return pose;
+        if (const auto pose = bodyPose(i); bodies_[i].name == name && pose.isPresent) return pose;
     return std::nullopt;
 }
 
 Vector WorldView::metresAt(juce::Point<float> place) const {
-    const auto at = map();
-    return {static_cast<double>((place.x - at.field.getX()) / at.pixelsPerMetre),
-            static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
+    const auto view = map();
+    return {static_cast<double>((place.x - view.field.getX()) / view.pixelsPerMetre),
+            static_cast<double>((view.field.getBottom() - place.y) / view.pixelsPerMetre)};
 }
 
-juce::String WorldView::labelOf(int actuator) const {
+juce::String WorldView::labelFor(int actuator) const {
     return juce::String::fromUTF8(layout_.actuators[static_cast<std::size_t>(actuator)].label.c_str());
 }
 
@@ -237,15 +237,15 @@ juce::Font WorldView::badgeFont() const {
 const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
     const auto field = map().field;
     const auto count = static_cast<std::size_t>(layout_.geometry.count);
-    if (badges_.size() == count && field == badgesIn_) return badges_;
+    if (badges_.size() == count && field == badgeField_) return badges_;
     std::vector<juce::Point<float>> places;
     for (int j = 0; j < layout_.geometry.count; ++j) places.push_back(actuatorPixel(j));
-    badgesIn_ = field;
+    badgeField_ = field;
     badges_.clear();
     for (int pass = 0; pass < 2; ++pass) { // the second with the text that fits the height
         std::vector<float> widths;
         for (int j = 0; j < layout_.geometry.count; ++j)
-            widths.push_back(text::width(badgeFont(), labelOf(j)) + 8.0f);
+            widths.push_back(text::width(badgeFont(), labelFor(j)) + 8.0f);
         badges_ = layOutBadges(places, widths, getLocalBounds().reduced(4).toFloat());
     }
     return badges_;
@@ -254,31 +254,31 @@ const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
 void WorldView::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::panel));
     if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return g.fillAll();
-    const auto at = map();
+    const auto view = map();
     juce::RectangleList<int> around{getLocalBounds()}; // the field is filled by drawField
-    around.subtract(at.field.reduced(1.0f).toNearestInt());
+    around.subtract(view.field.reduced(1.0f).toNearestInt());
     g.fillRectList(around);
     drawHalos(g);
-    drawField(g, at);
+    drawField(g, view);
     {
-        const juce::Graphics::ScopedSaveState whole{g};
-        g.reduceClipRegion(at.field.expanded(wallPixels).toNearestInt());
-        drawBodies(g, at);
+        const juce::Graphics::ScopedSaveState savedState{g};
+        g.reduceClipRegion(view.field.expanded(wallPixels).toNearestInt());
+        drawBodies(g, view);
     }
-    drawRays(g, at);
-    drawTraces(g, at);
-    drawHits(g, at);
+    drawRays(g, view);
+    drawTraces(g, view);
+    drawHits(g, view);
     drawSpot(g);
     drawActuators(g);
     drawGrip(g);
     drawFiles(g);
 }
 
-void WorldView::drawField(juce::Graphics& g, const FieldTransform& at) {
+void WorldView::drawField(juce::Graphics& g, const FieldTransform& view) {
     g.setColour(shade(*this, Shade::well));
-    g.fillRect(at.field);
+    g.fillRect(view.field);
     if (gainMapActuator_ < 0 || gainMapActuator_ >= layout_.geometry.count || panner_.channels() == 0) return;
-    const auto field = at.field.toNearestInt();
+    const auto field = view.field.toNearestInt();
     if (gainMap_.isNull()) // smooth enough, and fast enough while an actuator is dragged
         gainMap_ =
             gainImage(panner_, gainMapActuator_, actuatorColour(*this, gainMapActuator_), 96, 54)
@@ -293,18 +293,18 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     const auto& material = scene_.materials[index];
     const auto look = findMaterialLook(material.name);
     const bool isHollow = look && isHollowDensity(*look, material.densityKgPerSquareMetre);
-    if (const MaterialPicture* const picture = pictureOf(pictures_, material.name))
+    if (const MaterialPicture* const picture = findPicture(pictures_, material.name))
         return fillWithPicture(g, path, place, picture->image, isHollow), true;
     if (look) fillWithMaterial(g, path, place, *look, isHollow);
     return look.has_value();
 }
 
 // Draws a small plain circle from a cached picture; false: nothing was drawn.
-bool WorldView::drawSmallCircle(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
-                                double angle, const juce::AffineTransform& place, const FieldTransform& at) {
+bool WorldView::drawSmallDisc(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
+                              double angle, const juce::AffineTransform& place, const FieldTransform& view) {
     const auto* circle = std::get_if<CircleShape>(&fixture.shape);
     if (circle == nullptr || showsMaterials_) return false;
-    const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
+    const float r = static_cast<float>(circle->radiusMetres) * view.pixelsPerMetre;
     if (r < minSpokePixels) return false; // drawn larger than it is
     const auto none = juce::Colours::transparentBlack;
     return discs_.draw(g,
@@ -313,23 +313,23 @@ bool WorldView::drawSmallCircle(juce::Graphics& g, const FixtureDescription& fix
                        juce::Point<float>{}.transformedBy(place), static_cast<float>(-angle));
 }
 
-void WorldView::drawBodies(juce::Graphics& g, const FieldTransform& at) {
-    const juce::Graphics::ScopedSaveState before{g};
+void WorldView::drawBodies(juce::Graphics& g, const FieldTransform& view) {
+    const juce::Graphics::ScopedSaveState savedState{g};
     const bool areMany = bodies_.size() > quickDrawBodies;
     if (areMany) g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // whole pixels
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const auto& body = bodies_[i];
-        const BodyPose pose = poseOf(i);
+        const BodyPose pose = bodyPose(i);
         if (!pose.isPresent) continue;
         for (const auto& fixture : body.fixtures) {
-            const auto place = placeOf(fixture, pose, at);
+            const auto place = toTransform(fixture, pose, view);
             const auto colour =
                 palette::material(scene_.materials, fixture.material)
                     .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f);
             if (areMany &&
-                drawSmallCircle(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
+                drawSmallDisc(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, view))
                 continue;
-            const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
+            const auto path = shapeOutline<juce::Path>(fixture.shape, view.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
             g.setColour(colour);
             if (isLine)
@@ -337,7 +337,7 @@ void WorldView::drawBodies(juce::Graphics& g, const FieldTransform& at) {
             else if (!drawMaterial(g, fixture, path, place))
                 g.fillPath(path, place);
             const auto* circle = std::get_if<CircleShape>(&fixture.shape);
-            const float r = circle ? static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre : 0.0f;
+            const float r = circle ? static_cast<float>(circle->radiusMetres) * view.pixelsPerMetre : 0.0f;
             if (r >= minSpokePixels) { // shows the rotation
                 juce::Path spoke;
                 spoke.startNewSubPath(0.0f, 0.0f);
@@ -362,7 +362,7 @@ void WorldView::addContact(const CollisionEvent& event, double nowMs, bool isFel
             isFelt = isFelt || (gains[static_cast<std::size_t>(j)] >= minShownGain && !isMuted(j));
     }
     if (event.source.kind == ContactKind::hit)
-        return hits_.push_back({event, colourOf(event), nowMs, isFelt});
+        return hits_.push_back({event, eventColour(event), nowMs, isFelt});
     const auto isSamePair = [&](const Trace& t) {
         return t.source.fixture == event.source.fixture && t.source.other == event.source.other;
     };
@@ -370,24 +370,24 @@ void WorldView::addContact(const CollisionEvent& event, double nowMs, bool isFel
     const Vector point{event.x, event.y};
     if (last == traces_.rend() || last->shownAtMs != nowMs)
         return traces_.push_back({event.source, last == traces_.rend() ? point : last->toMetres, point,
-                                  event.amplitude, colourOf(event), nowMs, isFelt});
+                                  event.amplitude, eventColour(event), nowMs, isFelt});
     // the middle between the points of a two-point contact
     last->toMetres = {0.5 * (last->toMetres.x + point.x), 0.5 * (last->toMetres.y + point.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
-float WorldView::ageOf(double shownAtMs) const {
+float WorldView::relativeAge(double shownAtMs) const {
     return static_cast<float>(juce::jlimit(0.0, 1.0, (nowMs_ - shownAtMs) / hitMs));
 }
 
 // Traces have a white core, as hits have, and cover the outlines that they follow; weak ones remain visible.
-void WorldView::drawTraces(juce::Graphics& g, const FieldTransform& at) const {
+void WorldView::drawTraces(juce::Graphics& g, const FieldTransform& view) const {
     for (const auto& trace : traces_) {
         const float level = glowLevel(trace.amplitude),
-                    fade = (1.0f - ageOf(trace.shownAtMs)) * (0.4f + 0.6f * level);
+                    fade = (1.0f - relativeAge(trace.shownAtMs)) * (0.4f + 0.6f * level);
         juce::Path path;
-        path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
-        path.lineTo(at.at(trace.toMetres.x, trace.toMetres.y));
+        path.startNewSubPath(view.toPixel(trace.fromMetres.x, trace.fromMetres.y));
+        path.lineTo(view.toPixel(trace.toMetres.x, trace.toMetres.y));
         if (!trace.isFelt) {
             g.setColour(shade(*this, Shade::muted).withAlpha(fade));
             g.strokePath(path, juce::PathStrokeType{1.5f});
@@ -404,13 +404,13 @@ void WorldView::drawTraces(juce::Graphics& g, const FieldTransform& at) const {
     }
 }
 
-void WorldView::drawHits(juce::Graphics& g, const FieldTransform& at) const {
+void WorldView::drawHits(juce::Graphics& g, const FieldTransform& view) const {
     const auto amber = shade(*this, Shade::highlight);
     const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // needs thick lines
     for (const auto& hit : hits_) {
-        const float age = ageOf(hit.shownAtMs), level = glowLevel(hit.event.amplitude),
+        const float age = relativeAge(hit.shownAtMs), level = glowLevel(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);
-        const auto centre = at.at(hit.event.x, hit.event.y);
+        const auto centre = view.toPixel(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
         const auto ring = juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre);
         if (!hit.isFelt) { // only what is felt glows
@@ -427,15 +427,15 @@ void WorldView::drawHits(juce::Graphics& g, const FieldTransform& at) const {
 }
 
 // Lines from the strongest current hit to each actuator; width and brightness show the actuator's gain.
-void WorldView::drawRays(juce::Graphics& g, const FieldTransform& at) const {
+void WorldView::drawRays(juce::Graphics& g, const FieldTransform& view) const {
     const auto light = [this](const Hit& hit) {
-        return hit.isFelt ? glowLevel(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)) : 0.0f;
+        return hit.isFelt ? glowLevel(hit.event.amplitude) * (1.0f - relativeAge(hit.shownAtMs)) : 0.0f;
     };
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
     PhantomPanner::Gains gains{};
     panner_.gainsAt(strongest->event, gains);
-    const auto from = at.at(strongest->event.x, strongest->event.y);
+    const auto from = view.toPixel(strongest->event.x, strongest->event.y);
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
         if (gains[static_cast<std::size_t>(j)] < minShownGain || isMuted(j)) continue;
@@ -467,11 +467,11 @@ void drawDashes(juce::Graphics& g, juce::Rectangle<float> badge) {
 
 void WorldView::drawActuators(juce::Graphics& g) const {
     for (int j = 0; j < layout_.geometry.count; ++j) // lines to the true places of moved badges
-        if (const juce::Line<float> way{actuatorPixel(j), badgeAt(j).getCentre()};
-            !badgeAt(j).contains(way.getStart())) {
+        if (const juce::Line<float> leader{actuatorPixel(j), badgeAt(j).getCentre()};
+            !badgeAt(j).contains(leader.getStart())) {
             g.setColour(actuatorColour(*this, j));
-            g.drawLine(way, 1.5f);
-            g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(way.getStart()));
+            g.drawLine(leader, 1.5f);
+            g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(leader.getStart()));
         }
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto colour = isMuted(j) ? shade(*this, Shade::muted) : actuatorColour(*this, j);
@@ -491,7 +491,7 @@ void WorldView::drawActuators(juce::Graphics& g) const {
             g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         if (j == selected_) g.setColour(shade(*this, Shade::well));
         g.setFont(badgeFont());
-        g.drawText(labelOf(j), badge.reduced(3.0f, 0.0f), juce::Justification::centred, true);
+        g.drawText(labelFor(j), badge.reduced(3.0f, 0.0f), juce::Justification::centred, true);
         if (!isMuted(j) || isWithoutOutput(j)) continue;
         for (const auto& [corner, other] : {std::pair{badge.getBottomLeft(), badge.getTopRight()},
                                             {badge.getTopRight(), badge.getBottomLeft()}})
@@ -504,25 +504,26 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     const auto centre = pixelOfShare(*spot_);
     g.setColour(shade(*this, Shade::text));
     g.drawEllipse(juce::Rectangle<float>{16.0f, 16.0f}.withCentre(centre), 1.5f);
-    for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
-        g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
+    for (const auto& direction : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
+        g.drawLine({centre + direction * 5.0f, centre + direction * 13.0f}, 1.5f);
 }
 
 // Highlights the actuator or the place that would play the dropped files, with a label on the field's side.
 void WorldView::drawFiles(juce::Graphics& g) const {
     if (!filesAt_) return;
-    const auto at = map();
+    const auto view = map();
     const int actuator = actuatorAt(*filesAt_);
     const auto target =
-        actuator >= 0 ? badgeAt(actuator).expanded(5.0f)
-                      : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(pixelOfShare(at.shareAt(*filesAt_)));
+        actuator >= 0
+            ? badgeAt(actuator).expanded(5.0f)
+            : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(pixelOfShare(view.toShare(*filesAt_)));
     const float corner = actuator >= 0 ? 10.0f : 13.0f;
-    const auto words = actuator >= 0 ? "felt on " + labelOf(actuator) + " alone" : juce::String{"felt here"};
+    const auto words = actuator >= 0 ? "felt on " + labelFor(actuator) + " alone" : juce::String{"felt here"};
     const auto font = text::font(text::small);
     const float below = 0.5f * target.getHeight() + 15.0f;
     const auto plate = juce::Rectangle<float>{text::width(font, words) + 14.0f, 20.0f}
                            .withCentre(target.getCentre().translated(
-                               0.0f, target.getCentreY() < at.field.getCentreY() ? below : -below))
+                               0.0f, target.getCentreY() < view.field.getCentreY() ? below : -below))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
     g.fillRoundedRectangle(plate, 5.0f);
@@ -537,12 +538,12 @@ void WorldView::drawFiles(juce::Graphics& g) const {
 // A line from the body to the mouse.
 void WorldView::drawHold(juce::Graphics& g) const {
     if (grip_.body < 0) return;
-    const auto at = map();
+    const auto view = map();
     const auto point =
         juce::Point<float>{static_cast<float>(grip_.point.x), static_cast<float>(-grip_.point.y)} *
-        at.pixelsPerMetre;
-    const auto start = point.transformedBy(placeOf(poseOf(static_cast<std::size_t>(grip_.body)), at)),
-               hand = pixelOfShare(at.shareAt(grip_.to));
+        view.pixelsPerMetre;
+    const auto start = point.transformedBy(toTransform(bodyPose(static_cast<std::size_t>(grip_.body)), view)),
+               hand = pixelOfShare(view.toShare(grip_.end));
     g.setColour(shade(*this, Shade::text));
     g.drawLine({start, hand}, 1.8f);
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(start));
@@ -558,10 +559,10 @@ void WorldView::drawGrip(juce::Graphics& g) const {
         g.drawText("+", badge, juce::Justification::centred, false);
     }
     if (isHolding()) return drawHold(g);
-    if (grip_.body < 0 || grip_.from.getDistanceFrom(grip_.to) < 3.0f) return;
+    if (grip_.body < 0 || grip_.start.getDistanceFrom(grip_.end) < 3.0f) return;
     juce::Path line, dashed;
-    line.startNewSubPath(grip_.from);
-    line.lineTo(grip_.to);
+    line.startNewSubPath(grip_.start);
+    line.lineTo(grip_.end);
     constexpr float dashes[]{6.0f, 5.0f};
     juce::PathStrokeType{1.8f}.createDashedStroke(dashed, line, dashes, 2);
     g.setColour(shade(*this, Shade::text));
@@ -569,10 +570,10 @@ void WorldView::drawGrip(juce::Graphics& g) const {
     if (!flingText) return;
     g.setFont(text::font(text::small));
     const auto words = juce::Rectangle<float>{130.0f, 18.0f}
-                           .withCentre(grip_.to.translated(0.0f, -16.0f))
+                           .withCentre(grip_.end.translated(0.0f, -16.0f))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());
     g.drawText(
-        flingText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)),
+        flingText(grip_.start.getDistanceFrom(grip_.end) / screenPixelsPerMetre(*this, displayWidthMetres_)),
         words, juce::Justification::centred, false);
 }
 
@@ -585,13 +586,13 @@ bool isDrag(const juce::MouseEvent& e) { return e.source.hasMovedSignificantlySi
 
 bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
     constexpr float near = 6.0f; // pixels from a line that still hit it
-    const auto at = map();
-    const auto pose = poseOf(body);
+    const auto view = map();
+    const auto pose = bodyPose(body);
     if (!pose.isPresent) return false;
     const bool moves = bodies_[body].type == BodyType::dynamicBody;
     return std::ranges::any_of(bodies_[body].fixtures, [&](const FixtureDescription& fixture) {
-        auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
-        path.applyTransform(placeOf(fixture, pose, at));
+        auto path = shapeOutline<juce::Path>(fixture.shape, view.pixelsPerMetre);
+        path.applyTransform(toTransform(fixture, pose, view));
         if (juce::Point<float> nearest; std::holds_alternative<ChainShape>(fixture.shape))
             return path.getNearestPoint(p, nearest), nearest.getDistanceFrom(p) < near;
         return path.contains(p) ||
@@ -615,7 +616,7 @@ std::vector<std::string> WorldView::bodiesAt(juce::Point<float> place) const {
 }
 
 WorldView::Target WorldView::targetAt(juce::Point<float> place) const {
-    Target target{actuatorAt(place), {}, map().shareAt(place)};
+    Target target{actuatorAt(place), {}, map().toShare(place)};
     if (target.actuator >= 0) return target;
     const auto under = bodiesAt(place);
     if (!under.empty()) target.body = under.front();
@@ -645,20 +646,20 @@ void WorldView::mouseDown(const juce::MouseEvent& e) {
     if (onSelect) onSelect(grip_.actuator);
     if (!onHold || body < 0 || !e.mods.isShiftDown()) return;
     grip_.held = bodies_[static_cast<std::size_t>(body)].name;
-    grip_.point = pointOf(grip_);
+    grip_.point = bodyPoint(grip_);
     hold();
 }
 
 void WorldView::hold() {
-    const auto share = map().shareAt(grip_.to);
+    const auto share = map().toShare(grip_.end);
     onHold(grip_.held, grip_.point, {share.x * scene_.fieldWidthMetres, share.y * scene_.fieldHeightMetres});
 }
 
 void WorldView::mouseDrag(const juce::MouseEvent& e) {
-    grip_.to = e.position;
+    grip_.end = e.position;
     grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
     if (grip_.actuator >= 0 && onMove && !grip_.isOutside && isDrag(e))
-        onMove(grip_.actuator, map().shareAt(e.position));
+        onMove(grip_.actuator, map().toShare(e.position));
     if (isHolding()) hold();
     if (grip_.body >= 0) repaint();
 }
@@ -676,17 +677,17 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     if (grip.actuator >= 0 && grip.isOutside && onDetach) return onDetach(grip.actuator);
     if (onSpot && grip.actuator < 0 && !e.mods.isPopupMenu() && !isDrag(e) &&
         map().field.contains(e.position))
-        return onSpot(map().shareAt(e.position));
+        return onSpot(map().toShare(e.position));
     if (grip.body < 0 || !onFling || !isDrag(e)) return;
-    const auto way = (e.position - grip.from).toDouble() / screenPixelsPerMetre(*this, displayWidthMetres_);
-    onFling(bodies_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
+    const auto drag = (e.position - grip.start).toDouble() / screenPixelsPerMetre(*this, displayWidthMetres_);
+    onFling(bodies_[static_cast<std::size_t>(grip.body)].name, {drag.x, -drag.y}, bodyPoint(grip));
 }
 
 // The point in the body's own, rotated coordinates.
-Vector WorldView::pointOf(const Grip& grip) const {
-    const auto at = map();
-    const auto pose = poseOf(static_cast<std::size_t>(grip.body));
-    const auto start = (grip.from - at.at(pose.xMetres, pose.yMetres)) / at.pixelsPerMetre;
+Vector WorldView::bodyPoint(const Grip& grip) const {
+    const auto view = map();
+    const auto pose = bodyPose(static_cast<std::size_t>(grip.body));
+    const auto start = (grip.start - view.toPixel(pose.xMetres, pose.yMetres)) / view.pixelsPerMetre;
     const double c = std::cos(pose.angleRadians), s = std::sin(pose.angleRadians);
     return {c * start.x - s * start.y, -s * start.x - c * start.y};
 }
@@ -707,7 +708,7 @@ void WorldView::itemDragExit(const SourceDetails&) {
 
 void WorldView::itemDropped(const SourceDetails& details) {
     dropAt_.reset();
-    onAttach(map().shareAt(details.localPosition.toFloat()));
+    onAttach(map().toShare(details.localPosition.toFloat()));
 }
 
 void WorldView::fileDragMove(const juce::StringArray&, int x, int y) {
@@ -722,8 +723,8 @@ void WorldView::fileDragExit(const juce::StringArray&) {
 
 void WorldView::filesDropped(const juce::StringArray& files, int x, int y) {
     fileDragExit(files);
-    const auto at = juce::Point<int>{x, y}.toFloat();
-    onFiles(files, actuatorAt(at), map().shareAt(at));
+    const auto pixel = juce::Point<int>{x, y}.toFloat();
+    onFiles(files, actuatorAt(pixel), map().toShare(pixel));
 }
 
 } // namespace physvib

@@ -83,14 +83,14 @@ public:
     /// While an actuator is dragged: its new place.
     std::function<void(int actuator, FieldShare to)> onMove;
     std::function<void(int actuator)> onDetach; ///< dropped outside
-    std::function<void(FieldShare at)> onAttach;
+    std::function<void(FieldShare place)> onAttach;
     std::function<void(int actuator)> onSelect;
     std::function<void(juce::Point<float> place)> onMenu; ///< right click; targetAt() says on what
-    std::function<void(FieldShare at)> onSpot;            ///< a click without a drag
+    std::function<void(FieldShare place)> onSpot;         ///< a click without a drag
     /// Whether the dragged files may be dropped.
     std::function<bool(const juce::StringArray& files)> acceptsFiles;
     /// Files dropped on that actuator; -1: in the field.
-    std::function<void(const juce::StringArray& files, int actuator, FieldShare at)> onFiles;
+    std::function<void(const juce::StringArray& files, int actuator, FieldShare place)> onFiles;
 
     void paint(juce::Graphics& g) override;
     void resized() override { gainMap_ = {}, badges_.clear(); }
@@ -110,7 +110,7 @@ public:
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
     /// Positions in pixels of this component. M.
-    juce::Point<float> pixelOfShare(FieldShare at) const;
+    juce::Point<float> pixelOfShare(FieldShare place) const;
     juce::Point<float> actuatorPixel(int actuator) const;
     juce::Point<float> pixelOfBody(const std::string& name) const; ///< outside the view if the body is absent
     bool isHolding() const noexcept { return !grip_.held.empty(); }
@@ -118,7 +118,7 @@ public:
     void cancelDrag(); ///< releases what is dragged without throwing it
 
     /// For components that draw over this view. Places in metres of the field; they may lie outside it. M.
-    juce::Point<float> pixelOfMetres(Vector at) const { return map().at(at.x, at.y); }
+    juce::Point<float> pixelOfMetres(Vector place) const { return map().toPixel(place.x, place.y); }
     Vector metresAt(juce::Point<float> place) const;
     float pixelsPerMetre() const { return map().pixelsPerMetre; }
     std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as drawn; none: absent
@@ -158,11 +158,11 @@ private:
     struct FieldTransform {
         juce::Rectangle<float> field;
         float pixelsPerMetre;
-        juce::Point<float> at(double x, double y) const {
+        juce::Point<float> toPixel(double x, double y) const {
             return {field.getX() + static_cast<float>(x) * pixelsPerMetre,
                     field.getBottom() - static_cast<float>(y) * pixelsPerMetre};
         }
-        FieldShare shareAt(juce::Point<float> p) const {
+        FieldShare toShare(juce::Point<float> p) const {
             return {
                 juce::jlimit(0.0, 1.0, static_cast<double>((p.x - field.getX()) / field.getWidth())),
                 juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
@@ -170,7 +170,7 @@ private:
     };
     struct Grip { // what the mouse drags; -1: no actuator, no body
         int actuator = -1, body = -1;
-        juce::Point<float> from, to;
+        juce::Point<float> start, end;
         bool isOutside = false;
         std::string held{}; // name of the body
         Vector point{};     // point on the body
@@ -178,37 +178,37 @@ private:
     juce::Rectangle<float> fieldArea() const;
     float fittingPixelsPerMetre() const; ///< scale at which the field just fits
     FieldTransform map() const;
-    Vector pointOf(const Grip& grip) const;
+    Vector bodyPoint(const Grip& grip) const;
     void hold();
     void drawHold(juce::Graphics& g) const;
-    juce::Colour colourOf(const CollisionEvent& event) const;
-    BodyPose poseOf(std::size_t body) const;
-    BodyPose poseBefore(std::size_t body) const;
+    juce::Colour eventColour(const CollisionEvent& event) const;
+    BodyPose bodyPose(std::size_t body) const;
+    BodyPose worldPose(std::size_t body) const;
     void followInputs();
-    juce::AffineTransform placeOf(const BodyPose& pose, const FieldTransform& at) const;
-    juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose,
-                                  const FieldTransform& at) const;
+    juce::AffineTransform toTransform(const BodyPose& pose, const FieldTransform& view) const;
+    juce::AffineTransform toTransform(const FixtureDescription& fixture, const BodyPose& pose,
+                                      const FieldTransform& view) const;
     bool drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path,
                       const juce::AffineTransform& place) const;
     int bodyAt(juce::Point<float> p) const;
     bool isOn(std::size_t body, juce::Point<float> p) const;
     int actuatorAt(juce::Point<float> p) const;
-    juce::String labelOf(int actuator) const;
+    juce::String labelFor(int actuator) const;
     juce::Font badgeFont() const;
-    void drawField(juce::Graphics& g, const FieldTransform& at);
-    void drawBodies(juce::Graphics& g, const FieldTransform& at);
-    bool drawSmallCircle(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
-                         double angle, const juce::AffineTransform& place, const FieldTransform& at);
-    void drawHits(juce::Graphics& g, const FieldTransform& at) const;
+    void drawField(juce::Graphics& g, const FieldTransform& view);
+    void drawBodies(juce::Graphics& g, const FieldTransform& view);
+    bool drawSmallDisc(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
+                       double angle, const juce::AffineTransform& place, const FieldTransform& view);
+    void drawHits(juce::Graphics& g, const FieldTransform& view) const;
     void addContact(const CollisionEvent& event, double nowMs, bool isFelt);
-    float ageOf(double shownAtMs) const; ///< 0: just shown, 1: faded
-    static bool isTrueAt(const std::vector<bool>& of, int actuator) {
-        return static_cast<std::size_t>(actuator) < of.size() && of[static_cast<std::size_t>(actuator)];
+    float relativeAge(double shownAtMs) const; ///< 0: just shown, 1: faded
+    static bool isTrueAt(const std::vector<bool>& flags, int actuator) {
+        return static_cast<std::size_t>(actuator) < flags.size() && flags[static_cast<std::size_t>(actuator)];
     }
     bool isMuted(int actuator) const { return isTrueAt(muted_, actuator); }
     bool isWithoutOutput(int actuator) const { return isTrueAt(withoutOutput_, actuator); }
-    void drawTraces(juce::Graphics& g, const FieldTransform& at) const;
-    void drawRays(juce::Graphics& g, const FieldTransform& at) const;
+    void drawTraces(juce::Graphics& g, const FieldTransform& view) const;
+    void drawRays(juce::Graphics& g, const FieldTransform& view) const;
     void drawHalos(juce::Graphics& g) const;
     void drawActuators(juce::Graphics& g) const;
     void drawSpot(juce::Graphics& g) const;
@@ -238,8 +238,8 @@ private:
     int gainMapActuator_ = -1, selected_ = -1, margin_ = 38;
     bool showsMaterials_ = false;
     juce::Image gainMap_;
-    mutable std::vector<juce::Rectangle<float>> badges_; // laid out within badgesIn_; empty: not yet
-    mutable juce::Rectangle<float> badgesIn_;
+    mutable std::vector<juce::Rectangle<float>> badges_; // laid out within badgeField_; empty: not yet
+    mutable juce::Rectangle<float> badgeField_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_, filesAt_;
     std::optional<FieldShare> spot_;

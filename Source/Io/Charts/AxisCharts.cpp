@@ -29,7 +29,7 @@ ChartAxis valueAxis(const BarChart& chart) {
     return ChartAxis::linear(min, max, chart.min > 0.0 ? static_cast<int>(std::ceil(max - min)) : 5);
 }
 
-std::vector<LegendItem> legendOf(const BarChart& chart) {
+std::vector<LegendItem> legendItems(const BarChart& chart) {
     std::vector<LegendItem> items;
     for (std::size_t s = 0; s < chart.series.size(); ++s)
         if (!chart.series[s].name.empty()) items.push_back({chart.series[s].name, s, LegendItem::Kind::bar});
@@ -96,7 +96,7 @@ struct BarDrawing {
 } // namespace
 
 std::string barChart(const BarChart& chart) {
-    const auto legend = legendOf(chart);
+    const auto legend = legendItems(chart);
     const double right = chart.reference ? chartWidth - 10.0 - textWidth(chart.reference->second, smallSize)
                                          : chartWidth - 14.0;
     const double maxTextWidth = detail::maxTextWidth(chart.groups, labelSize);
@@ -143,7 +143,7 @@ struct Extent {
     }
 };
 
-std::vector<LegendItem> legendOf(const LineChart& chart) {
+std::vector<LegendItem> legendItems(const LineChart& chart) {
     std::vector<LegendItem> items;
     for (const LineSeries& series : chart.series)
         if (!series.name.empty())
@@ -160,14 +160,14 @@ struct LineDrawing {
     PlotArea area;
     ChartAxis x, y;
 
-    ChartPoint pixelOf(const LinePoint& point) const {
+    ChartPoint toPixels(const LinePoint& point) const {
         return {area.x(x, point.x), area.y(y, point.y.value)};
     }
 
     void drawLine(const LineSeries& series) const {
         std::string pathData;
         for (const LinePoint& point : series.points)
-            appendPoint(pathData, pathData.empty() ? 'M' : 'L', pixelOf(point));
+            appendPoint(pathData, pathData.empty() ? 'M' : 'L', toPixels(point));
         if (series.isFaint)
             svg.path(pathData, "none", {"#aaa", 0.8});
         else
@@ -180,7 +180,7 @@ struct LineDrawing {
         if (series.hasLine) drawLine(series);
         if (!series.hasMarkers) return;
         for (const LinePoint& point : series.points) {
-            const ChartPoint centre = pixelOf(point);
+            const ChartPoint centre = toPixels(point);
             if (point.y.min < point.y.max)
                 svg.whisker({centre.x, area.y(y, point.y.min)}, {centre.x, area.y(y, point.y.max)},
                             {"#222", 1.2});
@@ -218,7 +218,7 @@ std::string lineChart(const LineChart& chart) {
             xs.include(point.x);
             for (const double value : {point.y.value, point.y.min, point.y.max}) ys.include(value);
         }
-    const auto legend = legendOf(chart);
+    const auto legend = legendItems(chart);
     const double left = 66.0, right = chart.width - 16.0;
     const double titleBottom = titleHeight(chart.frame.title, chart.width);
     const double top = titleBottom + legendHeight(legend, right - left) + 10.0;

@@ -127,7 +127,7 @@ std::string svgHead(double width, double height) {
 }
 
 /// Width and height of a picture, read from the text that svgHead() wrote.
-ChartPoint sizeOf(std::string_view svg) {
+ChartPoint pictureSize(std::string_view svg) {
     svg.remove_prefix(svgBegin.size());
     const std::string_view width = takeUntil(' ', svg), height = takeUntil('"', svg);
     return {parseNumber<double>(width).value_or(0.0), parseNumber<double>(height).value_or(0.0)};
@@ -192,7 +192,7 @@ Svg::Svg(ChartFrame frame, double width, double height)
         text({8.0, y += 18.0}, line, {detail::titleSize, Anchor::start, 0.0, true});
 }
 
-void Svg::open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers) {
+void Svg::openTag(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers) {
     body_.append("<").append(tag);
     for (const auto& [name, value] : numbers) attribute(name, svgNumbers({value}));
 }
@@ -201,7 +201,7 @@ void Svg::attribute(std::string_view name, std::string_view value) {
     body_.append(" ").append(name).append("=\"").append(value).append("\"");
 }
 
-void Svg::close(const Stroke& stroke, std::string_view moreAttributes) {
+void Svg::closeTag(const Stroke& stroke, std::string_view moreAttributes) {
     if (stroke.colour != "none") {
         attribute("stroke", stroke.colour);
         if (stroke.width != 1.0) attribute("stroke-width", svgNumbers({stroke.width}));
@@ -212,35 +212,35 @@ void Svg::close(const Stroke& stroke, std::string_view moreAttributes) {
 }
 
 void Svg::line(ChartPoint from, ChartPoint to, Stroke stroke) {
-    open("line", {{"x1", from.x}, {"y1", from.y}, {"x2", to.x}, {"y2", to.y}});
-    close(stroke);
+    openTag("line", {{"x1", from.x}, {"y1", from.y}, {"x2", to.x}, {"y2", to.y}});
+    closeTag(stroke);
 }
 
 void Svg::rect(ChartPoint corner, double width, double height, std::string_view fill, Stroke stroke) {
-    open("rect", {{"x", corner.x}, {"y", corner.y}, {"width", width}, {"height", height}});
+    openTag("rect", {{"x", corner.x}, {"y", corner.y}, {"width", width}, {"height", height}});
     attribute("fill", fill);
-    close(stroke);
+    closeTag(stroke);
 }
 
 void Svg::path(std::string_view commands, std::string_view fill, Stroke stroke) {
-    open("path");
+    openTag("path");
     attribute("d", commands);
     attribute("fill", fill);
-    close(stroke, " stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+    closeTag(stroke, " stroke-linecap=\"round\" stroke-linejoin=\"round\"");
 }
 
 void Svg::ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
                   Stroke stroke) {
-    open("ellipse", {{"rx", radiusX}, {"ry", radiusY}});
+    openTag("ellipse", {{"rx", radiusX}, {"ry", radiusY}});
     attribute("transform",
               "translate(" + svgNumbers({centre.x, centre.y}) + ") rotate(" + svgNumbers({degrees}) + ")");
     attribute("fill", fill);
-    close(stroke);
+    closeTag(stroke);
 }
 
 void Svg::text(ChartPoint point, std::string_view label, TextStyle style) {
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
-    open("text", {{"x", point.x}, {"y", point.y}, {"font-size", style.size}});
+    openTag("text", {{"x", point.x}, {"y", point.y}, {"font-size", style.size}});
     if (style.anchor != Anchor::start)
         attribute("text-anchor", anchors[static_cast<std::size_t>(style.anchor)]);
     if (style.isBold) attribute("font-weight", "bold");
@@ -334,7 +334,7 @@ std::string chartSheet(const std::vector<std::string>& charts) {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0; // y and height are those of the current row
     std::string body;
     for (const std::string& chart : charts) {
-        const ChartPoint size = sizeOf(chart);
+        const ChartPoint size = pictureSize(chart);
         if (x > 0.0 && x + size.x > maxWidth) {
             y += height;
             x = height = 0.0;

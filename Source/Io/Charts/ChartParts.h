@@ -35,12 +35,12 @@ struct ChartAxis {
             min -= spread;
             max += spread;
         }
-        const double raw = (max - min) / approximateTicks,
-                     power = std::pow(10.0, std::floor(std::log10(raw)));
-        const double step = raw <= power * 1.0001   ? power
-                            : raw <= 2.0001 * power ? 2.0 * power
-                            : raw <= 5.0001 * power ? 5.0 * power
-                                                    : 10.0 * power;
+        const double rawStep = (max - min) / approximateTicks,
+                     power = std::pow(10.0, std::floor(std::log10(rawStep)));
+        const double step = rawStep <= power * 1.0001   ? power
+                            : rawStep <= 2.0001 * power ? 2.0 * power
+                            : rawStep <= 5.0001 * power ? 5.0 * power
+                                                        : 10.0 * power;
         const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step * 1.0001))), 0, 9);
         const double first = std::floor(min / step + 1e-9), last = std::ceil(max / step - 1e-9);
         ChartAxis axis{first * step, last * step};
@@ -125,9 +125,10 @@ public:
     std::string finish() const;
 
 private:
-    void open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers = {});
+    void openTag(std::string_view tag,
+                 std::initializer_list<std::pair<std::string_view, double>> numbers = {});
     void attribute(std::string_view name, std::string_view value);
-    void close(const Stroke& stroke, std::string_view moreAttributes = {});
+    void closeTag(const Stroke& stroke, std::string_view moreAttributes = {});
 
     ChartFrame frame_;
     double width_, height_;

@@ -53,10 +53,10 @@ struct GridDrawing {
                      y = corner.y + 0.5 * cellHeight() + (hasInterval ? -2.0 : 4.0);
         svg.text({x, y}, label, {smallSize, Anchor::middle, 0.0, false, colour});
         if (hasInterval)
-            svg.text({x, y + 12.0}, intervalOf(index), {9.0, Anchor::middle, 0.0, false, colour});
+            svg.text({x, y + 12.0}, intervalText(index), {9.0, Anchor::middle, 0.0, false, colour});
     }
     /// The interval as text, clamped to the possible values.
-    std::string intervalOf(std::size_t index) const {
+    std::string intervalText(std::size_t index) const {
         const double value = *chart.values[index], half = chart.halfIntervals[index];
         const auto label = [&](double end) {
             return fixedNumber(std::clamp(end, 0.0, chart.max), chart.decimals);
@@ -117,11 +117,11 @@ struct PlaceDrawing {
     Svg& svg;
     PlotArea area;
 
-    ChartPoint pixelAt(double x, double y) const {
+    ChartPoint toPixels(double x, double y) const {
         return {area.left + x * area.width(), area.top + y * area.height()};
     }
     /// Neighbours in a row and in a column have different styles.
-    std::size_t styleOf(std::size_t target) const {
+    std::size_t style(std::size_t target) const {
         return (target % chart.columns + 3 * (target / chart.columns)) % 7;
     }
 
@@ -140,12 +140,12 @@ struct PlaceDrawing {
                 const double x = area.left + width * static_cast<double>(from),
                              y = area.top + height * static_cast<double>(r),
                              runWidth = width * static_cast<double>(c - from);
-                std::string& d = fills[target];
-                move(d, x, y);
-                step(d, 'h', runWidth);
-                step(d, 'v', height);
-                step(d, 'h', -runWidth);
-                d += 'z';
+                std::string& pathData = fills[target];
+                move(pathData, x, y);
+                step(pathData, 'h', runWidth);
+                step(pathData, 'v', height);
+                step(pathData, 'h', -runWidth);
+                pathData += 'z';
                 if (c < chart.mapColumns) {
                     move(edges, x + runWidth, y);
                     step(edges, 'v', height);
@@ -153,24 +153,24 @@ struct PlaceDrawing {
             }
         for (std::size_t target = 0; target < fills.size(); ++target)
             if (!fills[target].empty())
-                svg.path(fills[target], seriesColour(styleOf(target)), {seriesColour(styleOf(target)), 0.4});
+                svg.path(fills[target], seriesColour(style(target)), {seriesColour(style(target)), 0.4});
         svg.path(edges + edgesBelow(rows, width, height), "none", {"#222", 0.7});
     }
     std::string edgesBelow(std::size_t rows, double width, double height) const {
-        std::string d;
+        std::string pathData;
         for (std::size_t r = 1; r < rows; ++r)
             for (std::size_t c = 0; c < chart.mapColumns; ++c)
                 if (chart.territory[r * chart.mapColumns + c] !=
                     chart.territory[(r - 1) * chart.mapColumns + c]) {
-                    move(d, area.left + width * static_cast<double>(c),
+                    move(pathData, area.left + width * static_cast<double>(c),
                          area.top + height * static_cast<double>(r));
-                    step(d, 'h', width);
+                    step(pathData, 'h', width);
                 }
-        return d;
+        return pathData;
     }
-    static void move(std::string& d, double x, double y) { appendPoint(d, 'M', {x, y}); }
-    static void step(std::string& d, char direction, double length) {
-        (d += direction) += svgNumbers({length});
+    static void move(std::string& pathData, double x, double y) { appendPoint(pathData, 'M', {x, y}); }
+    static void step(std::string& pathData, char direction, double length) {
+        (pathData += direction) += svgNumbers({length});
     }
     /// Draws places as thesis Fig. 4.6 does: the target's row gives the symbol (dot, x, cross, circle,
     /// asterisk), its column the colour (blue, black, red, cyan).
@@ -181,7 +181,7 @@ struct PlaceDrawing {
         constexpr std::array<std::string_view, 4> colours{"#00f", "#000", "#f00", "#0cc"};
         std::vector<std::string> dots(chart.rows * chart.columns);
         for (const PlaceMark& mark : chart.places) {
-            const ChartPoint point = pixelAt(mark.x, mark.y);
+            const ChartPoint point = toPixels(mark.x, mark.y);
             move(dots[mark.target], point.x, point.y);
             dots[mark.target] += shapes[mark.target / chart.columns % shapes.size()];
         }
@@ -200,13 +200,13 @@ struct PlaceDrawing {
                          c = e.varianceY * heightPixels * heightPixels;
             const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
             const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;
-            svg.ellipse(pixelAt(e.x, e.y), std::sqrt(middle + spread),
+            svg.ellipse(toPixels(e.x, e.y), std::sqrt(middle + spread),
                         std::sqrt(std::max(0.0, middle - spread)), degrees, "none", {"#000", 1.3});
         }
     }
     void labels() const {
         for (const PlaceMark& mark : chart.labels) {
-            const ChartPoint place = pixelAt(mark.x, mark.y);
+            const ChartPoint place = toPixels(mark.x, mark.y);
             const std::string label = std::to_string(mark.target / chart.columns + 1) + "," +
                                       std::to_string(mark.target % chart.columns + 1);
             svg.rect({place.x - 8.0, place.y - 6.0}, 16.0, 11.0, "#fff");
@@ -217,11 +217,11 @@ struct PlaceDrawing {
     void targets() const {
         for (const PlaceEllipse& e : chart.ellipses)
             if (e.target < chart.targets.size())
-                svg.line(pixelAt(chart.targets[e.target].first, chart.targets[e.target].second),
-                         pixelAt(e.x, e.y), {"#000", 0.8, "2 2"});
+                svg.line(toPixels(chart.targets[e.target].first, chart.targets[e.target].second),
+                         toPixels(e.x, e.y), {"#000", 0.8, "2 2"});
         std::string crosses;
         for (const auto& [x, y] : chart.targets) {
-            const ChartPoint p = pixelAt(x, y);
+            const ChartPoint p = toPixels(x, y);
             move(crosses, p.x - 3.0, p.y);
             step(crosses, 'h', 6.0);
             move(crosses, p.x, p.y - 3.0);

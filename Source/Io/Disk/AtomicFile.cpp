@@ -18,7 +18,7 @@ constexpr const char* temporarySuffix = ".physvib.part"; // of this program only
 constexpr const char* inUseMessage = "it is being written already, here or by another program";
 constexpr const char* occupiedMessage = "another program is writing it, or left its temporary file: ";
 
-std::string reasonOf(int code) { return std::generic_category().message(code); }
+std::string errorText(int code) { return std::generic_category().message(code); }
 
 /// Opens and closes the file; returns 0 or the error number.
 int openErrorNumber(const fs::path& path, const char* mode) {
@@ -29,7 +29,7 @@ int openErrorNumber(const fs::path& path, const char* mode) {
 /// Why `target` cannot be written; empty if it can.
 std::string writeObstacle(const fs::path& target) {
     std::error_code code;
-    const fs::path folder = folderOf(target);
+    const fs::path folder = parentFolder(target);
     if (!target.has_filename()) return "it names a folder, expected a file";
     const bool folderExists = fs::exists(folder, code);
     if (code) return code.message();
@@ -39,7 +39,7 @@ std::string writeObstacle(const fs::path& target) {
     if (!fs::is_regular_file(targetStatus))
         return "expected a regular file, found a folder, a device or a pipe";
     const int errorNumber = openErrorNumber(target, "r+b"); // a rename would ignore write protection
-    return errorNumber == 0 ? std::string() : reasonOf(errorNumber);
+    return errorNumber == 0 ? std::string() : errorText(errorNumber);
 }
 
 /// Removes the temporary file of a killed program. Locks it first, because a file in use is locked already
@@ -103,7 +103,7 @@ const std::string& AtomicFile::commit() {
     removeTemporary();
     if (error_.empty() && folderError_ != 0)
         error_ =
-            givenPath_.string() + ": its folder cannot be flushed to the disk: " + reasonOf(folderError_);
+            givenPath_.string() + ": its folder cannot be flushed to the disk: " + errorText(folderError_);
     return error_;
 }
 
@@ -120,7 +120,7 @@ void AtomicFile::moveIntoPlace() {
     } else if (fs::rename(temporaryPath_, targetPath_, code); code) {
         fail(code.message());
     }
-    if (error_.empty()) folderError_ = SystemFile::syncFolder(folderOf(targetPath_));
+    if (error_.empty()) folderError_ = SystemFile::syncFolder(parentFolder(targetPath_));
 }
 
 void AtomicFile::failIfChanged() {

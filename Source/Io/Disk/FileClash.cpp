@@ -17,14 +17,14 @@ std::string clashMessage(const std::string& output, const std::string& kind, con
 
 } // namespace
 
-fs::path folderOf(const fs::path& file) {
+fs::path parentFolder(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
 bool isSameFile(const fs::path& a, const fs::path& b) {
     std::error_code code;
     if (fs::exists(a, code) || fs::exists(b, code)) return fs::equivalent(a, b, code) && !code;
-    return a.filename() == b.filename() && fs::equivalent(folderOf(a), folderOf(b), code) && !code;
+    return a.filename() == b.filename() && fs::equivalent(parentFolder(a), parentFolder(b), code) && !code;
 }
 
 bool isWithin(const fs::path& folder, const fs::path& path) {

@@ -12,7 +12,7 @@
 
 namespace physvib {
 /// The parent folder; "." for a name alone. Any thread.
-std::filesystem::path folderOf(const std::filesystem::path& file);
+std::filesystem::path parentFolder(const std::filesystem::path& file);
 
 /// A file's name without its folders. Any thread.
 inline std::string fileNameOf(const std::filesystem::path& file) { return file.filename().string(); }
@@ -35,7 +35,7 @@ std::string fileClashError(std::span<const std::string> outputs, std::span<const
 inline std::string fileExtensionError(std::string_view path, std::span<const std::string_view> endings) {
     const auto hasEnding = [path](std::string_view ending) { return path.ends_with(ending); };
     if (std::ranges::any_of(endings, hasEnding)) return {};
-    return "expected a name that ends in " + listed(endings, " or ") + ", found " + inQuotes(path);
+    return "expected a name that ends in " + nameList(endings, " or ") + ", found " + inQuotes(path);
 }
 inline std::string fileExtensionError(std::string_view path,
                                       std::initializer_list<std::string_view> endings) {

@@ -18,10 +18,10 @@
 #include <type_traits>
 
 namespace physvib {
-struct CloseFile {
+struct FileCloser {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
 inline Failure readFailure(const std::filesystem::path& path, const std::string& reason) {
     return {path.string() + ": cannot be read: " + reason};
@@ -41,7 +41,7 @@ constexpr std::size_t maxPipeBytes = 64'000'000; ///< because a pipe has no size
 /// The bytes of a file or pipe, at most `maxBytes`, of a pipe also at most `maxPipeBytes`. Not on the render
 /// thread.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
-    const OpenFile file{openForReading(path)};
+    const FileHandle file{openForReading(path)};
     if (!file) return readFailure(path, errno);
     std::string text;
     std::error_code sizeError; // pipes have no size: the buffer grows
@@ -70,18 +70,18 @@ std::invoke_result_t<Read, std::string_view, std::string_view> loadText(const st
 }
 
 struct RegularFile {
-    OpenFile stream;
+    FileHandle stream;
     std::size_t bytes = 0;
 };
 
 /// Opens a regular, seekable file of at most `maxBytes` at its beginning. Refuses folders, and pipes and
 /// devices, which may block or never end. Any thread.
-inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::size_t maxBytes) {
+inline Result<RegularFile> openRegularFile(const std::filesystem::path& path, std::size_t maxBytes) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code); // before opening, because opening a pipe blocks
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return readFailure(path, "expected a regular file, found a folder, a device or a pipe");
-    RegularFile file{OpenFile{openStream(path, "rb")}};
+    RegularFile file{FileHandle{openStream(path, "rb")}};
     if (!file.stream) return readFailure(path, errno);
     file.bytes = std::filesystem::file_size(path, code);
     if (code) return readFailure(path, code.message());

@@ -25,8 +25,8 @@ bool isRegular(int descriptor) noexcept {
     return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-constexpr std::array terminating{SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGPIPE,
-                                 SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
+constexpr std::array fatalSignals{SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGPIPE,
+                                  SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
 
 } // namespace
 
@@ -109,23 +109,23 @@ bool SystemFile::recordError(bool isOk) noexcept {
 DeferredSignals::DeferredSignals() noexcept {
     sigset_t deferred, blocked;
     sigemptyset(&deferred);
-    for (const int signal : terminating) sigaddset(&deferred, signal);
+    for (const int signal : fatalSignals) sigaddset(&deferred, signal);
     pthread_sigmask(SIG_BLOCK, &deferred, &blocked);
-    for (std::size_t i = 0; i < terminating.size(); ++i)
-        if (sigismember(&blocked, terminating[i]) == 1) blockedBefore_ |= 1u << i;
+    for (std::size_t i = 0; i < fatalSignals.size(); ++i)
+        if (sigismember(&blocked, fatalSignals[i]) == 1) blockedBefore_ |= 1u << i;
 }
 
 DeferredSignals::~DeferredSignals() {
     sigset_t deferred;
     sigemptyset(&deferred);
-    for (std::size_t i = 0; i < terminating.size(); ++i)
-        if ((blockedBefore_ >> i & 1u) == 0) sigaddset(&deferred, terminating[i]);
+    for (std::size_t i = 0; i < fatalSignals.size(); ++i)
+        if ((blockedBefore_ >> i & 1u) == 0) sigaddset(&deferred, fatalSignals[i]);
     pthread_sigmask(SIG_UNBLOCK, &deferred, nullptr);
 }
 
 void removeFilesOnSignal() noexcept { RemoveOnSignal::removeAll(); }
 
-std::span<const int> endingSignals() noexcept { return terminating; }
+std::span<const int> endingSignals() noexcept { return fatalSignals; }
 
 // Waits for a pipe's writer. poll() cannot tell a writer that is silent from none; read() can: it fails with
 // EAGAIN for the first and returns 0 bytes for the second.

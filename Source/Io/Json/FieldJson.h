@@ -16,14 +16,14 @@ namespace physvib {
 
 /// Reads the value of a field of that kind; throws JsonError.
 template <class Kind>
-auto readAs(const JsonField& json, const Kind& kind) {
+auto readByKind(const JsonField& json, const Kind& kind) {
     if constexpr (requires { kind(json); })
         return kind(json);
     else
         return readCustom(json, kind);
 }
 template <class Kind, class Value>
-OrderedJson writeAs(const Kind& kind, const Value& value) {
+OrderedJson writeByKind(const Kind& kind, const Value& value) {
     if constexpr (requires { kind.write(value); })
         return kind.write(value);
     else if constexpr (requires(const JsonField& json) { kind(json); })
@@ -71,9 +71,9 @@ struct TableReader {
         auto&& target = std::invoke(member, object);
         using Target = std::remove_reference_t<decltype(target)>;
         if constexpr (std::is_scalar_v<Target>)
-            target = static_cast<Target>(readAs(json[name], kind));
+            target = static_cast<Target>(readByKind(json[name], kind));
         else
-            target = readAs(json[name], kind);
+            target = readByKind(json[name], kind);
     }
     void legacyField(std::string_view name, const auto& member, const auto& kind) const {
         field(name, member, kind, Need::optional);
@@ -90,8 +90,8 @@ struct TableWriter {
 
     void version(std::string_view name, int newest) { json[std::string(name)] = newest; }
     void field(std::string_view name, const auto& member, const auto& kind, Need need = Need::required) {
-        OrderedJson value = writeAs(kind, std::invoke(member, object));
-        if (need.isAlwaysWritten || value != writeAs(kind, std::invoke(member, defaults)))
+        OrderedJson value = writeByKind(kind, std::invoke(member, object));
+        if (need.isAlwaysWritten || value != writeByKind(kind, std::invoke(member, defaults)))
             json[std::string(name)] = std::move(value);
     }
     void legacyField(std::string_view, const auto&, const auto&) const {}

@@ -39,12 +39,12 @@ struct Need {
 inline constexpr Need Need::required{}, Need::filled{true}, Need::optional{true, false};
 
 /// Accessor of the member `inner` of the member `outer`, for one field.
-constexpr auto in(auto outer, auto inner) {
+constexpr auto nest(auto outer, auto inner) {
     return [=](auto& object) -> auto& { return std::invoke(inner, std::invoke(outer, object)); };
 }
 
 /// Accessor of two members as a tuple of references, for one field.
-constexpr auto both(auto first, auto second) {
+constexpr auto memberPair(auto first, auto second) {
     return [=](auto& object) { return std::tie(std::invoke(first, object), std::invoke(second, object)); };
 }
 
@@ -64,7 +64,7 @@ inline constexpr auto name = [](const auto& json) {
 constexpr auto upTo(double max) {
     return [=](const auto& json) { return json.numberUpTo(max); };
 }
-constexpr auto within(double min, double max) {
+constexpr auto range(double min, double max) {
     return [=](const auto& json) { return json.numberWithin(min, max); };
 }
 constexpr auto wholeNumber(int min, int max) {

@@ -121,7 +121,7 @@ std::size_t JsonField::oneOf(std::span<const std::string_view> names) const {
     const std::string word = text();
     const auto found = std::ranges::find(names, std::string_view(word));
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    fail("expected one of " + listed(names) + ", found " + inQuotes(word));
+    fail("expected one of " + nameList(names) + ", found " + inQuotes(word));
 }
 
 std::vector<std::string> JsonField::names() const {
@@ -131,7 +131,7 @@ std::vector<std::string> JsonField::names() const {
     return names;
 }
 
-bool JsonField::isString(std::string_view word) const {
+bool JsonField::equals(std::string_view word) const {
     return value_.is_string() && value_.get_ref<const std::string&>() == word;
 }
 } // namespace physvib

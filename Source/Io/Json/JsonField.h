@@ -62,12 +62,12 @@ public:
     /// Index of this string in `names`; an error if it is not one of them.
     std::size_t oneOf(std::span<const std::string_view> names) const;
     /// The value as JSON text on one line.
-    std::string fileText() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+    std::string jsonText() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }
     bool isNull() const { return value_.is_null(); }
     bool isText() const { return value_.is_string(); }
     bool isNumber() const { return value_.is_number(); }
     bool isArray() const { return value_.is_array(); }
-    bool isString(std::string_view word) const; ///< true if the value is this string
+    bool equals(std::string_view word) const; ///< true if the value is this string
 
 private:
     int wholeNumberUpTo(double max) const;

@@ -52,7 +52,7 @@ void appendIndented(std::string& out, const OrderedJson& value, std::size_t inde
                                                                             // one line
     const bool hasItems = value.is_structured() && !value.empty();
     if (!hasItems || !isOuterLevel) {
-        const std::string line = jsonLine(value);
+        const std::string line = compactJson(value);
         if (!hasItems || usedColumns + line.size() < maxLineLength) {
             out += line;
             return;
@@ -72,13 +72,13 @@ void appendIndented(std::string& out, const OrderedJson& value, std::size_t inde
 
 } // namespace
 
-std::string jsonLine(const OrderedJson& value) {
+std::string compactJson(const OrderedJson& value) {
     std::string line;
     appendCompact(line, value);
     return line;
 }
 
-std::string jsonLines(const OrderedJson& value) {
+std::string prettyJson(const OrderedJson& value) {
     std::string out;
     appendIndented(out, value, 0, 0);
     return out + "\n";

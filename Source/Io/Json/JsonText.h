@@ -48,9 +48,9 @@ using OrderedJson = nlohmann::ordered_json; // fields stay in the order they wer
 std::string jsonNumber(double number);
 
 /// The value on one line, without a newline.
-std::string jsonLine(const OrderedJson& value);
+std::string compactJson(const OrderedJson& value);
 
 /// The value over several lines of up to 140 characters, longer only for long strings. Ends in a newline.
-std::string jsonLines(const OrderedJson& value);
+std::string prettyJson(const OrderedJson& value);
 
 } // namespace physvib

@@ -14,7 +14,7 @@ namespace physvib {
 
 /// The names of a table's entries. Any thread.
 template <class Row, std::size_t size>
-constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>& rows) {
+constexpr std::array<std::string_view, size> entryNames(const std::array<Row, size>& rows) {
     std::array<std::string_view, size> names{};
     for (std::size_t i = 0; i < size; ++i) names[i] = rows[i].name;
     return names;
@@ -30,7 +30,7 @@ auto* findNamed(List& list, std::string_view name) noexcept {
 
 /// The names with `separator` in between. Any thread.
 template <class Names>
-std::string joined(const Names& names, std::string_view separator) {
+std::string joinNames(const Names& names, std::string_view separator) {
     std::string all;
     for (const auto& name : names) all.append(all.empty() ? std::string_view{} : separator).append(name);
     return all;
@@ -49,7 +49,7 @@ inline std::string shellWord(std::string_view text) {
 
 /// "linear, log, energy", or with another separator before the last: "linear, log or energy". Any thread.
 template <class Names>
-std::string listed(const Names& names, std::string_view lastSeparator = ", ") {
+std::string nameList(const Names& names, std::string_view lastSeparator = ", ") {
     std::string all;
     for (std::size_t i = 0; i < std::size(names); ++i) {
         if (i > 0) all.append(i + 1 < std::size(names) ? ", " : lastSeparator);
@@ -59,8 +59,8 @@ std::string listed(const Names& names, std::string_view lastSeparator = ", ") {
 }
 
 /// A list in which names with consecutive last digits are ranges: "phone1..phone4, ring1". Any thread.
-inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view rangeMark = "..",
-                                  std::string_view lastSeparator = ", ") {
+inline std::string rangeList(std::span<const std::string_view> names, std::string_view rangeMark = "..",
+                             std::string_view lastSeparator = ", ") {
     const auto isConsecutive = [&](std::size_t i) {
         const std::string_view a = names[i], b = names[i + 1];
         return a.size() == b.size() && a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1) &&
@@ -72,7 +72,7 @@ inline std::string listedByNumber(std::span<const std::string_view> names, std::
         ranges.emplace_back(names[first]);
         if (end > first) ranges.back().append(rangeMark).append(names[end]);
     }
-    return listed(ranges, lastSeparator);
+    return nameList(ranges, lastSeparator);
 }
 
 } // namespace physvib

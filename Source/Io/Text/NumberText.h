@@ -45,7 +45,7 @@ noexcept {
 
 /// Natural order of texts: numbers in them by value ("level=70" before "level=140", "P9" before "P10"), all
 /// else by bytes. Texts that differ are never equivalent. Any thread.
-struct ByNumbers {
+struct NaturalOrder {
     using is_transparent = void;
     bool operator()(std::string_view a, std::string_view b) const noexcept {
         const std::string_view fullA = a, fullB = b;
@@ -79,7 +79,7 @@ private:
 };
 
 /// "1 trial", "2 trials". Any thread.
-inline std::string counted(std::size_t number, std::string_view noun) {
+inline std::string plural(std::size_t number, std::string_view noun) {
     return std::to_string(number).append(" ").append(noun).append(number == 1 ? "" : "s");
 }
 

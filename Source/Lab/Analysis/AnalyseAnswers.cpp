@@ -11,13 +11,13 @@
 namespace physvib {
 namespace {
 
-std::string prefixOf(const std::string& condition) {
+std::string conditionPrefix(const std::string& condition) {
     return condition.empty() ? "" : cleanLine(condition) + ": ";
 }
 
 void addWarning(AnalysisReport& report, const std::string& condition, const std::string& participant,
                 const std::string& text) {
-    report.warnings.push_back(prefixOf(condition) + "participant " + cleanLine(participant) + text);
+    report.warnings.push_back(conditionPrefix(condition) + "participant " + cleanLine(participant) + text);
 }
 
 const char* kindLabel(LevelTrial::Kind kind) {
@@ -92,7 +92,7 @@ void analyseRatings(const RatingData& data, const AnalysisOutput& output) {
         }
     for (const auto& [key, count] : missingScores)
         report.warnings.push_back(nameInSession("participant " + key[1], key[0]) + ": " +
-                                  counted(count, "trial") + " without a score of " + cleanLine(key[2]));
+                                  plural(count, "trial") + " without a score of " + cleanLine(key[2]));
     for (const auto& summary : summaries)
         for (std::size_t s = 0; s < scales.size(); ++s) {
             if (std::isnan(summary.means[s])) continue;
@@ -174,7 +174,7 @@ void reportMissingFits(const AnalysisOutput& output) {
 }
 
 /// Chart of the first condition; reports have charts of all.
-ChartFrame frameOf(const AnalysisJob& job, const std::string& condition, bool isSimulated) {
+ChartFrame makeFrame(const AnalysisJob& job, const std::string& condition, bool isSimulated) {
     return {"fit",
             condition.empty() ? std::filesystem::path{job.files.front()}.filename().string() : condition,
             isSimulated};
@@ -199,30 +199,30 @@ void analysePsychometric(const LevelAnswers& data, const AnalysisOutput& output)
         for (const LevelCount& count :
              countByLevel(condition.trials, [](const LevelAnswer& trial) { return trial.levelAndHit(); }))
             if (isBelowGuess(count, job.model.guess)) {
-                report.warnings.push_back(prefixOf(condition.name) + "answers at " +
+                report.warnings.push_back(conditionPrefix(condition.name) + "answers at " +
                                           plainNumber(count.level) + " lie far below the guess rate of " +
                                           percentNumber(job.model.guess) + " % (--guess)");
                 break;
             }
-        for (const auto& fitted : psychometricByParticipant(condition.trials, job.model)) {
-            if (!fitted.fit.error.empty()) {
-                addWarning(report, condition.name, fitted.participant, " left out: " + fitted.fit.error);
+        for (const auto& entry : psychometricByParticipant(condition.trials, job.model)) {
+            if (!entry.fit.error.empty()) {
+                addWarning(report, condition.name, entry.participant, " left out: " + entry.fit.error);
                 continue;
             }
-            const PsychometricFunction& f = fitted.fit.function;
+            const PsychometricFunction& f = entry.fit.function;
             thresholds.push_back(f.threshold);
-            if (fitted.fit.hasJnd)
+            if (entry.fit.hasJnd)
                 jnds.push_back(f.jnd());
             else
-                addWarning(report, condition.name, fitted.participant,
-                           ": thresholds from " + displayCell(plainNumber(fitted.fit.stepThresholds.first)) +
-                               " to " + displayCell(plainNumber(fitted.fit.stepThresholds.second)) +
+                addWarning(report, condition.name, entry.participant,
+                           ": thresholds from " + displayCell(plainNumber(entry.fit.stepThresholds.first)) +
+                               " to " + displayCell(plainNumber(entry.fit.stepThresholds.second)) +
                                " fit as well, of functions as steep as one likes: no " +
                                labels.slopeName(job.model) + "; " + labels.midpointName(job.model) +
                                ": the middle");
-            table.row(condition.name, fitted.participant, fitted.trials, f.threshold,
-                      valueIf(fitted.fit.hasJnd, f.width), valueIf(fitted.fit.hasJnd, f.jnd()), f.guess,
-                      f.lapse, fitted.fit.logLikelihood);
+            table.row(condition.name, entry.participant, entry.trials, f.threshold,
+                      valueIf(entry.fit.hasJnd, f.width), valueIf(entry.fit.hasJnd, f.jnd()), f.guess,
+                      f.lapse, entry.fit.logLikelihood);
         }
         if (thresholds.empty()) continue;
         isFitted = true;
@@ -233,7 +233,7 @@ void analysePsychometric(const LevelAnswers& data, const AnalysisOutput& output)
     report.summary = summary.text();
     const auto& first = data.groups.front();
     report.picture = [first, model = job.model, labels,
-                      frame = frameOf(job, first.name, report.isSimulated)] {
+                      frame = makeFrame(job, first.name, report.isSimulated)] {
         return psychometricChart(frame, first.trials, model, labels);
     };
 }
@@ -243,14 +243,14 @@ void analysePowerLaw(const LevelAnswers& data, const AnalysisOutput& output) {
     ExportTable summary{"power-law", data.isSimulated, summaryColumns};
     for (const auto& condition : data.groups) {
         std::vector<double> exponents;
-        for (const auto& fitted : powerLawByParticipant(condition.trials)) {
-            if (!fitted.fit.error.empty()) {
-                addWarning(report, condition.name, fitted.participant, " left out: " + fitted.fit.error);
+        for (const auto& entry : powerLawByParticipant(condition.trials)) {
+            if (!entry.fit.error.empty()) {
+                addWarning(report, condition.name, entry.participant, " left out: " + entry.fit.error);
                 continue;
             }
-            exponents.push_back(fitted.fit.exponent);
-            table.row(condition.name, fitted.participant, fitted.trials, fitted.fit.exponent,
-                      fitted.fit.factor, fitted.fit.rSquared);
+            exponents.push_back(entry.fit.exponent);
+            table.row(condition.name, entry.participant, entry.trials, entry.fit.exponent, entry.fit.factor,
+                      entry.fit.rSquared);
         }
         if (exponents.empty()) return reportMissingFits(output);
         summarise(summary, condition.name, "exponent", exponents);
@@ -258,7 +258,7 @@ void analysePowerLaw(const LevelAnswers& data, const AnalysisOutput& output) {
     report.summary = summary.text();
     const auto& first = data.groups.front();
     report.picture = [first, level = job.level.empty() ? std::string("level") : job.level,
-                      frame = frameOf(job, first.name, report.isSimulated)] {
+                      frame = makeFrame(job, first.name, report.isSimulated)] {
         return powerLawChart(frame, first.trials, level);
     };
 }

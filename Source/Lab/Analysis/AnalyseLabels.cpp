@@ -18,14 +18,14 @@ Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& job) {
             if (!parseGridCell(trial.stimulus))
                 return Failure{job.files.front() + ": --tolerance: expected grid labels r,c, found " +
                                inQuotes(trial.stimulus)};
-        condition.trials = withTolerance(std::move(condition.trials), job.tolerance);
+        condition.trials = tolerate(std::move(condition.trials), job.tolerance);
     }
     return data;
 }
 
 namespace {
 
-std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
+std::string bitsText(double value) { return fixedNumber(value, 2) + " bit"; }
 
 std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& transfer) {
     std::vector<std::string> words;
@@ -53,7 +53,7 @@ double guessingPercent(const ConfusionMatrix& matrix, int tolerance) {
     for (std::size_t i = 0; i < matrix.stimuli(); ++i)
         for (std::size_t j = 0; j < matrix.stimuli(); ++j)
             guessed.push_back({matrix.label(i), matrix.label(j)});
-    const ConfusionMatrix chance{withTolerance(std::move(guessed), tolerance)};
+    const ConfusionMatrix chance{tolerate(std::move(guessed), tolerance)};
     return 100.0 * proportion(chance.correct(), chance.trials()).share;
 }
 
@@ -68,7 +68,7 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
                          static_cast<double>(person.matrix.trials()));
         if (person.matrix.stimuli() == matrix.stimuli()) bits.push_back(person.transfer.bits);
     }
-    const Moments moments{shares}, transferred{bits};
+    const Moments moments{shares}, bitMoments{bits};
     const bool hasSpread = moments.deviation > 0.0, isSingle = people.size() < 2;
     summary.row(
         condition, matrix.stimuli(), std::size_t{matrix.trials()}, chancePercent, 100.0 * all.share,
@@ -79,14 +79,14 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
         : hasSpread ? "t, cut at 0 and 100"
                     : "",
         transfer.bits, valueIf(transfer.canBeCorrected(), transfer.correctedBits()), transfer.maxBits,
-        transfer.minBits, valueIf(transferred.n > 1, transferred.mean),
-        valueIf(transferred.n > 1, transferred.deviation));
+        transfer.minBits, valueIf(bitMoments.n > 1, bitMoments.mean),
+        valueIf(bitMoments.n > 1, bitMoments.deviation));
 }
 
 /// Writes each participant to both tables; returns the names of those who lack stimuli.
 std::string exportParticipants(const std::string& condition, const std::vector<ParticipantTransfer>& people,
                                std::size_t stimuli, bool includesAll, ExportTable& countTable,
-                               ExportTable& eachTable) {
+                               ExportTable& peopleTable) {
     std::string incomplete;
     for (const auto& [participant, matrix, transfer] : people) {
         for (std::size_t i = 0; i < matrix.stimuli(); ++i)
@@ -95,9 +95,9 @@ std::string exportParticipants(const std::string& condition, const std::vector<P
                                std::size_t{matrix.count(i, j)});
         const bool hasAllStimuli = matrix.stimuli() == stimuli;
         const double share = static_cast<double>(matrix.correct()) / static_cast<double>(matrix.trials());
-        eachTable.row(condition, participant, std::size_t{matrix.trials()},
-                      valueIf(hasAllStimuli || includesAll, 100.0 * share), transfer.bits,
-                      valueIf(transfer.canBeCorrected(), transfer.correctedBits()));
+        peopleTable.row(condition, participant, std::size_t{matrix.trials()},
+                        valueIf(hasAllStimuli || includesAll, 100.0 * share), transfer.bits,
+                        valueIf(transfer.canBeCorrected(), transfer.correctedBits()));
         if (!hasAllStimuli) incomplete += (incomplete.empty() ? "" : ", ") + cleanLine(participant);
     }
     return incomplete;
@@ -112,7 +112,7 @@ std::string stimuliText(const ConfusionMatrix& matrix) {
             enchanters = std::max(enchanters, pattern->actuators[static_cast<std::size_t>(k)] + 1);
     }
     return std::to_string(matrix.stimuli()) + " patterns on " +
-           counted(static_cast<std::size_t>(enchanters), "actuator");
+           plural(static_cast<std::size_t>(enchanters), "actuator");
 }
 
 std::string nameOr(const std::string& name, const char* fallback) { return name.empty() ? fallback : name; }
@@ -121,8 +121,8 @@ std::string nameOr(const std::string& name, const char* fallback) { return name.
 
 void analyseConfusion(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output) {
     auto& [job, report, out, table] = output;
-    ExportTable eachTable{"confusion-participants", data.isSimulated,
-                          "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
+    ExportTable peopleTable{"confusion-participants", data.isSimulated,
+                            "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
     ExportTable summary{
         "confusion", data.isSimulated,
         "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
@@ -135,18 +135,18 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Analysis
         const std::string prefix = condition.name.empty() ? "" : cleanLine(condition.name) + ": ";
         for (const auto& words : matrixWarnings(matrix, transfer)) report.warnings.push_back(prefix + words);
         const auto people = transferByParticipant(condition.trials),
-                   compared = withAllStimuli(people, matrix.stimuli());
+                   compared = keepComplete(people, matrix.stimuli());
         summarise(summary, condition.name, matrix, transfer, compared,
                   guessingPercent(matrix, job.tolerance));
         const bool includesAll = compared.size() == people.size();
         const std::string incomplete =
-            exportParticipants(condition.name, people, matrix.stimuli(), includesAll, table, eachTable);
+            exportParticipants(condition.name, people, matrix.stimuli(), includesAll, table, peopleTable);
         if (!incomplete.empty())
             report.warnings.push_back(prefix + "stimuli are lacking of " + incomplete +
                                       (includesAll ? "" : ", left out of means of participants"));
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
-    report.participants = eachTable.text();
+    report.participants = peopleTable.text();
     report.summary = summary.text();
     report.picture = [matrices, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
@@ -158,7 +158,7 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Analysis
 
 void analyseIcons(const StudyData<IdentificationTrial>& data, const AnalysisOutput& output) {
     auto& [job, report, out, table] = output;
-    out << job.meanings << " meanings need " << bits(bitsForMeanings(job.meanings)) << '\n';
+    out << job.meanings << " meanings need " << bitsText(bitsForMeanings(job.meanings)) << '\n';
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.groups)
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
@@ -169,7 +169,7 @@ void analyseIcons(const StudyData<IdentificationTrial>& data, const AnalysisOutp
         const InformationTransfer transfer = informationTransfer(matrix);
         const bool transfersEnough = transfer.bestBits() >= bitsForMeanings(job.meanings);
         out << cleanLine(nameOr(name, "all trials")) << ": " << stimuliText(matrix) << ", "
-            << bits(transfer.bestBits()) << ": " << (transfersEnough ? "enough" : "too little") << '\n';
+            << bitsText(transfer.bestBits()) << ": " << (transfersEnough ? "enough" : "too little") << '\n';
         if (!transfersEnough || !icons.groups.empty()) continue;
         icons.frame.title += nameOr(name, "all trials");
         for (const std::size_t i : leastConfused(matrix, job.meanings)) {
@@ -181,7 +181,7 @@ void analyseIcons(const StudyData<IdentificationTrial>& data, const AnalysisOutp
     }
     if (icons.groups.empty())
         report.error = job.files.front() + ": expected a condition that transfers " +
-                       bits(bitsForMeanings(job.meanings)) + ", found none";
+                       bitsText(bitsForMeanings(job.meanings)) + ", found none";
     report.picture = [icons] { return barChart(icons); };
 }
 
@@ -300,15 +300,15 @@ void checkPercentSum(const PercentCounts& counts, std::vector<std::string>& warn
                            fixedNumber(tolerance, 2));
 }
 
-ChartFrame frameOf(const ConditionResolution& result, const std::vector<std::string>& charts,
-                   bool isSimulated) {
+ChartFrame makeFrame(const ConditionResolution& result, const std::vector<std::string>& charts,
+                     bool isSimulated) {
     return {chartName(charts.size()), result.condition, isSimulated};
 }
 
 void addCounts(std::vector<std::string>& charts, const ConditionResolution& result, bool isSimulated) {
-    charts.push_back(countsChart(frameOf(result, charts, isSimulated), result.counts));
+    charts.push_back(countsChart(makeFrame(result, charts, isSimulated), result.counts));
     if (!result.resolution.ties.empty())
-        charts.push_back(mergedChart(frameOf(result, charts, isSimulated), result));
+        charts.push_back(mergedChart(makeFrame(result, charts, isSimulated), result));
 }
 
 } // namespace
@@ -339,7 +339,7 @@ void analyseResolution(const StudyData<LocationTrial>& data, const AnalysisOutpu
     report.picture = [results, conditions = data.groups, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (std::size_t c = 0; c < results.size(); ++c) {
-            const auto frame = [&] { return frameOf(results[c], charts, isSimulated); };
+            const auto frame = [&] { return makeFrame(results[c], charts, isSimulated); };
             charts.push_back(responsesChart(frame(), results[c], conditions[c].trials));
             charts.push_back(territoryChart(frame(), results[c]));
             addCounts(charts, results[c], isSimulated);

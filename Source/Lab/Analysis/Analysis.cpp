@@ -24,7 +24,7 @@ std::string displayCell(const std::string& cell) {
 namespace {
 
 template <auto reader>
-auto fromFiles(const AnalysisJob& job) {
+auto readFiles(const AnalysisJob& job) {
     return readStudyFiles(job, reader);
 }
 
@@ -70,7 +70,7 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
 namespace {
 
 /// A table in columns of spaces.
-std::string aligned(const std::string& csv) {
+std::string alignColumns(const std::string& csv) {
     const CsvTable table = readCsvTable(csv, "").value;
     if (table.columns.empty()) return {};
     std::vector<std::vector<std::string>> rows{table.columns};
@@ -93,7 +93,7 @@ std::string aligned(const std::string& csv) {
 
 /// Report of `analyse` on the trials that `read` returns; its error if it fails.
 template <auto read, auto analyse>
-AnalysisReport analysed(const Analysis& entry, const AnalysisJob& job) {
+AnalysisReport runAnalysis(const Analysis& entry, const AnalysisJob& job) {
     const auto data = read(job);
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
@@ -102,39 +102,39 @@ AnalysisReport analysed(const Analysis& entry, const AnalysisJob& job) {
     analyse(data.value, AnalysisOutput{job, report, out, table});
     report.table = table.text();
     if (report.summary.empty()) report.summary = report.table;
-    report.text = out.str().empty() ? aligned(report.summary) : out.str();
+    report.text = out.str().empty() ? alignColumns(report.summary) : out.str();
     return report;
 }
 
 constexpr Analysis analyses[] = {
     {"confusion", "stimulus,response per trial: percent correct and information transfer",
-     "condition,participant,stimulus,response,count", analysed<readLabels, analyseConfusion>},
+     "condition,participant,stimulus,response,count", runAnalysis<readLabels, analyseConfusion>},
     {"resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution",
      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,covariance,percent,"
      "borrowed",
-     analysed<fromFiles<readLocations>, analyseResolution>},
+     runAnalysis<readFiles<readLocations>, analyseResolution>},
     {"places", "pointing at targets anywhere: constant and variable error, distance, gain",
      "condition,participant,target,trials,true_x,true_y,constant_x,constant_y,variable,distance",
-     analysed<readTargets, analysePlaces>},
+     runAnalysis<readTargets, analysePlaces>},
     {"percent-counts", "percent counts: the largest grid that merging makes of them",
-     "condition,row,column,percent", analysed<fromFiles<readPercentCounts>, analysePercentCounts>},
+     "condition,row,column,percent", runAnalysis<readFiles<readPercentCounts>, analysePercentCounts>},
     {"choices", "forced choices: shares of the alternatives",
      "condition,alternative,votes,trials,participants,percent,participants_median_percent,least_percent,"
      "most_percent,interval",
-     analysed<fromFiles<readChoices>, analyseChoices>},
+     runAnalysis<readFiles<readChoices>, analyseChoices>},
     {"ratings", "slider ratings: means by condition",
      "condition,scale,trials,participants,mean,median,standard_deviation,half_interval",
-     analysed<fromFiles<readRatings>, analyseRatings>},
+     runAnalysis<readFiles<readRatings>, analyseRatings>},
     {"levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
      "kind,condition,stimulus,trials,participants,estimate,standard_deviation,half_interval",
-     analysed<readFinishedLevels, analyseLevels>},
+     runAnalysis<readFinishedLevels, analyseLevels>},
     {"icons", "stimulus,response per trial: the patterns that are confused least",
-     "condition,stimulus,percent_correct", analysed<readLabels, analyseIcons>},
+     "condition,stimulus,percent_correct", runAnalysis<readLabels, analyseIcons>},
     {"psychometric", "psychometric functions of each participant, thresholds and JNDs over participants",
      "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood",
-     analysed<readAnswers, analysePsychometric>, Analysis::Kind::fit},
+     runAnalysis<readAnswers, analysePsychometric>, Analysis::Kind::fit},
     {"power-law", "Stevens' exponent of magnitude estimations",
-     "condition,participant,trials,exponent,factor,r_squared", analysed<readMagnitudes, analysePowerLaw>,
+     "condition,participant,trials,exponent,factor,r_squared", runAnalysis<readMagnitudes, analysePowerLaw>,
      Analysis::Kind::fit},
 };
 

@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-PlaceChart placeChartOf(ChartFrame frame, const ConditionResolution& condition) {
+PlaceChart makePlaceChart(ChartFrame frame, const ConditionResolution& condition) {
     PlaceChart chart{std::move(frame), condition.normals.rows, condition.normals.columns};
     const auto& normals = condition.normals.normals;
     for (std::size_t i = 0; i < normals.size(); ++i)
@@ -20,7 +20,7 @@ PlaceChart placeChartOf(ChartFrame frame, const ConditionResolution& condition) 
     return chart;
 }
 
-std::vector<std::string> numbersTo(std::size_t count) {
+std::vector<std::string> numberLabels(std::size_t count) {
     std::vector<std::string> numbers;
     for (std::size_t i = 1; i <= count; ++i) numbers.push_back(std::to_string(i));
     return numbers;
@@ -44,7 +44,7 @@ std::string confusionChart(ChartFrame frame, const ConfusionMatrix& matrix) {
 
 std::string responsesChart(ChartFrame frame, const ConditionResolution& condition,
                            const std::vector<LocationTrial>& trials) {
-    PlaceChart chart = placeChartOf(std::move(frame), condition);
+    PlaceChart chart = makePlaceChart(std::move(frame), condition);
     for (const LocationTrial& trial : trials)
         chart.places.push_back({static_cast<std::size_t>(trial.targetRow - 1) * chart.columns +
                                     static_cast<std::size_t>(trial.targetColumn - 1),
@@ -54,7 +54,7 @@ std::string responsesChart(ChartFrame frame, const ConditionResolution& conditio
 
 std::string territoryChart(ChartFrame frame, const ConditionResolution& condition) {
     constexpr std::size_t columns = 164, rows = 85; // enough for a page; percent counts use every pixel
-    PlaceChart chart = placeChartOf(std::move(frame), condition);
+    PlaceChart chart = makePlaceChart(std::move(frame), condition);
     for (const auto target : likelihoodMap(condition.normals, columns, rows))
         chart.territory.push_back(target);
     chart.mapColumns = columns;
@@ -67,8 +67,8 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts) {
     GridChart chart{std::move(frame),
                     "row",
                     "column",
-                    numbersTo(counts.rows),
-                    numbersTo(counts.columns),
+                    numberLabels(counts.rows),
+                    numberLabels(counts.columns),
                     {counts.percent.begin(), counts.percent.end()}};
     chart.max = 10.0;
     chart.cellAspect = 0.6;
@@ -93,7 +93,7 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
     for (const ChoiceSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
         for (BarSeries& series : chart.series) {
-            const ChoiceShare* const share = summary.shareOf(series.name);
+            const ChoiceShare* const share = summary.findShare(series.name);
             auto& bar = series.bars.emplace_back(); // none: not offered
             if (share != nullptr && !std::isnan(share->share))
                 bar = ChartValue::withMargin(100.0 * share->share);
@@ -205,24 +205,24 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
                               const PsychometricModel& model, const FitLabels& labels,
                               const LevelSummary* methodThreshold) {
     const auto fits = psychometricByParticipant(methodThreshold ? std::vector<LevelAnswer>{} : trials, model);
-    std::vector<LevelAnswer> plotted = trials; // people with a function, or all if nobody has one
-    const auto hasNoFit = [](const auto& fitted) { return !fitted.fit.error.empty(); };
+    std::vector<LevelAnswer> subset = trials; // people with a function, or all if nobody has one
+    const auto hasNoFit = [](const auto& entry) { return !entry.fit.error.empty(); };
     if (!std::ranges::all_of(fits, hasNoFit))
-        for (const auto& fitted : fits)
-            if (hasNoFit(fitted))
-                std::erase_if(plotted,
-                              [&](const auto& trial) { return trial.participant == fitted.participant; });
-    const auto counts = countByLevel(plotted, [](const LevelAnswer& trial) { return trial.levelAndHit(); });
+        for (const auto& entry : fits)
+            if (hasNoFit(entry))
+                std::erase_if(subset,
+                              [&](const auto& trial) { return trial.participant == entry.participant; });
+    const auto counts = countByLevel(subset, [](const LevelAnswer& trial) { return trial.levelAndHit(); });
     const double minLevel = counts.front().level, maxLevel = counts.back().level;
     LineChart chart{std::move(frame), labels.level, labels.answer + " (%)"};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    for (const auto& fitted : fits) {
-        if (hasNoFit(fitted)) continue;
-        thresholds.push_back(fitted.fit.function.threshold);
-        if (fitted.fit.hasJnd) widths.push_back(fitted.fit.function.width);
-        lapses.push_back(fitted.fit.function.lapse);
-        chart.series.push_back(curve(fitted.fit.function, minLevel, maxLevel));
+    for (const auto& entry : fits) {
+        if (hasNoFit(entry)) continue;
+        thresholds.push_back(entry.fit.function.threshold);
+        if (entry.fit.hasJnd) widths.push_back(entry.fit.function.width);
+        lapses.push_back(entry.fit.function.lapse);
+        chart.series.push_back(curve(entry.fit.function, minLevel, maxLevel));
         chart.series.back().isFaint = true;
     }
     LineSeries answers{"trials"};
@@ -261,10 +261,10 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
             people[trial.participant][trial.level].push_back(std::log10(trial.answer));
     std::map<double, std::vector<double>> relative;
     std::map<std::string, double> meanLogs;
-    for (const auto& [who, levels] : people) {
+    for (const auto& [participant, levels] : people) {
         std::vector<double> means;
         for (const auto& [level, values] : levels) means.push_back(meanOf(values));
-        const double mean = meanLogs[who] = meanOf(means);
+        const double mean = meanLogs[participant] = meanOf(means);
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - mean);
     }
@@ -276,10 +276,10 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         points.points.push_back({level, ChartValue::withMargin(std::pow(10.0, meanOf(values)))});
     // each law in units of its participant's geometric mean, as the points are: people may have other levels
     std::vector<double> exponents, intercepts;
-    for (const auto& fitted : powerLawByParticipant(trials))
-        if (fitted.fit.error.empty()) {
-            exponents.push_back(fitted.fit.exponent);
-            intercepts.push_back(std::log10(fitted.fit.factor) - meanLogs[fitted.participant]);
+    for (const auto& entry : powerLawByParticipant(trials))
+        if (entry.fit.error.empty()) {
+            exponents.push_back(entry.fit.exponent);
+            intercepts.push_back(std::log10(entry.fit.factor) - meanLogs[entry.participant]);
         }
     if (!exponents.empty() && !points.points.empty()) {
         const double exponent = meanOf(exponents), intercept = meanOf(intercepts);

@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "midd
 namespace studyBounds {
 /// Range of a field that becomes part of a stimulus.
 constexpr Bounds boundsOf(const ParameterRange& range) { return {range.min, range.max}; }
-inline constexpr Bounds levelDb = within(limits::maxLevelDb);
+inline constexpr Bounds levelDb = absMax(limits::maxLevelDb);
 inline constexpr Bounds breakSeconds = upTo(86400.0); // a day
 inline constexpr Bounds trialCount = upTo(100000.0);  // number of trials in a week
 inline constexpr Bounds screenItems{{}, {}, 0, 64};   // alternatives, objects or scales that fit on a screen

@@ -86,7 +86,7 @@ Result<Protocol> loadProtocol(const std::filesystem::path& path) {
 std::string protocolJson(const Protocol& protocol) {
     OrderedJson root = {{protocolVersionField, protocolFormatVersion}};
     root.update(detail::fieldsJson(protocol, {}));
-    return jsonLines(root);
+    return prettyJson(root);
 }
 
 std::string protocolHash(const Protocol& protocol) {
@@ -108,7 +108,7 @@ const std::vector<Protocol>& knownProtocols() {
     return known;
 }
 
-std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
+std::vector<ThesisDeviation> findDeviations(const Protocol& protocol) {
     const auto& known = knownProtocols();
     std::vector<ThesisDeviation> deviations;
     if (std::ranges::find(known, protocol) == known.end()) return deviations;
@@ -123,16 +123,16 @@ std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
 }
 
 std::string resolveProtocolPath(const std::string& folder, const std::string& path) {
-    std::error_code none;
-    const auto beside = std::filesystem::path{folder} / path;
-    return !folder.empty() && std::filesystem::is_regular_file(beside, none) ? beside.string() : path;
+    std::error_code ignored;
+    const auto fullPath = std::filesystem::path{folder} / path;
+    return !folder.empty() && std::filesystem::is_regular_file(fullPath, ignored) ? fullPath.string() : path;
 }
 
 std::string linkError(const std::string& folder, const std::string& path) {
-    std::error_code none;
+    std::error_code ignored;
     const std::string found = resolveProtocolPath(folder, path),
                       home = found == path ? std::string{} : folder;
-    if (!isPlainPath(path) || !std::filesystem::exists(found, none) || isWithin(home, found)) return {};
+    if (!isPlainPath(path) || !std::filesystem::exists(found, ignored) || isWithin(home, found)) return {};
     return found + ": expected a file in " + (home.empty() ? "the folder" : home) +
            " or below, found a link that leads elsewhere";
 }
@@ -172,29 +172,29 @@ namespace {
 template <class T>
 OrderedJson objectSchema();
 
-OrderedJson schemaOf(const bool&, const Bounds&) { return {{"type", "boolean"}}; }
-OrderedJson schemaOf(const std::string&, const Bounds& bounds) {
+OrderedJson makeSchema(const bool&, const Bounds&) { return {{"type", "boolean"}}; }
+OrderedJson makeSchema(const std::string&, const Bounds& bounds) {
     OrderedJson schema{{"type", "string"}};
     if (bounds.max > 0.0 && bounds.max < Bounds{}.max)
         schema["maxLength"] = static_cast<std::size_t>(bounds.max);
     return schema;
 }
 template <class Number>
-requires std::is_arithmetic_v<Number> OrderedJson schemaOf(const Number&, const Bounds& bounds) {
+requires std::is_arithmetic_v<Number> OrderedJson makeSchema(const Number&, const Bounds& bounds) {
     OrderedJson schema{{"type", std::is_integral_v<Number> ? "integer" : "number"}};
     if (bounds.min > Bounds{}.min) schema["minimum"] = bounds.min;
     if (bounds.max < Bounds{}.max) schema["maximum"] = bounds.max;
     return schema;
 }
 template <class T>
-requires std::is_class_v<T> OrderedJson schemaOf(const T&, const Bounds&) { return objectSchema<T>(); }
+requires std::is_class_v<T> OrderedJson makeSchema(const T&, const Bounds&) { return objectSchema<T>(); }
 template <class T>
-OrderedJson schemaOf(const std::optional<T>&, const Bounds& bounds) {
-    return schemaOf(T{}, bounds);
+OrderedJson makeSchema(const std::optional<T>&, const Bounds& bounds) {
+    return makeSchema(T{}, bounds);
 }
 template <class T>
-OrderedJson schemaOf(const std::vector<T>&, const Bounds& bounds) {
-    OrderedJson schema{{"type", "array"}, {"items", schemaOf(T{}, bounds)}, {"minItems", bounds.minItems}};
+OrderedJson makeSchema(const std::vector<T>&, const Bounds& bounds) {
+    OrderedJson schema{{"type", "array"}, {"items", makeSchema(T{}, bounds)}, {"minItems", bounds.minItems}};
     if (bounds.maxItems > 0) schema["maxItems"] = bounds.maxItems;
     return schema;
 }
@@ -207,7 +207,7 @@ struct SchemaWriter {
 
     template <class F>
     void field(std::string_view name, F T::*, const Bounds& bounds, Need need) {
-        properties[std::string(name)] = schemaOf(F{}, bounds);
+        properties[std::string(name)] = makeSchema(F{}, bounds);
         if (need == Need::required) required.push_back(std::string(name));
     }
     void choice(std::string_view name, const auto&, const auto& names) {
@@ -256,7 +256,7 @@ std::string protocolSchema() {
         {"type", "integer"}, {"minimum", 1}, {"maximum", protocolFormatVersion}};
     properties["$schema"] = {{"type", "string"}};
     schema["required"].push_back(protocolVersionField);
-    return jsonLines(schema);
+    return prettyJson(schema);
 }
 
 // Applies the edit of each deviation; deviations without an edit remain deviations of the edited version.

@@ -156,7 +156,7 @@ const std::vector<Protocol>& knownProtocols();
 
 /// Deviations from the thesis' study; empty if the protocol is not one of knownProtocols() or has been
 /// changed. Any thread (allocates).
-std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
+std::vector<ThesisDeviation> findDeviations(const Protocol& protocol);
 
 /// Resolves a path in a protocol: the file in the protocol's folder if it exists, else the path itself.
 /// Message thread only.

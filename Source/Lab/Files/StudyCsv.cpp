@@ -72,17 +72,17 @@ void checkLabelCount(const std::string& file, const StudyData<IdentificationTria
 struct GridTargets {
     std::size_t row, column, call;
 
-    static std::optional<GridTargets> findIn(const StudyRows& rows) {
+    static std::optional<GridTargets> findColumns(const StudyRows& rows) {
         const auto row = rows.findColumn("target_row"), column = rows.findColumn("target_column"),
                    call = rows.findColumn(trialColumns::render);
         if (rows.findColumn("target_x") || !row || !column || !call) return std::nullopt;
         return GridTargets{*row, *column, *call};
     }
 
-    FieldPlace placeIn(const StudyRows& rows, const CsvRow& r) const {
+    FieldPlace readPlace(const StudyRows& rows, const CsvRow& r) const {
         constexpr int maxLine = static_cast<int>(maxGridLines);
         const GridCell cell{rows.wholeNumber(r, row, 1, maxLine), rows.wholeNumber(r, column, 1, maxLine)};
-        const auto grid = gridOf(r.cells[call]);
+        const auto grid = parseGrid(r.cells[call]);
         if (!grid || cell.row > grid->rows || cell.column > grid->columns)
             throw StudyTableError{
                 rows.table().cellError(r, call, "a call with the --grid that the target is of")};
@@ -96,7 +96,7 @@ std::size_t addGridPlaces(const StudyRows& rows, const GridTargets& targets, Stu
                              "height, y downwards; a distance counts both shares alike";
     if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
     return rows.forEachRow(AnswerKind::place, [&](const CsvRow& row) {
-        const FieldPlace truth = targets.placeIn(rows, row);
+        const FieldPlace truth = targets.readPlace(rows, row);
         trialsOfGroup(rows, data, rows.conditionOf(row))
             .push_back({rows.cellOrEmpty(row, "participant"), rows.cellOrEmpty(row, "stimulus"), truth.x,
                         truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
@@ -173,8 +173,8 @@ std::size_t addRatings(const StudyRows& rows, RatingData& ratings) {
         throw StudyTableError{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
     const auto& all = rows.table().rows;
-    const auto groupOf = [&](const CsvRow& row) { return rows.cellOrEmpty(row, trialColumns::group); };
-    const bool hasGroups = std::ranges::any_of(all, [&](const auto&row) { return !groupOf(row).empty(); }),
+    const auto groupName = [&](const CsvRow& row) { return rows.cellOrEmpty(row, trialColumns::group); };
+    const bool hasGroups = std::ranges::any_of(all, [&](const auto&row) { return !groupName(row).empty(); }),
                hasOneStimulus = std::ranges::all_of(all, [&](const CsvRow&row) {
                    return rows.cellOrEmpty(row, "stimulus") == rows.cellOrEmpty(all.front(), "stimulus");
                });
@@ -186,7 +186,7 @@ std::size_t addRatings(const StudyRows& rows, RatingData& ratings) {
             {}};
         if (hasGroups)
             trial.condition.append(trial.condition.ends_with(kindSeparator) ? "group=" : " group=")
-                .append(groupOf(row).empty() ? "not known" : groupOf(row));
+                .append(groupName(row).empty() ? "not known" : groupName(row));
         for (const auto c : scales) // scales of other sessions have no answers here
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         trialsOfGroup(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
@@ -240,15 +240,15 @@ std::size_t addLevelTrials(const StudyRows& rows, StudyData<LevelTrial>& data) {
     const auto isTraining = [&](const CsvRow& row) {
         return rows.cellOrEmpty(row, trialColumns::phase) == trialColumns::training;
     };
-    const auto answerIn = [&](const CsvRow& row) {
+    const auto answerKind = [&](const CsvRow& row) {
         return answerKindOf(rows.cellOrEmpty(row, trialColumns::task));
     };
     // If all adjustments are in trainings, they set the levels of the study, and are read.
     const bool hasMatches = std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-        return answerIn(row) == AnswerKind::level && !isTraining(row);
+        return answerKind(row) == AnswerKind::level && !isTraining(row);
     });
     for (const CsvRow& row : rows.table().rows) {
-        const auto answer = answerIn(row);
+        const auto answer = answerKind(row);
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::request) continue; // explorations have no stimulus
         if (hasTasks ? answer == AnswerKind::number : hasValues) {
@@ -272,8 +272,8 @@ std::size_t addLevelTrials(const StudyRows& rows, StudyData<LevelTrial>& data) {
     if (count > 0 && !rows.findColumn("stimulus") && rows.findColumn("level_db") && hasValues)
         data.warnings.push_back(rows.table().name + " has no column stimulus: level_db (dB) stands for it");
     if (zeroCount > 0)
-        data.warnings.push_back(counted(zeroCount, "magnitude") + " of 0, which has no logarithm, left out" +
-                                (participants.contains("") ? "" : ": of " + joined(participants, ", ")));
+        data.warnings.push_back(plural(zeroCount, "magnitude") + " of 0, which has no logarithm, left out" +
+                                (participants.contains("") ? "" : ": of " + joinNames(participants, ", ")));
     return count;
 }
 
@@ -283,7 +283,7 @@ struct LevelSource {
     std::string prefix{}; ///< "level_g="; empty: the whole cell
     std::optional<std::size_t> secondColumn{};
 
-    static std::optional<LevelSource> findIn(const CsvTable& table, const std::string& name) {
+    static std::optional<LevelSource> findColumns(const CsvTable& table, const std::string& name) {
         if (const auto column = table.column(name)) return LevelSource{*column};
         const auto condition = table.column("condition"), stimulus = table.column("stimulus");
         if (!condition && !stimulus) return std::nullopt;
@@ -291,15 +291,15 @@ struct LevelSource {
     }
     std::string_view level(const CsvRow& row) const {
         if (prefix.empty()) return row.cells[column];
-        const std::string_view found = levelIn(row.cells[column]);
-        return found.empty() && secondColumn ? levelIn(row.cells[*secondColumn]) : found;
+        const std::string_view found = findLevelWord(row.cells[column]);
+        return found.empty() && secondColumn ? findLevelWord(row.cells[*secondColumn]) : found;
     }
     std::string expected() const {
         return prefix.empty() ? "a level" : "a word " + cleanLine(prefix) + "...";
     }
 
 private:
-    std::string_view levelIn(std::string_view rest) const {
+    std::string_view findLevelWord(std::string_view rest) const {
         while (!rest.empty())
             if (const std::string_view word = takeUntil(' ', rest); word.starts_with(prefix))
                 return word.substr(prefix.size());
@@ -314,7 +314,7 @@ std::size_t addLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
     const std::size_t equalsAt =
         rows.findColumn(columns.measure) ? std::string::npos : columns.measure.find('=');
     const auto measure = rows.requireColumn(columns.measure.substr(0, equalsAt));
-    const auto level = LevelSource::findIn(rows.table(), columns.level);
+    const auto level = LevelSource::findColumns(rows.table(), columns.level);
     if (!level) rows.requireColumn(columns.level);
     const bool isFactor = columns.level == "level_db" && !rows.findColumn(trialColumns::task); // not ours
     // In our own files adaptive levels follow the answers, so they determine no function.
@@ -380,7 +380,7 @@ Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedT
                     {rows.text(row, stimulus), row.cells[response], rows.cellOrEmpty(row, "participant")});
         });
         if (missing > 0)
-            data.warnings.push_back(rows.table().name + ": " + counted(missing, "trial") +
+            data.warnings.push_back(rows.table().name + ": " + plural(missing, "trial") +
                                     " without a response left out");
         checkLabelCount(rows.table().name, data);
         return data.groups.empty() ? 0 : count;
@@ -409,7 +409,7 @@ Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files)
 
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
     return readAll<StudyData<PlaceTrial>>(files, [](const StudyRows& rows, auto& data) {
-        if (const auto targets = GridTargets::findIn(rows)) return addGridPlaces(rows, *targets, data);
+        if (const auto targets = GridTargets::findColumns(rows)) return addGridPlaces(rows, *targets, data);
         constexpr double maxPlace = 1e9; // limit in any unit
         const auto trueX = rows.requireColumn("target_x"), x = rows.requireColumn("x");
         const auto trueY = rows.findColumn("target_y"), y = rows.findColumn("y");

@@ -202,7 +202,7 @@ bool ExcludedRows::isMissingAnswer(std::string_view column, const std::string& c
 std::string ExcludedRows::stimuliNote() const {
     return stimuli.empty()
                ? std::string{}
-               : "stimuli are named " + joined(stimuli, ", ") +
+               : "stimuli are named " + joinNames(stimuli, ", ") +
                      ": that is an answer here, also where a program wrote it for none, unless you "
                      "name a column, such as correct, that is empty there";
 }
@@ -276,7 +276,7 @@ namespace {
 constexpr std::size_t maxListed = 6; // participants, and tables of one, that a message lists
 
 std::string tableList(const std::vector<std::string>& names) {
-    const std::string words = joined(std::span{names}.first(std::min(names.size(), maxListed)), ", ");
+    const std::string words = joinNames(std::span{names}.first(std::min(names.size(), maxListed)), ", ");
     return names.size() > maxListed ? words + " ..." : words;
 }
 
@@ -296,18 +296,18 @@ TrialHead parseTrialHead(const std::vector<std::string>& comments) {
     return head;
 }
 
-std::string SharedParticipants::add(const CsvTable& head, const std::set<std::string>& participants) {
-    const auto entries = parseTrialHead(head.comments);
+std::string SharedParticipants::add(const CsvTable& table, const std::set<std::string>& participants) {
+    const auto entries = parseTrialHead(table.comments);
     if (const auto code = entries.find("participant"), protocol = entries.find("protocol");
         code != entries.end() && protocol != entries.end()) {
-        const auto [at, isNew] = trialFiles_.try_emplace({protocol->second, code->second}, head.name);
+        const auto [at, isNew] = trialFiles_.try_emplace({protocol->second, code->second}, table.name);
         if (!isNew)
-            return head.name + ": expected trials of somebody else than " + at->second +
+            return table.name + ": expected trials of somebody else than " + at->second +
                    ", found participant " + cleanLine(code->second) +
                    " in both: leave one of them out; two people need two codes";
     }
     for (const std::string& participant : participants)
-        if (!participant.empty()) tables_[participant].push_back(head.name);
+        if (!participant.empty()) tables_[participant].push_back(table.name);
     return {};
 }
 

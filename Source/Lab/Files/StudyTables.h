@@ -145,11 +145,11 @@ public:
     }
 
     double number(const CsvRow& row, auto column, double min, double max) const {
-        return numberIn(row, columnIndex(column), min, max, "a number");
+        return readNumber(row, columnIndex(column), min, max, "a number");
     }
 
     int wholeNumber(const CsvRow& row, auto column, int min, int max) const {
-        return numberIn(row, columnIndex(column), min, max, "a whole number");
+        return readNumber(row, columnIndex(column), min, max, "a whole number");
     }
 
     /// Sessions by the kind of their rows: training, kind of answer, whether levels adapt, whether by QUEST+.
@@ -176,8 +176,8 @@ private:
     static std::size_t columnIndex(std::size_t column) { return column; }
     std::size_t columnIndex(std::string_view column) const { return requireColumn(column); }
     template <class Number>
-    Number numberIn(const CsvRow& row, std::size_t column, Number min, Number max,
-                    const std::string& expected) const {
+    Number readNumber(const CsvRow& row, std::size_t column, Number min, Number max,
+                      const std::string& expected) const {
         const auto found = parseNumber<Number>(row.cells[column]);
         if (!found || *found < min || *found > max)
             throw StudyTableError{table_.cellError(
@@ -205,7 +205,7 @@ class SharedParticipants {
 public:
     /// Adds a table by its head and its participants. Returns one line if it is a trial file of a participant
     /// of whom another file of the same protocol was added, else an empty string. Any thread (allocates).
-    std::string add(const CsvTable& head, const std::set<std::string>& participants);
+    std::string add(const CsvTable& table, const std::set<std::string>& participants);
     /// Adds a whole table, by its participant column if it has one.
     std::string add(const CsvTable& table, std::string_view column = "participant");
 

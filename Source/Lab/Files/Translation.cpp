@@ -16,10 +16,10 @@ const std::vector<EmbeddedFile>& embeddedWords(); // Source/Lab/Words/*.json, in
 
 namespace {
 
-std::set<std::string> namesIn(const std::string& text) {
+std::set<std::string> findNames(const std::string& text) {
     std::set<std::string> names;
-    for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1))
-        names.insert(text.substr(at, text.find('}', at) - at));
+    for (std::size_t start = text.find('{'); start != std::string::npos; start = text.find('{', start + 1))
+        names.insert(text.substr(start, text.find('}', start) - start));
     return names;
 }
 
@@ -35,7 +35,7 @@ Translation readTranslationRoot(Json& json) {
     for (const auto& [english, text] : json["texts"].items()) {
         const JsonField field = root["texts"][english.c_str()];
         words.texts.emplace(english, field.text());
-        if (namesIn(english) != namesIn(words.texts[english]))
+        if (findNames(english) != findNames(words.texts[english]))
             field.fail("expected the same names in braces as in the English text");
     }
     return words;

@@ -47,7 +47,7 @@ void addApparatus(Cells& cells, const Answer& answer) {
     cells[columns::version] = apparatus.version;
 }
 
-Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+Cells makeCells(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
     const auto& [trial, answer] = record;
     const SessionPlan& session = protocol.sessions[trial.session];
     Cells cells{{"participant", participant.code},
@@ -58,7 +58,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     cells["trial"] = std::to_string(trial.number);
     cells["task"] = taskDescription(trial.task).name;
     cells["stimulus"] = trial.stimulus;
-    cells["parts"] = joined(trial.parts, "|");
+    cells["parts"] = joinNames(trial.parts, "|");
     cells[session.answerKind() == AnswerKind::choice ? "choice" : "response"] = answer.response;
     if (const auto target = targetCell(protocol.conditions[trial.condition], trial)) {
         cells["target_column"] = std::to_string(target->column);
@@ -91,7 +91,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
 }
 
 /// Columns of the header `line` (with its line end): all of `names`, or those of older versions; else empty.
-std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
+std::vector<std::string> matchColumns(std::string_view line, std::vector<std::string> names) {
     for (const auto isNewer : {columns::isDelivery, columns::isApparatus, columns::isMeasured}) {
         if (line == csvLine(names)) return names;
         std::erase_if(names, isNewer);
@@ -162,17 +162,17 @@ private:
 };
 
 /// The first line from the protocol on, without the program version, which may have changed.
-std::string_view withoutVersion(std::string_view header) {
+std::string_view dropVersion(std::string_view header) {
     const auto line = header.substr(0, header.find('\n'));
     return line.substr(std::min(line.find(" protocol="), line.size()));
 }
 
 /// The first key whose value differs.
 std::string headError(std::string_view found, std::string_view expected) {
-    const auto headOf = [](std::string_view text) {
+    const auto parseHead = [](std::string_view text) {
         return parseTrialHead({std::string{text.substr(1, text.find('\n') - 1)}});
     };
-    TrialHead foundHead = headOf(found), expectedHead = headOf(expected);
+    TrialHead foundHead = parseHead(found), expectedHead = parseHead(expected);
     for (const std::string key : {"protocol", "participant", "number", "observer", "seed"})
         if (foundHead[key] != expectedHead[key])
             return "expected trials of " + key + " " + cleanLine(expectedHead[key]) + ", found " +
@@ -194,10 +194,10 @@ std::string trialHeader(const Protocol& protocol, const Participant& participant
                                            {"participant", participant.code},
                                            {"number", std::to_string(participant.number)},
                                            {"observer", participant.observer}}});
-    return text + csvLine(trialColumnsOf(protocol));
+    return text + csvLine(makeTrialColumns(protocol));
 }
 
-std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
+std::vector<std::string> makeTrialColumns(const Protocol& protocol) {
     std::vector<std::string> all(columns::names.begin(), columns::names.end());
     for (const auto& scale : protocolScales(protocol)) all.push_back(scale);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
@@ -216,7 +216,7 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
 
 std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
                      std::span<const std::string> names) {
-    Cells cells = cellsOf(protocol, participant, record);
+    Cells cells = makeCells(protocol, participant, record);
     return csvLine(std::views::transform(names, [&](const auto& name) { return cells[name]; }));
 }
 
@@ -224,15 +224,15 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
                               const Participant& participant) {
     const std::string header = trialHeader(protocol, participant, "0"); // the version is not compared
     TrialLog log;
-    log.columns = trialColumnsOf(protocol);
+    log.columns = makeTrialColumns(protocol);
     const std::size_t end = text.rfind('\n');
     const std::string_view complete = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
     constexpr std::string_view prefix = "# physvib ";
     const bool isOurs = text.starts_with(prefix) || prefix.starts_with(text);
     if (isOurs && std::ranges::count(complete, '\n') < 2) return log; // incomplete header: start a new file
     const std::size_t namesAt = complete.find('\n') + 1, rowsAt = complete.find('\n', namesAt) + 1;
-    if (isOurs) log.columns = columnsIn(complete.substr(namesAt, rowsAt - namesAt), log.columns);
-    if (!isOurs || withoutVersion(complete) != withoutVersion(header) || log.columns.empty())
+    if (isOurs) log.columns = matchColumns(complete.substr(namesAt, rowsAt - namesAt), log.columns);
+    if (!isOurs || dropVersion(complete) != dropVersion(header) || log.columns.empty())
         return Failure{std::string(name) + ":1: " +
                        (isOurs ? headError(complete, header)
                                : "expected a trial file of physvib, found something else")};
@@ -276,7 +276,7 @@ void TrialLogFile::open(std::string_view version) {
     std::error_code ignored;
     if (completeBytes == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
         std::filesystem::remove(path_, ignored);
-    else if (const int code = SystemFile::syncFolder(folderOf(path_)); code != 0)
+    else if (const int code = SystemFile::syncFolder(parentFolder(path_)); code != 0)
         fail("its folder: " + std::generic_category().message(code));
 }
 
@@ -294,7 +294,7 @@ std::string twoDigits(auto number) {
     return digits.size() < 2 ? "0" + digits : digits;
 }
 
-StudyEvent entryOf(const detail::StudyRows& rows, const CsvRow& row) {
+StudyEvent readEvent(const detail::StudyRows& rows, const CsvRow& row) {
     if (!(unixSeconds(rows.cell(row, "time_utc")) >= 0.0))
         throw detail::StudyTableError{
             rows.table().cellError(row, rows.requireColumn("time_utc"), "a time like 2026-11-24T14:02:31Z")};
@@ -315,7 +315,7 @@ void StudyBreakState::apply(const StudyEvent& entry) noexcept {
     isPaused = entry.event == events::pause; // a pause ends by go-on or resume
 }
 
-std::filesystem::path timesPathOf(const std::filesystem::path& trialFile) {
+std::filesystem::path timesPath(const std::filesystem::path& trialFile) {
     return std::filesystem::path{trialFile}.replace_extension(".times.txt");
 }
 
@@ -332,30 +332,30 @@ std::string utcNow() {
 }
 
 double unixSeconds(std::string_view t) noexcept {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    constexpr double invalid = std::numeric_limits<double>::quiet_NaN();
     if (t.size() != 20 || t[4] != '-' || t[7] != '-' || t[10] != 'T' || t[13] != ':' || t[16] != ':' ||
         t[19] != 'Z')
-        return none;
+        return invalid;
     const auto part = [&](std::size_t at, std::size_t size) {
         return parseNumber<unsigned>(t.substr(at, size)).value_or(99);
     };
     using namespace std::chrono;
     const year_month_day date{year{static_cast<int>(part(0, 4))}, month{part(5, 2)}, day{part(8, 2)}};
     if (!date.ok() || part(0, 4) < 1970 || part(11, 2) > 23 || part(14, 2) > 59 || part(17, 2) > 60)
-        return none;
+        return invalid;
     return 86400.0 * static_cast<double>(sys_days{date}.time_since_epoch().count()) + 3600.0 * part(11, 2) +
            60.0 * part(14, 2) + part(17, 2);
 }
 
 Result<std::vector<StudyEvent>> loadStudyTimes(const std::filesystem::path& path) {
-    std::error_code none;
+    std::error_code ignored;
     std::vector<StudyEvent> entries;
-    if (!std::filesystem::exists(path, none)) return entries;
+    if (!std::filesystem::exists(path, ignored)) return entries;
     const auto text = readFile(path, limits::maxTableBytes);
     if (!text) return Failure{text.error};
     try {
         const detail::StudyRows rows{text.value, path.string()};
-        for (const CsvRow& row : rows.table().rows) entries.push_back(entryOf(rows, row));
+        for (const CsvRow& row : rows.table().rows) entries.push_back(readEvent(rows, row));
     } catch (const detail::StudyTableError& error) {
         return Failure{error.message};
     }

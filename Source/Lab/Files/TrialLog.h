@@ -27,14 +27,14 @@ namespace physvib {
 std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version);
 
 /// Columns of new trial files of a protocol. Any thread (allocates).
-std::vector<std::string> trialColumnsOf(const Protocol& protocol);
+std::vector<std::string> makeTrialColumns(const Protocol& protocol);
 
 /// A trial's row in these columns, with line end. Any thread.
 std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
                      std::span<const std::string> columns);
 inline std::string trialRow(const Protocol& protocol, const Participant& participant,
                             const TrialRecord& record) {
-    return trialRow(protocol, participant, record, trialColumnsOf(protocol));
+    return trialRow(protocol, participant, record, makeTrialColumns(protocol));
 }
 
 /// Contents of a trial file.
@@ -184,12 +184,12 @@ inline bool wasNotDelivered(const CsvTable& table, const CsvRow& row) {
 
 /// "3 trials ran out of time, without an answer". Any thread.
 inline std::string timeOutNote(std::size_t trials) {
-    return counted(trials, "trial") + " ran out of time, without an answer";
+    return plural(trials, "trial") + " ran out of time, without an answer";
 }
 
 /// "3 trials did not leave as planned and are left out". Any thread.
 inline std::string undeliveredNote(std::size_t trials) {
-    return counted(trials, "trial") + " did not leave as planned (column left, or a peak of 0 g) and " +
+    return plural(trials, "trial") + " did not leave as planned (column left, or a peak of 0 g) and " +
            (trials == 1 ? "is" : "are") + " left out";
 }
 
@@ -218,7 +218,7 @@ struct StudyBreakState {
 };
 
 /// Path of the file of times beside a trial file. Any thread (allocates).
-std::filesystem::path timesPathOf(const std::filesystem::path& trialFile);
+std::filesystem::path timesPath(const std::filesystem::path& trialFile);
 
 /// The current time (UTC) as in StudyEvent, to the second. Any thread (allocates).
 std::string utcNow();

@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::string_view originPrefix = "# Written by physvib, hash ", notebookHead = "---\n";
 
-std::string embedded(std::string_view name) {
+std::string embeddedText(std::string_view name) {
     return std::string{std::ranges::find(embeddedScript(), name, &EmbeddedFile::name)->text};
 }
 
-std::string withOrigin(const std::string& study, const std::string& text) {
+std::string addOrigin(const std::string& study, const std::string& text) {
     return std::string{originPrefix} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
 }
 
@@ -56,16 +56,16 @@ std::string rVector(const std::vector<std::string>& words) {
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
                            const std::vector<std::string>& ordinalScales, const std::string& midpointName,
                            bool isWithinSubjects) {
-    std::string text = embedded(analysisScriptName);
+    std::string text = embeddedText(analysisScriptName);
     text += "study(" + rString(study) + ", " + rVector(scales) +
             (ordinalScales.empty() ? "" : ", " + rVector(ordinalScales)) +
             (midpointName.empty() ? "" : ", half = " + rString(midpointName)) +
             (isWithinSubjects ? ", within = TRUE)\n" : ")\n");
-    return withOrigin(study, text);
+    return addOrigin(study, text);
 }
 
 std::string analysisNotebook(const std::string& study) {
-    return std::string{notebookHead} + withOrigin(study, embedded(notebookName));
+    return std::string{notebookHead} + addOrigin(study, embeddedText(notebookName));
 }
 
 std::vector<std::string> testNames(const std::string& table) {
@@ -99,7 +99,7 @@ std::string scriptOverwriteError(const std::filesystem::path& path) {
 namespace {
 
 /// Letters and digits only, as BIDS requires for labels.
-std::string labelOf(const std::string& code) {
+std::string toLabel(const std::string& code) {
     std::string label;
     for (const char c : code)
         if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) label += c;
@@ -107,7 +107,7 @@ std::string labelOf(const std::string& code) {
 }
 
 /// A TSV cell: without tabs and line ends; n/a if empty.
-std::string cellOf(const std::string& words) {
+std::string toCell(const std::string& words) {
     std::string cell = cleanLine(words);
     std::ranges::replace(cell, '\t', ' ');
     return cell.empty() ? "n/a" : cell;
@@ -115,12 +115,12 @@ std::string cellOf(const std::string& words) {
 
 /// What the columns of trial files mean, as BIDS has it.
 const OrderedJson& meanings() {
-    static const OrderedJson all = OrderedJson::parse(embedded("columns.json"));
+    static const OrderedJson all = OrderedJson::parse(embeddedText("columns.json"));
     return all;
 }
 
 std::string bidsName(const std::string& column) {
-    return column == "response_s" ? "response_time" : cellOf(column);
+    return column == "response_s" ? "response_time" : toCell(column);
 }
 
 std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsDescription& dataset) {
@@ -130,15 +130,15 @@ std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsD
         const std::string& column = trials.columns[c];
         OrderedJson& entry = json[bidsName(column)];
         if (const auto scale = dataset.columns.find(column); scale != dataset.columns.end())
-            entry["Description"] = cellOf(scale->second);
+            entry["Description"] = toCell(scale->second);
         else
             entry = meanings().value(
                 column,
-                OrderedJson{{"Description", "Column " + cellOf(column) + " of the tables that were read"}});
+                OrderedJson{{"Description", "Column " + toCell(column) + " of the tables that were read"}});
         if (column == trialColumns::task)
-            entry["Description"] = entry["Description"].get<std::string>() + listed(studyTaskNames, " or ");
+            entry["Description"] = entry["Description"].get<std::string>() + nameList(studyTaskNames, " or ");
     }
-    return jsonLines(json);
+    return prettyJson(json);
 }
 
 std::string description(const BidsDescription& dataset) {
@@ -149,7 +149,7 @@ std::string description(const BidsDescription& dataset) {
     json["GeneratedBy"] =
         OrderedJson::array({OrderedJson{{"Name", "physvib"}, {"Version", dataset.version}}});
     for (const auto& [key, value] : dataset.source) json["PhysVib"][key] = value;
-    return jsonLines(json);
+    return prettyJson(json);
 }
 
 } // namespace
@@ -161,32 +161,32 @@ std::string columnMeaning(std::string_view column) {
 std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsDescription& dataset) {
     std::map<std::string, std::string> files;
     const std::size_t participant = *trials.column("participant");
-    const auto lineOf = [&](auto cellAt) { // of the other columns
+    const auto makeLine = [&](auto cellAt) { // of the other columns
         std::vector<std::string> cells;
         for (std::size_t c = 0; c < trials.columns.size(); ++c)
             if (c != participant) cells.push_back(cellAt(c));
-        return joined(cells, "\t") + "\n";
+        return joinNames(cells, "\t") + "\n";
     };
-    const std::string task = labelOf(dataset.task);
+    const std::string task = toLabel(dataset.task);
     std::map<std::string, std::string> labels; // by code
-    std::set<std::string> used;
+    std::set<std::string> usedLabels;
     std::string people = "participant_id\tcode\tobserver\n";
     for (const CsvRow& row : trials.rows) {
         const std::string& code = row.cells[participant];
-        const auto [found, isNew] = labels.try_emplace(code, labelOf(code));
+        const auto [found, isNew] = labels.try_emplace(code, toLabel(code));
         std::string& label = found->second;
         if (isNew) {
-            for (int number = 2; !used.insert(label).second; ++number)
-                label = labelOf(code) + "x" + std::to_string(number);
-            people += "sub-" + label + "\t" + cellOf(code) + "\t" +
-                      cellOf(trials.cell(row, trialColumns::observer)) + "\n";
+            for (int number = 2; !usedLabels.insert(label).second; ++number)
+                label = toLabel(code) + "x" + std::to_string(number);
+            people += "sub-" + label + "\t" + toCell(code) + "\t" +
+                      toCell(trials.cell(row, trialColumns::observer)) + "\n";
         }
         std::string& table = files["sub-" + label + "/beh/sub-" + label + "_task-" + task + "_beh.tsv"];
-        if (table.empty()) table = lineOf([&](std::size_t c) { return bidsName(trials.columns[c]); });
-        table += lineOf([&](std::size_t c) { return cellOf(row.cells[c]); });
+        if (table.empty()) table = makeLine([&](std::size_t c) { return bidsName(trials.columns[c]); });
+        table += makeLine([&](std::size_t c) { return toCell(row.cells[c]); });
     }
     files["participants.tsv"] = people;
-    files["participants.json"] = jsonLines(OrderedJson{
+    files["participants.json"] = prettyJson(OrderedJson{
         {"code",
          {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
         {"observer", meanings()["observer"]}});

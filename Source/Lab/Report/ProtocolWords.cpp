@@ -23,7 +23,7 @@ bool isOmitted(const Protocol& p, std::string_view name) {
 }
 bool isOmitted(const ConditionPlan& c, std::string_view name) {
     const bool isOfStimulus = name == "frequency_hz" || name == "at_resonance" || name == "level_g";
-    return name == "name" || name == "observer_blur" || (isOfStimulus && callSetOf(c.stimuli) != nullptr) ||
+    return name == "name" || name == "observer_blur" || (isOfStimulus && findCalls(c.stimuli) != nullptr) ||
            (name == "frequency_hz" && c.isAtResonance);
 }
 bool isOmitted(const SessionPlan& s, std::string_view name) {
@@ -156,10 +156,10 @@ std::string layoutText(const std::string& name, const std::string& folder) {
 } // namespace
 
 std::string fullScales(const Protocol& protocol) {
-    std::set<std::string> named;
+    std::set<std::string> seenLayouts;
     std::string words;
     for (const ConditionPlan& condition : protocol.conditions)
-        if (named.insert(condition.layout).second)
+        if (seenLayouts.insert(condition.layout).second)
             words += (words.empty() ? "" : "; ") + layoutText(condition.layout, protocol.folder);
     return words;
 }

@@ -46,8 +46,7 @@ void addApparatusSection(ReportBuilder& report) {
         usage.limited += db > 0.05 ? 1 : 0;
         usage.maxLimitedDb = std::max(usage.maxLimitedDb, db);
     }
-    if (unknown > 0)
-        report.page.addNote(counted(unknown, "trial") + " without a record of device and levels");
+    if (unknown > 0) report.page.addNote(plural(unknown, "trial") + " without a record of device and levels");
     if (uses.empty()) return;
     ExportTable table{
         "apparatus", report.isSimulated(),
@@ -65,7 +64,7 @@ void addApparatusSection(ReportBuilder& report) {
 namespace {
 
 /// Numbers of a cell such as "0.5|0.3", which has two parts.
-std::vector<double> numbersOf(std::string_view cell) {
+std::vector<double> parseNumbers(std::string_view cell) {
     std::vector<double> numbers;
     while (!cell.empty())
         if (const auto number = parseNumber<double>(takeUntil('|', cell))) numbers.push_back(*number);
@@ -74,19 +73,19 @@ std::vector<double> numbersOf(std::string_view cell) {
 
 struct NumericOrder {
     bool operator()(const auto& a, const auto& b) const {
-        return std::ranges::lexicographical_compare(a, b, ByNumbers{});
+        return std::ranges::lexicographical_compare(a, b, NaturalOrder{});
     }
 };
 
 /// Numbers of a column by condition and session; `isByStimulus`: and by stimulus and part.
 using Levels = std::map<std::array<std::string, 4>, std::vector<double>, NumericOrder>;
 
-Levels levelsIn(const CsvTable& all, std::string_view column, bool isByStimulus) {
+Levels collectLevels(const CsvTable& all, std::string_view column, bool isByStimulus) {
     const Cells cell{all};
     Levels levels;
     for (const CsvRow& row : all.rows) {
         std::string_view parts = cell(row, "parts");
-        for (const double value : numbersOf(cell(row, column)))
+        for (const double value : parseNumbers(cell(row, column)))
             levels[{cell(row, "condition"), cell(row, "session"), isByStimulus ? cell(row, "stimulus") : "",
                     std::string{isByStimulus ? takeUntil('|', parts) : ""}}]
                 .push_back(value);
@@ -100,7 +99,7 @@ void addStimulusLevels(ReportBuilder& report) {
                       "condition,session,stimulus,part,measure,values,least,mean,most"};
     const std::string empty = table.text();
     for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG})
-        for (const auto& [key, numbers] : levelsIn(report.trials.all, column, true))
+        for (const auto& [key, numbers] : collectLevels(report.trials.all, column, true))
             table.row(key[0], key[1], key[2], key[3], column, numbers.size(),
                       *std::ranges::min_element(numbers), Moments(numbers).mean,
                       *std::ranges::max_element(numbers));
@@ -118,7 +117,7 @@ void addExposureSection(ReportBuilder& report) {
     std::vector<std::string> meanings;
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
-        const auto values = levelsIn(all, column, false);
+        const auto values = collectLevels(all, column, false);
         if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
@@ -145,7 +144,7 @@ namespace {
 /// Conditions of each participant in the order of first main trials; participants in file order.
 using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-Orders ordersOf(const CsvTable& all) {
+Orders findOrders(const CsvTable& all) {
     Orders orders;
     const Cells cell{all};
     for (const CsvRow& row : all.rows) {
@@ -165,7 +164,7 @@ Orders ordersOf(const CsvTable& all) {
 void addOrdersSection(ReportBuilder& report) {
     // rows of other programs may be sorted, so their order is unknown
     if (!report.trials.hasTasks() || !report.trials.all.column("trial")) return;
-    const Orders orders = ordersOf(report.trials.all);
+    const Orders orders = findOrders(report.trials.all);
     std::map<std::string, std::map<std::size_t, std::size_t>> counts; // by condition and place
     std::size_t maxPlaces = 0;
     for (const auto& [participant, order] : orders) {

@@ -80,22 +80,16 @@ std::string cellHtml(const std::string& cell) {
 
 } // namespace
 
-ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
+ReportPage::ReportPage(std::string title, bool isSimulated, std::string banner)
     : title_{std::move(title)}
-    , mark_{std::move(mark)}
+    , banner_{std::move(banner)}
     , isSimulated_{isSimulated} {
-    if (isSimulated_ && mark_.empty()) mark_ = "SIMULATED: a simulated observer answered, not a person.";
+    if (isSimulated_ && banner_.empty()) banner_ = "SIMULATED: a simulated observer answered, not a person.";
 }
 
-void ReportPage::addElement(std::string_view tag, std::string_view words) {
+void ReportPage::addElement(std::string_view tag, std::string_view text) {
     const std::string_view name = tag.substr(0, tag.find(' '));
-    body_.append("<")
-        .append(tag)
-        .append(">")
-        .append(escapeXml(words))
-        .append("</")
-        .append(name)
-        .append(">\n");
+    body_.append("<").append(tag).append(">").append(escapeXml(text)).append("</").append(name).append(">\n");
 }
 
 void ReportPage::addNotes(const std::vector<std::string>& lines) {
@@ -105,9 +99,9 @@ void ReportPage::addNotes(const std::vector<std::string>& lines) {
         body_ += (&line == &lines.front() ? "" : "<br>\n") + escapeXml(line);
     body_ += "</p>\n";
 }
-void ReportPage::addPreformatted(std::string_view words) {
+void ReportPage::addPreformatted(std::string_view text) {
     body_ += "<pre>";
-    while (!words.empty()) body_ += escapeXml(takeUntil('\n', words)) + "\n";
+    while (!text.empty()) body_ += escapeXml(takeUntil('\n', text)) + "\n";
     body_ += "</pre>\n";
 }
 
@@ -153,7 +147,7 @@ std::string ReportPage::html() const {
            escapeXml(title_) + (isSimulated_ ? " (simulated)" : "") + "</title>\n<style>" +
            std::string(pageStyle) + "</style>\n</head>\n<body>\n<h1>" + escapeXml(title_) + "</h1>\n";
     if (isSimulated_) out += "<div class=\"watermark\" aria-hidden=\"true\">SIMULATED</div>\n";
-    if (!mark_.empty()) out += "<p class=\"mark\">" + escapeXml(mark_) + "</p>\n";
+    if (!banner_.empty()) out += "<p class=\"mark\">" + escapeXml(banner_) + "</p>\n";
     return out + body_ + "</body>\n</html>\n";
 }
 
@@ -168,9 +162,9 @@ std::size_t ReportBuilder::participantCount() const {
     return std::max<std::size_t>(1, codes.size());
 }
 
-std::string ReportBuilder::userMessage(const std::string& words) const {
-    std::string_view rest = words;
-    if (!rest.starts_with(std::string{trialsTable} + ":")) return words;
+std::string ReportBuilder::userMessage(const std::string& text) const {
+    std::string_view rest = text;
+    if (!rest.starts_with(std::string{trialsTable} + ":")) return text;
     rest.remove_prefix(std::string_view{trialsTable}.size() + 1);
     if (rest.starts_with(' ')) return std::string{rest.substr(1)};
     const auto line = parseNumber<std::size_t>(takeUntil(':', rest));
@@ -185,16 +179,16 @@ std::string ReportBuilder::userMessage(const std::string& words) const {
                                  cleanLine(cell(row, column));
             return trialText + ":" + std::string{rest};
         }
-    return words;
+    return text;
 }
 
 void ReportBuilder::addWarnings(const std::vector<std::string>& warnings) {
     std::vector<std::string> newWarnings;
     const std::string excludedPrefix = std::string{trialsTable} + ": left out: "; // left-out.csv has them
-    for (const std::string& words : warnings)
-        if (!words.starts_with(excludedPrefix) &&
-            std::ranges::find(shownWarnings_, words) == shownWarnings_.end())
-            newWarnings.push_back(userMessage(words));
+    for (const std::string& text : warnings)
+        if (!text.starts_with(excludedPrefix) &&
+            std::ranges::find(shownWarnings_, text) == shownWarnings_.end())
+            newWarnings.push_back(userMessage(text));
     shownWarnings_.insert(shownWarnings_.end(), warnings.begin(), warnings.end());
     page.addNotes(newWarnings);
 }

@@ -21,16 +21,16 @@ namespace physvib {
 
 class ReportPage {
 public:
-    /// `mark` is shown below the title if it is not empty.
-    ReportPage(std::string title, bool isSimulated, std::string mark = {});
+    /// `banner` is shown below the title if it is not empty.
+    ReportPage(std::string title, bool isSimulated, std::string banner = {});
 
-    void addHeading(std::string_view words) { addElement("h2", words); }
-    void addSubheading(std::string_view words) { addElement("h3", words); }
-    void addParagraph(std::string_view words) { addElement("p", words); }
+    void addHeading(std::string_view text) { addElement("h2", text); }
+    void addSubheading(std::string_view text) { addElement("h3", text); }
+    void addParagraph(std::string_view text) { addElement("p", text); }
     void addNotes(const std::vector<std::string>& lines); ///< shows all lines in one box
     /// Adds a warning, or a note on why something is missing.
-    void addNote(std::string_view words) { addNotes({std::string(words)}); }
-    void addPreformatted(std::string_view words); ///< preformatted text, as `analyse` prints it
+    void addNote(std::string_view text) { addNotes({std::string(text)}); }
+    void addPreformatted(std::string_view text); ///< preformatted text, as `analyse` prints it
     void addList(const std::vector<std::string>& items) {
         body_ += "<ul>\n";
         for (const std::string& item : items) addElement("li", item);
@@ -46,8 +46,8 @@ public:
     std::string html() const;
 
 private:
-    void addElement(std::string_view tag, std::string_view words);
-    std::string title_, mark_, body_;
+    void addElement(std::string_view tag, std::string_view text);
+    std::string title_, banner_, body_;
     bool isSimulated_;
     int figures_ = 0;
 };
@@ -98,7 +98,7 @@ public:
 
     /// A reader's message on the table of all trials, with the trial's participant, condition and stimulus in
     /// place of file and line.
-    std::string userMessage(const std::string& words) const;
+    std::string userMessage(const std::string& text) const;
     void noteFailedAnalysis(const std::string& error) { page.addNote("not analysed: " + userMessage(error)); }
 
     /// Frame of the next chart, with a unique name.

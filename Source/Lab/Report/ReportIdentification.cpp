@@ -19,13 +19,13 @@ struct IdentifiedCondition {
     std::size_t people;    ///< of that mean
 };
 
-std::vector<IdentifiedCondition> conditionsOf(const IdentificationData& data, int tolerance) {
+std::vector<IdentifiedCondition> makeConditions(const IdentificationData& data, int tolerance) {
     std::vector<IdentifiedCondition> all;
     for (const auto& condition : data.groups) {
-        const auto trials = tolerance == 0 ? condition.trials : withTolerance(condition.trials, tolerance);
+        const auto trials = tolerance == 0 ? condition.trials : tolerate(condition.trials, tolerance);
         const ConfusionMatrix matrix{trials};
         std::vector<double> shares;
-        for (const auto& person : withAllStimuli(transferByParticipant(trials), matrix.stimuli()))
+        for (const auto& person : keepComplete(transferByParticipant(trials), matrix.stimuli()))
             shares.push_back(100.0 * static_cast<double>(person.matrix.correct()) /
                              static_cast<double>(person.matrix.trials()));
         all.push_back({condition.name.empty() ? "all trials" : condition.name, matrix,
@@ -81,7 +81,7 @@ void addCriterion(ReportBuilder& report, const IdentificationData& data, int tol
     const AnalysisReport confusion = report.addAnalysis("confusion", options, "confusion" + suffix + ".csv");
     if (!confusion.error.empty()) return;
     report.addTable("identification" + suffix + ".csv", confusion.participants);
-    const auto all = conditionsOf(data, tolerance);
+    const auto all = makeConditions(data, tolerance);
     BarChart transferChart{report.nextFrame("Information transfer" + words), "condition", "IT (bit)"};
     BarChart percentChart{report.nextFrame("Percent correct" + words), "condition", "correct (%)"};
     std::vector<std::size_t> people;
@@ -102,10 +102,10 @@ void addCriterion(ReportBuilder& report, const IdentificationData& data, int tol
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.groups[c].trials;
-        charts.push_back(isGrid(data)
-                             ? stimulusChart(report, all[c],
-                                             tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
-                             : confusionChart(report.nextFrame(all[c].condition), all[c].matrix));
+        charts.push_back(
+            isGrid(data)
+                ? stimulusChart(report, all[c], tolerance ? tolerate(trials, tolerance) : trials, tolerance)
+                : confusionChart(report.nextFrame(all[c].condition), all[c].matrix));
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;
@@ -148,7 +148,7 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
         series.style = i;
         for (const auto& [line, people] : answers) {
             std::vector<double> means;
-            for (const auto& [who, values] : people) means.push_back(Moments(values).mean);
+            for (const auto& [participant, values] : people) means.push_back(Moments(values).mean);
             // so that intervals do not overlap
             const double offset =
                 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
@@ -185,7 +185,7 @@ void addPlacesSection(ReportBuilder& report) {
             return report.noteFailedAnalysis(error);
         }
         addPlaceErrorsSection(report);
-        return report.page.addNote(std::to_string(outsideTrials) + " of " + counted(mainTrials, "place") +
+        return report.page.addNote(std::to_string(outsideTrials) + " of " + plural(mainTrials, "place") +
                                    (hasEdges(report) ? " beyond the named edges" : " outside 0 to 1") +
                                    ": no territories and grids");
     }

@@ -37,7 +37,7 @@ std::string convergenceText(const ReportTrials& trials) {
             shares.insert(numberText(
                 std::round(1000.0 * std::pow(rule->upRatio / (1.0 + rule->upRatio), 1.0 / rule->down)) /
                 10.0));
-    return shares.empty() ? "." : "; converges to " + joined(shares, " or ") + " % correct.";
+    return shares.empty() ? "." : "; converges to " + joinNames(shares, " or ") + " % correct.";
 }
 
 /// The answers by level, and the threshold that the method found.
@@ -99,15 +99,15 @@ void addMagnitudes(ReportBuilder& report, const std::vector<LevelSummary>& summa
 void noteEndsOfRanges(ReportBuilder& report) {
     const Cells cell{report.trials.all};
     for (const SessionPlan& plan : report.trials.sessions()) {
-        std::size_t trials = 0, atEnd = 0;
+        std::size_t trials = 0, endCount = 0;
         for (const CsvRow& row : report.trials.all.rows) {
             if (!plan.adjustment || cell(row, "session") != plan.name) continue;
             const auto db = parseNumber<double>(cell(row, "value"));
             ++trials;
-            atEnd += db && (*db <= plan.adjustment->minDb || *db >= plan.adjustment->maxDb);
+            endCount += db && (*db <= plan.adjustment->minDb || *db >= plan.adjustment->maxDb);
         }
-        if (atEnd > 0)
-            report.page.addNote(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of " +
+        if (endCount > 0)
+            report.page.addNote(std::to_string(endCount) + " of " + std::to_string(trials) + " levels of " +
                                 plan.name + " were set to an end of their range");
     }
 }
@@ -116,9 +116,9 @@ void noteEndsOfRanges(ReportBuilder& report) {
 std::optional<std::pair<double, std::string>> comparedLevel(const ReportTrials& trials) {
     std::set<std::pair<double, std::string>> all;
     for (const SessionPlan& plan : trials.sessions())
-        for (const Alternative& one : plan.alternatives)
-            if (plan.adjustment && one.name != plan.adjustment->alternative)
-                all.emplace(one.levelDb, one.name);
+        for (const Alternative& alternative : plan.alternatives)
+            if (plan.adjustment && alternative.name != plan.adjustment->alternative)
+                all.emplace(alternative.levelDb, alternative.name);
     return all.size() == 1 ? std::optional{*all.begin()} : std::nullopt;
 }
 
@@ -184,7 +184,7 @@ void addLevelsSection(ReportBuilder& report) {
     if (hasThresholds || !data) kinds.emplace_back("Thresholds");
     if (has(Kind::adjustment)) kinds.emplace_back("Levels that were set");
     if (has(Kind::magnitude)) kinds.emplace_back("Magnitudes");
-    report.page.addHeading(joined(kinds, ", "));
+    report.page.addHeading(joinNames(kinds, ", "));
     if (!data) return report.noteFailedAnalysis(data.error);
     const auto& trials = data.value.groups.front().trials;
     const auto analysis = report.addAnalysis("levels", options, "levels.csv");

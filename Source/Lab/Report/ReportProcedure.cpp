@@ -66,7 +66,7 @@ std::vector<std::pair<std::string, Attendance>> attendance(const ReportTrials& t
 
 void addProtocol(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> conditions, sessions;
-    for (const auto& one : protocol.conditions) conditions.push_back(conditionText(one));
+    for (const auto& condition : protocol.conditions) conditions.push_back(conditionText(condition));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionText(session));
     page.addSubheading("Protocol, by the fields of its file");
     page.addList({protocolText(protocol)});
@@ -154,9 +154,9 @@ void noteSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, 
     std::map<std::string, std::vector<std::string>> codes;
     for (const auto& [code, record] : people)
         if (!record.number.empty()) codes[record.number].push_back(code);
-    for (const auto& [number, same] : codes)
-        if (same.size() > 1)
-            page.addNote("participants " + listed(same) + " have the same number, " + number);
+    for (const auto& [number, sameCodes] : codes)
+        if (sameCodes.size() > 1)
+            page.addNote("participants " + nameList(sameCodes) + " have the same number, " + number);
 }
 
 } // namespace
@@ -166,7 +166,7 @@ void addParticipantsSection(ReportBuilder& report) {
     const auto people = attendance(report.trials);
     const StudyFacts& facts = report.trials.facts;
     const bool hasGroups =
-        std::ranges::any_of(facts.people, [](const ParticipantFacts& one) { return !one.group.empty(); });
+        std::ranges::any_of(facts.people, [](const auto& person) { return !person.group.empty(); });
     ExportTable table{
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
@@ -280,7 +280,7 @@ std::string distinctValues(const std::vector<StudyEvent>& entries, std::string S
     std::set<std::string> values;
     for (const StudyEvent& entry : entries)
         if (entry.isStartOrResume()) values.insert(entry.*field);
-    return joined(values, " | ");
+    return joinNames(values, " | ");
 }
 
 /// Adds a participant's row. Precondition: there are entries.
@@ -316,11 +316,11 @@ void addTimes(ExportTable& table, const std::string& participant, const std::vec
 void addTimesSection(ReportBuilder& report) {
     ExportTable table{"times", report.isSimulated(),
                       "participant,time_utc,event,trials,language,outputs,noise_outputs"};
-    ExportTable each{
+    ExportTable sittingTable{
         "sittings", report.isSimulated(),
         "participant,first_entry_utc,last_entry_utc,ended,sittings,min_between_sittings,cut_off,breaks,"
         "break_min,pauses,language,outputs,noise_outputs"};
-    const std::string empty = each.text();
+    const std::string empty = sittingTable.text();
     std::size_t unknown = 0;
     for (const TrialFile& file : report.trials.files) {
         const auto code = file.head.find("participant"), observer = file.head.find("observer");
@@ -334,13 +334,13 @@ void addTimesSection(ReportBuilder& report) {
         for (const StudyEvent& entry : file.times)
             table.row(code->second, entry.timeUtc, entry.event, static_cast<std::size_t>(entry.trials),
                       entry.language, entry.outputs, entry.noiseOutputs);
-        addTimes(each, code->second, file.times);
+        addTimes(sittingTable, code->second, file.times);
     }
-    if (unknown > 0) report.page.addNote(counted(unknown, "participant") + " without a file of times");
-    if (each.text() == empty) return;
+    if (unknown > 0) report.page.addNote(plural(unknown, "participant") + " without a file of times");
+    if (sittingTable.text() == empty) return;
     report.page.addSubheading("When");
     report.addTable("times.csv", table.text());
-    report.page.addTable(each.text(), "sittings");
+    report.page.addTable(sittingTable.text(), "sittings");
 }
 
 } // namespace physvib

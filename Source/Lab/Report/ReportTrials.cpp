@@ -18,7 +18,7 @@
 namespace physvib {
 namespace {
 
-std::string valueOf(const TrialFile& file, const std::string& key) {
+std::string headValue(const TrialFile& file, const std::string& key) {
     const auto found = file.head.find(key);
     return found == file.head.end() ? std::string{} : found->second;
 }
@@ -33,7 +33,7 @@ std::vector<std::string> originalColumns(const CsvTable& table) {
 }
 
 /// All rows with the union of all columns; missing cells are empty.
-CsvTable joinedRows(const std::vector<TrialFile>& files) {
+CsvTable joinRows(const std::vector<TrialFile>& files) {
     CsvTable all{"the trials", {}, originalColumns(files.front().table), {}};
     for (const TrialFile& file : files)
         for (const std::string& column : file.table.columns)
@@ -49,7 +49,7 @@ CsvTable joinedRows(const std::vector<TrialFile>& files) {
     return all;
 }
 
-void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& userProtocol) {
+void setProtocol(ReportTrials& trials, const std::optional<Protocol>& userProtocol) {
     const std::string name = trials.commonValue("protocol"), hash = trials.commonValue("hash");
     const auto fits = [&](const Protocol& protocol) {
         return protocol.name == name && protocolHash(protocol) == hash;
@@ -93,8 +93,8 @@ std::string writingCallError(const CsvTable& table, const CallCheck& callError) 
 } // namespace
 
 std::string ReportTrials::commonValue(const std::string& key) const {
-    const std::string value = valueOf(files.front(), key);
-    return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; })
+    const std::string value = headValue(files.front(), key);
+    return std::ranges::all_of(files, [&](const TrialFile& file) { return headValue(file, key) == value; })
                ? value
                : std::string{};
 }
@@ -116,17 +116,17 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
                        {}};
         if (!trials.files.empty()) {
             const TrialFile& first = trials.files.front();
-            if (valueOf(first, "protocol") != valueOf(file, "protocol"))
+            if (headValue(first, "protocol") != headValue(file, "protocol"))
                 return Failure{path + ":1: expected trials of the protocol " +
-                               inQuotes(valueOf(first, "protocol")) + ", as in " + first.name + ", found " +
-                               inQuotes(valueOf(file, "protocol"))};
+                               inQuotes(headValue(first, "protocol")) + ", as in " + first.name + ", found " +
+                               inQuotes(headValue(file, "protocol"))};
             if (originalColumns(first.table) != originalColumns(file.table))
                 return Failure{path + ": expected the columns of " + first.name + ", found others"};
         }
         trials.isSimulated |= hasSimulatedAnswers(file.table);
         trials.files.push_back(std::move(file));
     }
-    trials.all = joinedRows(trials.files);
+    trials.all = joinRows(trials.files);
     const auto undelivered =
         std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
                               [&](const CsvRow& row) { return !wasNotDelivered(trials.all, row); });
@@ -140,16 +140,16 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     if (std::string note = trials.excluded.stimuliNote(); !note.empty())
         trials.notes.push_back(std::move(note));
     if (const auto& unused = trials.excluded.columns; !unused.empty())
-        trials.notes.push_back("columns that --columns does not name: " + joined(unused, ", "));
+        trials.notes.push_back("columns that --columns does not name: " + joinNames(unused, ", "));
     if (const auto kinds = analysesFor(trials.all);
         !trials.hasTasks() && !kinds.empty() && kinds.front() != "ratings") {
         std::set<std::string> scales;
         for (const std::string& column : trials.all.columns)
             if (!trialColumns::has(column)) scales.insert(column);
         if (!columns.empty() && !scales.empty())
-            trials.notes.push_back("not analysed beside answers: " + joined(scales, ", "));
+            trials.notes.push_back("not analysed beside answers: " + joinNames(scales, ", "));
     }
-    findProtocolOf(trials, protocol);
+    setProtocol(trials, protocol);
     return trials;
 }
 
@@ -166,7 +166,7 @@ std::string applyFacts(ReportTrials& trials, StudyFacts facts) {
                       [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
     const auto& people = trials.facts.people;
     if (!trials.all.column(trialColumns::group) &&
-        std::ranges::any_of(people, [](const ParticipantFacts& one) { return !one.group.empty(); })) {
+        std::ranges::any_of(people, [](const auto& person) { return !person.group.empty(); })) {
         trials.all.columns.emplace_back(trialColumns::group);
         for (CsvRow& row : trials.all.rows)
             row.cells.push_back(trials.facts.person(row.cells[*participant]).group);
@@ -181,7 +181,7 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
     text += csvLine(trials.all.columns);
     std::map<std::string, std::string> offered; // answers to one stimulus, which stand in no row
     for (const SessionPlan& session : trials.sessions())
-        if (!session.answers.empty()) offered[session.name] = joined(session.answers, "|");
+        if (!session.answers.empty()) offered[session.name] = joinNames(session.answers, "|");
     const Cells cell{trials.all};
     const auto parts = trials.all.column("parts");
     for (const CsvRow& row : trials.all.rows) {
@@ -210,7 +210,7 @@ Result<std::vector<ParticipantFacts>> readParticipantFacts(std::string_view text
     const CsvTable& table = read.value;
     for (const std::string& column : table.columns)
         if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
-            return Failure{table.name + ": expected the columns " + listed(peopleColumns) + ", found " +
+            return Failure{table.name + ": expected the columns " + nameList(peopleColumns) + ", found " +
                            inQuotes(column)};
     if (!table.column("participant"))
         return Failure{table.name + ": expected a column participant, found none"};
@@ -285,22 +285,22 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
     std::map<RunKey, Answers> runs;
     std::vector<std::string> people;
     std::map<RunKey, std::set<int>> numbers;
-    const auto keyOf = [&](const CsvRow& row) {
+    const auto makeKey = [&](const CsvRow& row) {
         return RunKey{cell(row, "participant"), cell(row, "condition"), cell(row, "session")};
     };
     const auto addNumber = [&](const CsvRow& row) {
-        numbers[keyOf(row)].insert(parseNumber<int>(cell(row, "trial")).value_or(1));
+        numbers[makeKey(row)].insert(parseNumber<int>(cell(row, "trial")).value_or(1));
     };
     for (const CsvRow& row : trials.all.rows) {
         const std::string& code = cell(row, "participant");
         addNumber(row);
         if (std::ranges::find(people, code) == people.end()) people.push_back(code);
         const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
-        runs[keyOf(row)].push_back({cell(row, "correct") == "1", staircase.value_or(1) - 1,
-                                    cell(row, trialColumns::timedOut) == "1"});
+        runs[makeKey(row)].push_back({cell(row, "correct") == "1", staircase.value_or(1) - 1,
+                                      cell(row, trialColumns::timedOut) == "1"});
     }
     std::map<RunKey, std::size_t> undelivered; // answered, but not delivered as planned
-    for (const CsvRow& row : trials.undelivered) ++undelivered[keyOf(row)], addNumber(row);
+    for (const CsvRow& row : trials.undelivered) ++undelivered[makeKey(row)], addNumber(row);
     const auto missingTrials = [&](const RunKey& run, int count) { // `count`: planned trials, 0 if not known
         std::string words;
         int next = 1;

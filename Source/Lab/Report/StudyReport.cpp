@@ -42,7 +42,7 @@ std::string firstLine(const ReportTrials& trials) {
     return provenanceComment(provenance);
 }
 
-std::string titleOf(const ReportTrials& trials) {
+std::string makeTitle(const ReportTrials& trials) {
     if (trials.protocol) return "Report: " + trials.protocol->title;
     const std::string name = trials.commonValue("protocol");
     const std::size_t others = trials.files.size() - 1;
@@ -114,7 +114,7 @@ std::string stimulusFactor(const ReportTrials& trials) {
     std::set<std::string> names;
     if (trials.protocol)
         for (const ConditionPlan& condition : trials.protocol->conditions) {
-            const CallSet* const calls = callSetOf(condition.stimuli);
+            const CallSet* const calls = findCalls(condition.stimuli);
             names.insert(calls != nullptr && calls->factors.size() == 1 ? calls->factors.front().name
                                                                         : std::string{});
         }
@@ -126,14 +126,14 @@ void addTestsSection(ReportBuilder& report, StudyReport& result, const ScriptRun
     report.page.addHeading("Tests over participants");
     StudyFiles files = report.tables();
     files[analysisScriptName] = result.files[analysisScriptName];
-    auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
-    if (!ran) {
-        result.scriptError = "analysis.R did not end: " + ran.error;
+    auto scriptFiles = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
+    if (!scriptFiles) {
+        result.scriptError = "analysis.R did not end: " + scriptFiles.error;
         return report.page.addNote(result.scriptError);
     }
-    if (ran.value.empty())
+    if (scriptFiles.value.empty())
         return report.page.addParagraph("Not run: `Rscript analysis.R` (Debian: r-base-core).");
-    const std::string table = ran.value[testsTable];
+    const std::string table = scriptFiles.value[testsTable];
     result.tests = testNames(table);
     report.page.addParagraph(
         "analysis.R, " + table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) + ".");
@@ -144,9 +144,9 @@ void addTestsSection(ReportBuilder& report, StudyReport& result, const ScriptRun
     else
         report.page.addParagraph("No test: there is nothing to be compared over two participants or more.");
     std::vector<std::string> tables;
-    for (const auto& [name, text] : ran.value) tables.push_back(name);
-    report.page.addParagraph("Tables by R: " + joined(tables, ", ") + ".");
-    result.files.merge(ran.value);
+    for (const auto& [name, text] : scriptFiles.value) tables.push_back(name);
+    report.page.addParagraph("Tables by R: " + joinNames(tables, ", ") + ".");
+    result.files.merge(scriptFiles.value);
 }
 
 /// Adds a table that compares the plan with the study, line by line.
@@ -180,7 +180,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     StudyReport result;
     result.notes = trials.notes;
     if (!trials.undelivered.empty()) result.notes.push_back(undeliveredNote(trials.undelivered.size()));
-    ReportBuilder report{trials, titleOf(trials)};
+    ReportBuilder report{trials, makeTitle(trials)};
     report.addTable(trialsTable, trialsCsv(trials, firstLine(trials)));
     addParticipantsSection(report);
     addProcedureSection(report);
@@ -237,7 +237,7 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     auto trials = readReportTrials(texts, job.columns, protocol, callError);
     if (!trials) return Failure{trials.error};
     for (std::size_t i = 0; i < job.files.size(); ++i) {
-        auto times = loadStudyTimes(timesPathOf(job.files[i]));
+        auto times = loadStudyTimes(timesPath(job.files[i]));
         if (!times) return Failure{times.error};
         trials.value.files[i].times = std::move(times.value);
     }
@@ -281,18 +281,18 @@ constexpr std::string_view notListed =
     "not listed, as R (Debian: r-base-core) was not there: analysis.R chooses";
 constexpr std::string_view testPrefix = "- test: ", groupTestPrefix = "- test by group: ";
 
-std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
+std::string makeCode(int number) { return std::string("P").append(std::to_string(number)); }
 
 /// Replaces adjustments and adaptive answers so that levels stay near the middle of their range.
-void answerWithin(const Experiment& experiment, SeededRandom& random, Answer& answer) {
+void answerNearMiddle(const Experiment& experiment, SeededRandom& random, Answer& answer) {
     const SessionPlan& session = experiment.session();
     const double middle = 0.5 + 0.1 * random.normal();
-    const auto levelIn = [&](const auto& plan) { return plan.minDb + middle * (plan.maxDb - plan.minDb); };
+    const auto midLevel = [&](const auto& plan) { return plan.minDb + middle * (plan.maxDb - plan.minDb); };
     if (const auto& plan = session.adjustment)
-        answer.value = std::round(levelIn(*plan) / plan->stepDb) * plan->stepDb;
+        answer.value = std::round(midLevel(*plan) / plan->stepDb) * plan->stepDb;
     const std::string* const adapted = session.adaptedAlternative();
     if (adapted == nullptr) return;
-    const double threshold = session.quest ? levelIn(*session.quest) : levelIn(*session.staircase);
+    const double threshold = session.quest ? midLevel(*session.quest) : midLevel(*session.staircase);
     answer.response = experiment.trial().levelDb > threshold
                           ? *adapted
                           : std::ranges::find_if(session.alternatives, [&](const Alternative& one) {
@@ -301,7 +301,7 @@ void answerWithin(const Experiment& experiment, SeededRandom& random, Answer& an
 }
 
 std::string simulatedFile(const Protocol& protocol, int number) {
-    const Participant participant{codeOf(number), number, "simulated"};
+    const Participant participant{makeCode(number), number, "simulated"};
     Protocol rehearsal = protocol;
     for (SessionPlan& session : rehearsal.sessions) { // enough trials for every possible answer
         if (!session.correct.empty() || session.answers.size() == 2)
@@ -317,7 +317,7 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
     while (!experiment.isDone()) {
         Answer answer = observer.answer(experiment);
-        if (!answer.timedOut) answerWithin(experiment, random, answer);
+        if (!answer.timedOut) answerNearMiddle(experiment, random, answer);
         TrialRecord record = experiment.acceptAnswer(std::move(answer));
         text += trialRow(protocol, participant, record);
         if (record.trial.condition > 0 || record.trial.number > 1 ||
@@ -334,7 +334,7 @@ std::string simulatedFile(const Protocol& protocol, int number) {
 void assignTwoGroups(ReportTrials& trials, int participants) {
     StudyFacts facts;
     for (int number = 1; number <= std::min(participants, maxSimulatedPeople); ++number)
-        facts.people.push_back({codeOf(number), {}, {}, {}, {}, number % 2 == 0 ? "one" : "other"});
+        facts.people.push_back({makeCode(number), {}, {}, {}, {}, number % 2 == 0 ? "one" : "other"});
     applyFacts(trials, std::move(facts));
 }
 
@@ -346,7 +346,7 @@ std::string listText(const char* title, const std::vector<std::string>& lines) {
 }
 
 /// Corrections of p in a table of tests, without the numbers of tests.
-std::set<std::string> correctionsIn(const std::string& table) {
+std::set<std::string> findCorrections(const std::string& table) {
     std::set<std::string> all;
     const auto read = readCsvTable(table, testsTable);
     const Cells cell{read.value};
@@ -424,14 +424,14 @@ std::string measuresText(const Protocol& protocol, int participants, const Study
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
     std::vector<std::pair<std::string, std::string>> files;
     for (int number = 1; number <= std::min(participants, maxSimulatedPeople); ++number)
-        files.emplace_back(codeOf(number), simulatedFile(protocol, number));
+        files.emplace_back(makeCode(number), simulatedFile(protocol, number));
     auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
     auto report = studyReport(trials.value, script);
     if (!report.scriptError.empty()) return Failure{report.scriptError};
     std::vector<std::string> conditions, sessions, tests;
     for (const std::string& test : report.tests) tests.push_back("test: " + test);
-    for (const auto& one : protocol.conditions) conditions.push_back(conditionText(one));
+    for (const auto& condition : protocol.conditions) conditions.push_back(conditionText(condition));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionText(session));
     std::string text = provenanceComment({PHYSVIB_VERSION,
                                           {{"plan", "study"},
@@ -443,7 +443,7 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listText("Participants", {std::to_string(participants)});
     text += measuresText(protocol, participants, report);
     const bool isListed = participants < 2 || report.files.contains(testsTable);
-    const auto corrections = correctionsIn(report.files[testsTable]);
+    const auto corrections = findCorrections(report.files[testsTable]);
     text += listText("Corrections", {corrections.begin(), corrections.end()});
     text += listText("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";

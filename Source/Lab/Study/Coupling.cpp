@@ -237,7 +237,7 @@ std::string couplingJson(const MeasuredCoupling& coupling, const std::string& na
              {"phase_deg",
               squareOf([](std::complex<double> c) { return std::arg(c) * 180.0 / std::numbers::pi; })}});
     }
-    return jsonLines(root);
+    return prettyJson(root);
 }
 
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path) {

@@ -37,7 +37,7 @@ Experiment::Experiment(const Protocol& protocol, Participant participant, bool e
     advance();
 }
 
-SeededRandom Experiment::randomFor(const std::string& purpose) const {
+SeededRandom Experiment::makeRandom(const std::string& purpose) const {
     const std::string& condition = protocol_.conditions[conditionIndex()].name;
     return SeededRandom{static_cast<std::uint64_t>(protocol_.seed), std::to_string(participant_.number) +
                                                                         "/" + condition + "/" + plan().name +
@@ -50,7 +50,7 @@ void Experiment::beginSession() {
     explored_.clear();
     isExplorationEnded_ = false;
     adaptive_.reset();
-    auto random = randomFor("order");
+    auto random = makeRandom("order");
     order_ = sessionOrder(plan(), items_.size(), random);
     if (plan().adaptedAlternative()) adaptive_.emplace(plan());
 }
@@ -90,7 +90,7 @@ Trial Experiment::nextTrial() {
         trial.breakSeconds = s.breakSeconds;
     if (s.answerKind() == AnswerKind::request) return trial;
 
-    auto random = randomFor("trial " + std::to_string(trial.number));
+    auto random = makeRandom("trial " + std::to_string(trial.number));
     const bool isPlanned = !adaptive_;
     const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(answeredInSession_)]
                                            : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
@@ -104,8 +104,8 @@ Trial Experiment::nextTrial() {
         if (!s.reference.empty()) trial.parts.insert(trial.parts.begin(), s.reference);
     }
     if (s.comparesPairs) {
-        const std::size_t at = trial.stimulus.find(pairSeparator);
-        trial.parts = {trial.stimulus.substr(0, at), trial.stimulus.substr(at + pairSeparator.size())};
+        const std::size_t split = trial.stimulus.find(pairSeparator);
+        trial.parts = {trial.stimulus.substr(0, split), trial.stimulus.substr(split + pairSeparator.size())};
         if (planned.isSwapped) std::ranges::reverse(trial.parts);
     }
     return trial;
@@ -115,7 +115,7 @@ double Experiment::adjustmentStartDb(const Adjustment& a, int trial) const {
     if (!a.hasRandomStart) return a.startDb;
     const auto steps = static_cast<std::size_t>(std::floor((a.maxDb - a.minDb) / a.stepDb + 1e-6));
     return a.minDb +
-           a.stepDb * static_cast<double>(randomFor("start " + std::to_string(trial)).below(steps + 1));
+           a.stepDb * static_cast<double>(makeRandom("start " + std::to_string(trial)).below(steps + 1));
 }
 
 void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
@@ -123,7 +123,7 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     std::vector<Alternative> buttons = s.alternatives;
     if (isSwapped) std::ranges::reverse(buttons);
     if (buttons.size() > 2 && s.answerKind() == AnswerKind::choice)
-        randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
+        makeRandom("buttons " + std::to_string(trial.number)).shuffle(buttons);
     if (adaptive_) trial.levelDb = adaptive_->levelDb();
     if (s.adjustment) trial.levelDb = adjustmentStartDb(*s.adjustment, trial.number);
     const std::string variedName = adaptive_      ? *s.adaptedAlternative()
@@ -132,7 +132,7 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     double roveDb = 0.0;
     if (s.roveDb > 0.0) // in steps of 0.1 dB
         roveDb = std::round(10.0 * s.roveDb *
-                            (2.0 * randomFor("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
+                            (2.0 * makeRandom("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
                  10.0;
     if (hasRovingVariable(protocol_.conditions[trial.condition])) trial.roveDb = std::exchange(roveDb, 0.0);
     for (const Alternative& button : buttons) {
@@ -288,8 +288,8 @@ struct JobMaker {
         const auto items = conditionStimuli(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
         return ResolvedCall{
-            withSoundOptions(protocol, resolvedCall(set, item != items.end() ? *item : StimulusItem{},
-                                                    part.name, part.levelDb, record.trial.roveDb))};
+            addSoundOptions(protocol, resolveCall(set, item != items.end() ? *item : StimulusItem{},
+                                                  part.name, part.levelDb, record.trial.roveDb))};
     }
 };
 

@@ -244,7 +244,7 @@ inline std::string textOf(const ResolvedCall& call) { return call.words; }
 
 /// The call with the recordings that it plays appended: " --sound 80=ball.wav" and so on; a path with spaces
 /// is quoted. Any thread (allocates).
-std::string withSoundOptions(const Protocol& protocol, std::string call);
+std::string addSoundOptions(const Protocol& protocol, std::string call);
 
 /// The job that creates one part of a trial.
 using TrialJob = std::variant<StimulusJob, ResolvedCall>;
@@ -367,7 +367,7 @@ private:
     Trial nextTrial();
     double adjustmentStartDb(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);
-    SeededRandom randomFor(const std::string& purpose) const;
+    SeededRandom makeRandom(const std::string& purpose) const;
     std::size_t conditionIndex() const { return conditions_[conditionPosition_]; }
     const SessionPlan& plan() const { return protocol_.sessions[sessionIndex_]; }
 

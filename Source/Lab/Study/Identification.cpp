@@ -64,7 +64,7 @@ std::size_t ConfusionMatrix::indexOf(const std::string& label) const {
     return static_cast<std::size_t>(found - labels_.begin());
 }
 
-std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance) {
+std::vector<IdentificationTrial> tolerate(std::vector<IdentificationTrial> trials, int tolerance) {
     for (auto& trial : trials) {
         const auto target = parseGridCell(trial.stimulus), answer = parseGridCell(trial.response);
         if (target && answer && manhattanDistance(*target, *answer) <= tolerance)
@@ -85,7 +85,7 @@ double entropyBits(const std::vector<std::uint64_t>& counts, double total) {
     return bits;
 }
 
-std::size_t occupied(const std::vector<std::uint64_t>& counts) {
+std::size_t nonZeros(const std::vector<std::uint64_t>& counts) {
     return counts.size() - static_cast<std::size_t>(std::ranges::count(counts, 0u));
 }
 
@@ -115,7 +115,7 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
                 std::log2(count * n / (static_cast<double>(rows[i]) * static_cast<double>(columns[j])));
         }
     transfer.bits = std::max(0.0, transfer.bits); // rounding can give values below zero
-    const auto parameters = cells - static_cast<std::ptrdiff_t>(occupied(rows) + occupied(columns)) + 1;
+    const auto parameters = cells - static_cast<std::ptrdiff_t>(nonZeros(rows) + nonZeros(columns)) + 1;
     transfer.biasBits =
         static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);
     const auto outside = std::accumulate(columns.begin() + static_cast<std::ptrdiff_t>(matrix.stimuli()),
@@ -136,8 +136,7 @@ std::vector<ParticipantTransfer> transferByParticipant(const std::vector<Identif
     return transfers;
 }
 
-std::vector<ParticipantTransfer> withAllStimuli(std::vector<ParticipantTransfer> people,
-                                                std::size_t stimuli) {
+std::vector<ParticipantTransfer> keepComplete(std::vector<ParticipantTransfer> people, std::size_t stimuli) {
     const auto lacks = [=](const ParticipantTransfer& person) { return person.matrix.stimuli() != stimuli; };
     if (std::ssize(people) - std::ranges::count_if(people, lacks) > 1) std::erase_if(people, lacks);
     return people;
@@ -194,7 +193,7 @@ public:
                     from + size == columns_ ? 1 : std::max<std::size_t>(maxGroups_[from + size] + 1, 1);
     }
     std::size_t maxGroups() const { return maxGroups_[0]; }
-    std::vector<Sizes> ofSize(std::size_t groups) {
+    std::vector<Sizes> divide(std::size_t groups) {
         divisions_.clear();
         groups_.clear();
         extend(0, groups);
@@ -241,7 +240,7 @@ void addMerges(const PercentCounts& counts, const Sizes& rowGroups, double thres
     if (cells == 0 || cells < best) return;
     if (cells > best) ties.clear();
     best = cells;
-    for (Sizes& groups : columns.ofSize(columns.maxGroups())) ties.push_back({std::move(groups), rowGroups});
+    for (Sizes& groups : columns.divide(columns.maxGroups())) ties.push_back({std::move(groups), rowGroups});
 }
 
 } // namespace

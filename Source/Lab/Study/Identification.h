@@ -79,7 +79,7 @@ private:
 /// Copies the trials, with each response within `tolerance` of its stimulus (Manhattan distance of the grid
 /// cells) replaced by the stimulus. Tolerance-IT is computed from these trials (thesis 4.1). Responses that
 /// are no cells stay. Any thread.
-std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance);
+std::vector<IdentificationTrial> tolerate(std::vector<IdentificationTrial> trials, int tolerance);
 
 // Information transfer of a confusion matrix in bits, with its bias and bounds (thesis 3.2, 4.1).
 
@@ -123,7 +123,7 @@ struct ParticipantTransfer {
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
 
 /// Keeps the participants who had all stimuli, so that means can be compared; all if fewer than two had.
-std::vector<ParticipantTransfer> withAllStimuli(std::vector<ParticipantTransfer> people, std::size_t stimuli);
+std::vector<ParticipantTransfer> keepComplete(std::vector<ParticipantTransfer> people, std::size_t stimuli);
 
 // Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).
 
@@ -227,7 +227,7 @@ struct PhantomGrid {
     bool operator==(const PhantomGrid&) const = default;
 
     FieldPlace place(const GridCell& cell) const noexcept {
-        return {along(cell.column, columns), along(cell.row, rows)};
+        return {lineAt(cell.column, columns), lineAt(cell.row, rows)};
     }
 
     /// The cell with the nearest point; the first of equal ones.
@@ -244,14 +244,14 @@ struct PhantomGrid {
     }
 
 private:
-    double along(int line, int lines) const noexcept {
+    double lineAt(int line, int lines) const noexcept {
         if (points == Points::middles || lines == 1) return (line - 0.5) / lines;
         return static_cast<double>(line - 1) / (lines - 1);
     }
     int nearestLine(double share, int lines) const noexcept {
         int best = 1;
         for (int line = 2; line <= lines; ++line) {
-            const double offset = share - along(line, lines), bestOffset = share - along(best, lines);
+            const double offset = share - lineAt(line, lines), bestOffset = share - lineAt(best, lines);
             if (offset * offset < bestOffset * bestOffset) best = line;
         }
         return best;

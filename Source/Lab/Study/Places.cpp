@@ -182,7 +182,7 @@ namespace {
 
 /// Groups trials by key, in the order of first occurrence.
 template <class KeyOf>
-std::vector<std::vector<const PlaceTrial*>> groupedBy(const std::vector<PlaceTrial>& trials, KeyOf keyOf) {
+std::vector<std::vector<const PlaceTrial*>> groupTrials(const std::vector<PlaceTrial>& trials, KeyOf keyOf) {
     std::map<decltype(keyOf(trials.front())), std::size_t> indices;
     std::vector<std::vector<const PlaceTrial*>> groups;
     for (const PlaceTrial& trial : trials) {
@@ -194,31 +194,31 @@ std::vector<std::vector<const PlaceTrial*>> groupedBy(const std::vector<PlaceTri
 }
 
 template <class Value>
-Moments momentsOf(const std::vector<const PlaceTrial*>& trials, Value value) {
+Moments toMoments(const std::vector<const PlaceTrial*>& trials, Value value) {
     std::vector<double> values;
     for (const PlaceTrial* trial : trials) values.push_back(std::invoke(value, *trial));
     return Moments{values};
 }
 
-TargetError targetErrorOf(const std::vector<const PlaceTrial*>& trials) {
-    const Moments dx = momentsOf(trials, [](const PlaceTrial&t) { return t.x - t.trueX; }),
-                  dy = momentsOf(trials, [](const PlaceTrial&t) { return t.y - t.trueY; });
+TargetError computeError(const std::vector<const PlaceTrial*>& trials) {
+    const Moments dx = toMoments(trials, [](const PlaceTrial&t) { return t.x - t.trueX; }),
+                  dy = toMoments(trials, [](const PlaceTrial&t) { return t.y - t.trueY; });
     return {
         trials.front()->participant,
         trials.front()->target,
         trials.size(),
-        momentsOf(trials, &PlaceTrial::trueX).mean,
-        momentsOf(trials, &PlaceTrial::trueY).mean,
+        toMoments(trials, &PlaceTrial::trueX).mean,
+        toMoments(trials, &PlaceTrial::trueY).mean,
         dx.mean,
         dy.mean,
         std::hypot(dx.deviation, dy.deviation),
-        momentsOf(trials, [](const PlaceTrial& t) { return std::hypot(t.x - t.trueX, t.y - t.trueY); }).mean};
+        toMoments(trials, [](const PlaceTrial& t) { return std::hypot(t.x - t.trueX, t.y - t.trueY); }).mean};
 }
 
 /// Least-squares slope; nullopt if all true places are equal, but for rounding.
 std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
                             double PlaceTrial::*answer) {
-    const double meanTrue = momentsOf(trials, truth).mean, meanAnswer = momentsOf(trials, answer).mean;
+    const double meanTrue = toMoments(trials, truth).mean, meanAnswer = toMoments(trials, answer).mean;
     double squares = 0.0, products = 0.0, trueSquares = 0.0;
     for (const PlaceTrial* t : trials)
         trueSquares += t->*truth * t->*truth, squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
@@ -231,10 +231,10 @@ std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double
 std::vector<TargetError> targetErrors(const std::vector<PlaceTrial>& trials) {
     std::vector<TargetError> errors;
     if (trials.empty()) return errors;
-    for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) {
+    for (const auto& group : groupTrials(trials, [](const PlaceTrial& t) {
              return std::pair{t.participant, t.target};
          }))
-        errors.push_back(targetErrorOf(group));
+        errors.push_back(computeError(group));
     return errors;
 }
 
@@ -242,7 +242,7 @@ std::vector<ParticipantError> participantErrors(const std::vector<PlaceTrial>& t
     std::vector<ParticipantError> people;
     if (trials.empty()) return people;
     const std::vector<TargetError> targets = targetErrors(trials);
-    for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) { return t.participant; })) {
+    for (const auto& group : groupTrials(trials, [](const PlaceTrial& t) { return t.participant; })) {
         ParticipantError error{.participant = group.front()->participant, .trials = group.size()};
         std::size_t repeatedTargets = 0;
         for (const TargetError& target : targets) {

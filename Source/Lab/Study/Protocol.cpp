@@ -144,7 +144,7 @@ std::set<std::string> placeholderValues(const Protocol& p, const CallSet& calls)
     return callHasPartPlaceholders(calls) ? callPartNames(p) : std::set<std::string>{""};
 }
 
-std::size_t countOf(std::string_view words, std::string_view text) {
+std::size_t occurrences(std::string_view words, std::string_view text) {
     std::size_t count = 0;
     for (std::size_t at = text.find(words); at != std::string_view::npos; at = text.find(words, at + 1))
         ++count;
@@ -158,7 +158,7 @@ std::string callSetError(const Protocol& p, const ConditionPlan& c, const CallSe
         return "call: expected alternatives and objects without braces";
     return firstCallError(p, c, [&p](const std::string& call) -> std::string {
         if (std::string error = callError(call); !error.empty()) return "call: " + error;
-        const auto bytes = withSoundOptions(p, call).size();
+        const auto bytes = addSoundOptions(p, call).size();
         return bytes <= maxCallBytes ? std::string{}
                                      : "call: expected at most " + std::to_string(maxCallBytes) +
                                            " bytes with its recordings, found " + std::to_string(bytes);
@@ -174,7 +174,7 @@ std::string stimuliError(const ConditionPlan& c, const SessionPlan& s) {
         return "stimuli: expected a grid, which the task " + std::string{taskDescription(s.task).name} +
                " needs";
     if (s.minTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
-    if (const CallSet* const calls = callSetOf(c.stimuli);
+    if (const CallSet* const calls = findCalls(c.stimuli);
         s.roveDb > 0.0 && calls != nullptr && calls->variables.empty() &&
         calls->call.find("{level_db}") == std::string::npos)
         return "call: expected {level_db} or a variable in it, which rove_db moves";
@@ -196,7 +196,7 @@ std::string conditionError(const Protocol& p, const ConditionPlan& c) {
         for (const double seconds : patterns->pulseSeconds)
             if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds)
                 return "pulse_s: expected whole milliseconds";
-    if (const CallSet* calls = callSetOf(c.stimuli)) {
+    if (const CallSet* calls = findCalls(c.stimuli)) {
         if (hasDuplicates(calls->factors, &StudyFactor::name))
             return "factors: expected a name of its own for each";
         if (std::string error = callSetError(p, c, *calls); !error.empty()) return error;
@@ -244,12 +244,12 @@ std::vector<StimulusItem> stimulusItems(const CallSet& set) {
     return items;
 }
 
-double countOf(const PatternSet& set) noexcept {
+double countStimuli(const PatternSet& set) noexcept {
     const double e = set.enchanters;
     return static_cast<double>(set.pulseSeconds.size()) * (e + e * e + e * e * e);
 }
-double countOf(const GridSet& set) noexcept { return static_cast<double>(set.columns) * set.rows; }
-double countOf(const CallSet& set) noexcept {
+double countStimuli(const GridSet& set) noexcept { return static_cast<double>(set.columns) * set.rows; }
+double countStimuli(const CallSet& set) noexcept {
     double count = 1.0;
     for (const auto& factor : set.factors) count *= static_cast<double>(factor.values.size());
     return count;
@@ -273,28 +273,27 @@ std::string levelsError(const Protocol& p, const SessionPlan& s) {
 
 std::string firstCallError(const Protocol& p, const ConditionPlan& c,
                            const std::function<std::string(const std::string& call)>& check) {
-    const CallSet* const calls = callSetOf(c.stimuli);
+    const CallSet* const calls = findCalls(c.stimuli);
     if (calls == nullptr) return {};
     const auto parts = placeholderValues(p, *calls);
     for (const StimulusItem& item : conditionStimuli(c))
         for (const std::string& part : parts)
-            if (std::string error = check(resolvedCall(*calls, item, part, 0.0)); !error.empty())
-                return error;
+            if (std::string error = check(resolveCall(*calls, item, part, 0.0)); !error.empty()) return error;
     return {};
 }
 
 bool hasPartPlaceholders(const ConditionPlan& condition) {
-    const CallSet* const calls = callSetOf(condition.stimuli);
+    const CallSet* const calls = findCalls(condition.stimuli);
     return calls != nullptr && callHasPartPlaceholders(*calls);
 }
 
 std::vector<std::string> nonGainVariables(const ConditionPlan& condition, bool byRove) {
     std::vector<std::string> changed;
-    const CallSet* const calls = callSetOf(condition.stimuli);
+    const CallSet* const calls = findCalls(condition.stimuli);
     if (calls == nullptr) return changed;
     const auto addIfUsedElsewhere = [&](const std::string& name, const std::string& option) {
         const std::string word = "{" + name + "}";
-        if (countOf(option + word, calls->call) < countOf(word, calls->call)) changed.push_back(name);
+        if (occurrences(option + word, calls->call) < occurrences(word, calls->call)) changed.push_back(name);
     };
     const bool hasRoving = hasRovingVariable(condition);
     if (!byRove || !hasRoving) addIfUsedElsewhere("level_db", "--level-db ");
@@ -304,7 +303,7 @@ std::vector<std::string> nonGainVariables(const ConditionPlan& condition, bool b
 }
 
 bool hasRovingVariable(const ConditionPlan& condition) noexcept {
-    const CallSet* const calls = callSetOf(condition.stimuli);
+    const CallSet* const calls = findCalls(condition.stimuli);
     return calls != nullptr && std::ranges::any_of(calls->variables, &StudyVariable::isRoving);
 }
 
@@ -392,8 +391,8 @@ std::set<std::string> callPartNames(const Protocol& p) {
     return parts;
 }
 
-std::string resolvedCall(const CallSet& set, const StimulusItem& item, const std::string& part,
-                         double levelDb, double roveDb) {
+std::string resolveCall(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
+                        double roveDb) {
     std::string words = set.call;
     for (const auto& [name, value] : item.values) {
         const StudyFactor& factor = *std::ranges::find(set.factors, name, &StudyFactor::name);
@@ -425,7 +424,7 @@ std::vector<StimulusItem> stimulusItems(const SessionPlan& session, const Condit
 }
 
 double stimulusCount(const ConditionPlan& condition) noexcept {
-    return std::visit([](const auto& set) { return countOf(set); }, condition.stimuli);
+    return std::visit([](const auto& set) { return countStimuli(set); }, condition.stimuli);
 }
 
 } // namespace physvib

@@ -80,7 +80,7 @@ struct WorldSet : CallSet {
 using StimulusSet = std::variant<PatternSet, GridSet, CallSet, WorldSet>;
 
 /// The calls of a stimulus set; null for other kinds. Any thread.
-inline const CallSet* callSetOf(const StimulusSet& set) noexcept {
+inline const CallSet* findCalls(const StimulusSet& set) noexcept {
     if (const auto* world = std::get_if<WorldSet>(&set)) return world;
     return std::get_if<CallSet>(&set);
 }
@@ -264,8 +264,8 @@ std::vector<StimulusItem> stimulusItems(const SessionPlan& session, const Condit
 bool hasRovingVariable(const ConditionPlan& condition) noexcept;
 
 /// The call of a stimulus, names replaced; `part`: the alternative or object. Any thread (allocates).
-std::string resolvedCall(const CallSet& set, const StimulusItem& item, const std::string& part,
-                         double levelDb, double roveDb = 0.0);
+std::string resolveCall(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
+                        double roveDb = 0.0);
 
 /// True if the condition's calls name the alternative or object. Any thread (allocates).
 bool hasPartPlaceholders(const ConditionPlan& condition);

@@ -63,7 +63,7 @@ private:
     double minLevel_ = 0.0, range_ = 1.0;
 };
 
-Point bestOfGrid(const Likelihood& likelihood, double width) {
+Point bestGridPoint(const Likelihood& likelihood, double width) {
     Point best{};
     double minValue = std::numeric_limits<double>::max();
     for (double threshold = -0.25; threshold < 1.3; threshold += 0.125)
@@ -74,7 +74,7 @@ Point bestOfGrid(const Likelihood& likelihood, double width) {
     return best;
 }
 
-Point between(const Point& a, const Point& b, double share) {
+Point interpolate(const Point& a, const Point& b, double share) {
     Point point{};
     for (std::size_t i = 0; i < point.size(); ++i) point[i] = a[i] + share * (b[i] - a[i]);
     return point;
@@ -102,7 +102,7 @@ Point nelderMead(const Likelihood& likelihood, const Point& start) {
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t c = 0; c < 3; ++c) centre[i] += corners[c].point[i] / 3.0;
         const auto cornerAt = [&](double share) {
-            const Point point = between(worst.point, centre, share);
+            const Point point = interpolate(worst.point, centre, share);
             return Corner{point, likelihood(point)};
         };
         const Corner mirrored = cornerAt(2.0);
@@ -116,7 +116,7 @@ Point nelderMead(const Likelihood& likelihood, const Point& start) {
             worst = nearer;
         } else {
             for (std::size_t c = 1; c < corners.size(); ++c) {
-                corners[c].point = between(corners.front().point, corners[c].point, 0.5);
+                corners[c].point = interpolate(corners.front().point, corners[c].point, 0.5);
                 corners[c].value = likelihood(corners[c].point);
             }
         }
@@ -239,7 +239,7 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     const Likelihood likelihood{counts, model};
     std::vector<Point> maxima;
     for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
-        maxima.push_back(nelderMead(likelihood, bestOfGrid(likelihood, width)));
+        maxima.push_back(nelderMead(likelihood, bestGridPoint(likelihood, width)));
     const Point best = nelderMead(likelihood, std::ranges::min(maxima, {}, likelihood)); // step 3, see above
     PsychometricFunction found = likelihood.function(best);
     const double maxLog = -likelihood(best);

@@ -179,7 +179,7 @@ struct RunByWidth {
     ByWidth likelihood{}, threshold{};
 };
 
-ByWidth widthsOf(const QuestPlan& plan) {
+ByWidth makeWidthGrid(const QuestPlan& plan) {
     const auto [minWidth, maxWidth] = std::ranges::minmax(plan.widths);
     ByWidth widthGrid{};
     for (std::size_t i = 0; i < widthGrid.size(); ++i)
@@ -188,7 +188,7 @@ ByWidth widthsOf(const QuestPlan& plan) {
     return widthGrid;
 }
 
-RunByWidth byWidth(const QuestPlan& plan, const ByWidth& widthGrid, const std::vector<LevelCount>& run) {
+RunByWidth sumByWidth(const QuestPlan& plan, const ByWidth& widthGrid, const std::vector<LevelCount>& run) {
     std::vector<double> logs;
     for (const double width : widthGrid)
         for (const double threshold : plan.thresholds)
@@ -229,9 +229,9 @@ std::vector<ByWidth> widthPopulations(const ByWidth& widthGrid) {
 } // namespace
 
 PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::vector<LevelCount>> runs) {
-    const ByWidth widthGrid = widthsOf(plan);
+    const ByWidth widthGrid = makeWidthGrid(plan);
     std::vector<RunByWidth> runsByWidth;
-    for (const auto& run : runs) runsByWidth.push_back(byWidth(plan, widthGrid, run));
+    for (const auto& run : runs) runsByWidth.push_back(sumByWidth(plan, widthGrid, run));
     const std::vector<ByWidth> populations = widthPopulations(widthGrid);
     std::vector<double> populationWeights;
     std::vector<std::vector<double>> thresholds; // [population][run]

@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 /// Rounds to a multiple of 1/perUnit, so that the number prints with few digits.
-double roundedTo(double value, double perUnit) { return std::round(value * perUnit) / perUnit; }
+double roundTo(double value, double perUnit) { return std::round(value * perUnit) / perUnit; }
 
 /// True if the method name contains this varying part, e.g. "AV" in AV-FF-DRV.
 bool varies(const std::string& label, const char* part) {
@@ -71,12 +71,12 @@ struct Response {
                      thinkingSeconds = 0.8 - 1.5 * std::log(1.0 - random.uniform());
         answer.timedOut = session.answerSeconds > 0.0 && thinkingSeconds > session.answerSeconds;
         answer.seconds =
-            roundedTo(playedSeconds + (answer.timedOut ? session.answerSeconds : thinkingSeconds), 1000.0);
+            roundTo(playedSeconds + (answer.timedOut ? session.answerSeconds : thinkingSeconds), 1000.0);
         if (answer.timedOut) return answer;
         switch (session.answerKind()) {
         case AnswerKind::request:
             if (session.minTouches > 0)
-                answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
+                answer.place = FieldPlace{roundTo(random.uniform(), 1e4), roundTo(random.uniform(), 1e4)};
             else
                 answer.response = requestedLabel();
             break;
@@ -96,8 +96,8 @@ struct Response {
             break;
         case AnswerKind::level:
             answer.value =
-                std::clamp(roundedTo(comparedLevelDb(session) + settings.levelNoiseDb * random.normal(),
-                                     1.0 / session.adjustment->stepDb),
+                std::clamp(roundTo(comparedLevelDb(session) + settings.levelNoiseDb * random.normal(),
+                                   1.0 / session.adjustment->stepDb),
                            session.adjustment->minDb, session.adjustment->maxDb);
             break;
         case AnswerKind::number:
@@ -147,13 +147,13 @@ private:
     }
 
     FieldPlace perceivedPlace(const PhantomGrid& grid) {
-        const auto perceived = [&](double at, double offset) {
-            const double middle = 0.5 + (1.0 - settings.centralTendency) * (at - 0.5) + offset;
-            return roundedTo(std::clamp(middle + blur() * random.normal(), 0.0, 1.0), 1e6);
+        const auto perceive = [&](double position, double offset) {
+            const double middle = 0.5 + (1.0 - settings.centralTendency) * (position - 0.5) + offset;
+            return roundTo(std::clamp(middle + blur() * random.normal(), 0.0, 1.0), 1e6);
         };
         const FieldPlace place = grid.place(*targetCell(condition, trial));
-        const double x = perceived(place.x, settings.offsetX);
-        return {x, perceived(place.y, settings.offsetY)};
+        const double x = perceive(place.x, settings.offsetX);
+        return {x, perceive(place.y, settings.offsetY)};
     }
 
     /// Rank of the stimulus among all, by its number or its position in the list, from 0 to 1.
@@ -218,7 +218,7 @@ private:
         const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
         const double db =
             toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings.levelNoiseDb * random.normal();
-        return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));
+        return std::max(0.01, roundTo(10.0 * fromDecibels(0.9 * db), 100.0));
     }
 };
 

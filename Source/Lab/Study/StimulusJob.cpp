@@ -24,7 +24,7 @@ JobError rangeError(std::string_view option, double number, const ParameterRange
 
 JobError placeError(const FieldPlace& place) {
     if (ranges::share.contains(place.x) && ranges::share.contains(place.y)) return {};
-    return {options::at, "X,Y from 0 to 1"};
+    return {options::place, "X,Y from 0 to 1"};
 }
 
 JobError placeError(const GridPlace& place) {
@@ -128,7 +128,7 @@ public:
 };
 
 void addPlace(CallWriter& call, const FieldPlace& place) {
-    call.add(options::at, numberText(place.x) + "," + numberText(place.y));
+    call.add(options::place, numberText(place.x) + "," + numberText(place.y));
 }
 
 void addPlace(CallWriter& call, const GridPlace& place) {
@@ -138,7 +138,7 @@ void addPlace(CallWriter& call, const GridPlace& place) {
 }
 
 /// The value of an option in a call; empty if the call does not have it.
-std::string_view valueOf(std::string_view call, std::string_view word) noexcept {
+std::string_view optionValue(std::string_view call, std::string_view word) noexcept {
     while (!call.empty()) {
         const std::size_t end = std::min(call.find(' '), call.size());
         const bool isFound = call.substr(0, end) == word;
@@ -171,8 +171,8 @@ std::string textOf(const StimulusJob& job) {
     return std::visit([&](const auto& kind) { return textOf(kind, job); }, job.stimulus);
 }
 
-std::optional<PhantomGrid> gridOf(std::string_view call) noexcept {
-    const std::string_view lines = valueOf(call, options::grid);
+std::optional<PhantomGrid> parseGrid(std::string_view call) noexcept {
+    const std::string_view lines = optionValue(call, options::grid);
     const std::size_t separator = std::min(lines.find('x'), lines.size());
     const auto columns = parseNumber<int>(lines.substr(0, separator)),
                rows = parseNumber<int>(lines.substr(std::min(separator + 1, lines.size())));
@@ -182,10 +182,10 @@ std::optional<PhantomGrid> gridOf(std::string_view call) noexcept {
     if (!isCount(columns) || !isCount(rows)) return std::nullopt;
     using Points = PhantomGrid::Points;
     return PhantomGrid{*columns, *rows,
-                       valueOf(call, options::points) == middles ? Points::middles : Points::corners};
+                       optionValue(call, options::points) == middles ? Points::middles : Points::corners};
 }
 
-std::string withSoundOptions(const Protocol& protocol, std::string call) {
+std::string addSoundOptions(const Protocol& protocol, std::string call) {
     if (call.find("--method SV") == std::string::npos) return call;
     for (const StudySoundFile& sound : protocol.sounds) {
         const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
@@ -200,7 +200,7 @@ std::string resolvedCalls(const Protocol& protocol, const TrialRecord& record) {
     for (const std::string& session : record.answer.worldSessions) add("render " + session);
     if (!text.empty()) return text;
     for (const TrialJob& job : trialJobs(protocol, record))
-        add(std::visit([](const auto& one) { return textOf(one); }, job));
+        add(std::visit([](const auto& call) { return textOf(call); }, job));
     return text;
 }
 
@@ -209,15 +209,15 @@ std::string resolvedCalls(const Protocol& protocol, const TrialRecord& record) {
 namespace {
 
 /// Resonance frequency of all actuators. They must agree, because a phantom has one frequency.
-Result<double> resonanceOf(const LayoutDescription& layout) {
+Result<double> findResonance(const LayoutDescription& layout) {
     std::optional<double> found;
-    for (const auto& enchanter : layout.actuators) {
+    for (const auto& actuator : layout.actuators) {
         const auto fail = [&](const std::string& why) {
             return Failure{std::string{stimulusOptions::frequency} + " " + stimulusOptions::resonance +
-                           ": actuator " + enchanter.label + ": " + why};
+                           ": actuator " + actuator.label + ": " + why};
         };
-        if (enchanter.actuator == "none") return fail("expected an actuator, found none");
-        const auto profile = findActuator(enchanter.actuator);
+        if (actuator.actuator == "none") return fail("expected an actuator, found none");
+        const auto profile = findActuator(actuator.actuator);
         if (!profile) return fail(profile.error);
         const auto hz = profile.value.resonanceHz;
         if (!hz)
@@ -247,7 +247,7 @@ std::string layoutError(const StimulusJob& job, const LayoutDescription& layout)
 }
 
 Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& layout) {
-    const auto frequencyHz = job.frequencyHz ? Result<double>{*job.frequencyHz} : resonanceOf(layout);
+    const auto frequencyHz = job.frequencyHz ? Result<double>{*job.frequencyHz} : findResonance(layout);
     if (!frequencyHz) return Failure{frequencyHz.error};
     const Carrier carrier{frequencyHz.value, job.levelG};
     if (const auto* const pattern = std::get_if<PatternJob>(&job.stimulus))

@@ -79,7 +79,7 @@ struct StimulusJob {
 
 /// Option names in the text of a job, each before its value, for its writers and readers.
 namespace stimulusOptions {
-inline constexpr char at[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
+inline constexpr char place[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
                       layout[] = "--layout", frequency[] = "--frequency", levelG[] = "--level-g",
                       gap[] = "--gap", law[] = "--law", exponent[] = "--exponent", seconds[] = "--seconds",
                       decay[] = "--decay", levelMeasure[] = "--level-of";
@@ -91,7 +91,7 @@ inline constexpr char resonance[] = "resonance"; ///< in place of a frequency
 std::string textOf(const StimulusJob& job);
 
 /// The grid and its point rule in such text; nullopt if it has no grid. Any thread.
-std::optional<PhantomGrid> gridOf(std::string_view call) noexcept;
+std::optional<PhantomGrid> parseGrid(std::string_view call) noexcept;
 
 /// The invalid option of a job's text (empty for a pattern label) and the expected value. An empty
 /// expectation means no error.

@@ -14,7 +14,7 @@ namespace {
 using Levels = std::set<double>; // levels in dB
 
 /// maxPlannedLevels + 1 levels from `minDb` to `maxDb`, evenly spread.
-Levels spread(double minDb, double maxDb) {
+Levels evenLevels(double minDb, double maxDb) {
     Levels levels{maxDb};
     for (std::size_t i = 0; i < maxPlannedLevels; ++i)
         levels.insert(minDb + (maxDb - minDb) * static_cast<double>(i) / maxPlannedLevels);
@@ -23,10 +23,10 @@ Levels spread(double minDb, double maxDb) {
 
 /// All levels within the range that `steps` up and down reach from `start`. If they are more than
 /// maxPlannedLevels, as with steps that do not divide one another, levels spread over the range.
-Levels reachedFrom(double start, std::vector<double> steps, double minDb, double maxDb) {
+Levels reachableLevels(double start, std::vector<double> steps, double minDb, double maxDb) {
     Levels reached{start};
     for (std::vector<double> next{start}; !next.empty();) {
-        if (reached.size() > maxPlannedLevels) return spread(minDb, maxDb);
+        if (reached.size() > maxPlannedLevels) return evenLevels(minDb, maxDb);
         const double level = next.back();
         next.pop_back();
         for (const double step : steps)
@@ -38,40 +38,40 @@ Levels reachedFrom(double start, std::vector<double> steps, double minDb, double
     return reached;
 }
 
-Levels levelsOf(const Adjustment& a) {
-    Levels levels = reachedFrom(a.startDb, {a.stepDb}, a.minDb, a.maxDb);
-    if (a.hasRandomStart) levels.merge(reachedFrom(a.minDb, {a.stepDb}, a.minDb, a.maxDb));
+Levels possibleLevels(const Adjustment& a) {
+    Levels levels = reachableLevels(a.startDb, {a.stepDb}, a.minDb, a.maxDb);
+    if (a.hasRandomStart) levels.merge(reachableLevels(a.minDb, {a.stepDb}, a.minDb, a.maxDb));
     return levels;
 }
 
-Levels levelsOf(const StaircasePlan& s) {
+Levels possibleLevels(const StaircasePlan& s) {
     std::vector<double> steps{s.stepDb};
     while (steps.back() > s.minStepDb) steps.push_back(std::max(s.minStepDb, 0.5 * steps.back()));
     if (s.upRatio != 1.0)
         for (std::size_t i = steps.size(); i-- > 0;) steps.push_back(s.upRatio * steps[i]);
     Levels levels;
-    for (const double start : s.starts()) levels.merge(reachedFrom(start, steps, s.minDb, s.maxDb));
+    for (const double start : s.starts()) levels.merge(reachableLevels(start, steps, s.minDb, s.maxDb));
     return levels;
 }
 
-Levels levelsOf(const QuestMethod& q) {
+Levels possibleLevels(const QuestMethod& q) {
     const auto levels = questPlan(q, 0.5).levels;
     return {levels.begin(), levels.end()};
 }
 
 /// Levels that an alternative can have in a session, summed as Experiment does. An adjusted alternative is
 /// played at the adjusted level.
-Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
+Levels possibleLevels(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
     const auto varies = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
-    if (varies(session.adjustment)) return levelsOf(*session.adjustment);
+    if (varies(session.adjustment)) return possibleLevels(*session.adjustment);
     const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
     Levels added;
     if (!session.levelsFrom.empty() && from != protocol.sessions.end() && varies(from->adjustment))
-        added = spread(from->adjustment->minDb, from->adjustment->maxDb); // means of adjusted levels
+        added = evenLevels(from->adjustment->minDb, from->adjustment->maxDb); // means of adjusted levels
     else if (varies(session.staircase))
-        added = levelsOf(*session.staircase);
+        added = possibleLevels(*session.staircase);
     else if (varies(session.quest))
-        added = levelsOf(*session.quest);
+        added = possibleLevels(*session.quest);
     else if (!session.levelsFile.empty())
         for (const StimulusLevel& level : protocol.levels)
             if (level.alternative == alternative.name) added.insert(level.levelDb);
@@ -82,10 +82,10 @@ Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alte
 }
 
 /// Parts of a session's trials, each with its levels; one part without a name if trials have none.
-std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPlan& session) {
+std::map<std::string, Levels> partLevels(const Protocol& protocol, const SessionPlan& session) {
     std::map<std::string, Levels> parts;
     for (const Alternative& alternative : session.alternatives)
-        for (const double db : levelsOf(protocol, session, alternative)) {
+        for (const double db : possibleLevels(protocol, session, alternative)) {
             Levels& levels = parts[alternative.name];
             levels.insert(db);
             if (std::ranges::any_of(protocol.conditions, hasRovingVariable)) continue;
@@ -100,7 +100,7 @@ std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPla
 
 /// True if a level only scales the samples of this condition's stimuli.
 bool isGain(const ConditionPlan& condition) {
-    const CallSet* const calls = callSetOf(condition.stimuli);
+    const CallSet* const calls = findCalls(condition.stimuli);
     return calls == nullptr || (calls->variables.empty() && nonGainVariables(condition).empty());
 }
 
@@ -122,7 +122,7 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
             const double plays = static_cast<double>(planned.trials) / static_cast<double>(items.size()) *
                                  (protocol.sessions[s].comparesPairs ? 2.0 : 1.0);
             for (const StimulusItem& item : items)
-                for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
+                for (const auto& [part, levels] : partLevels(protocol, protocol.sessions[s]))
                     planned.plays.push_back(
                         {c, item.label, part,
                          !part.empty() && part == protocol.sessions[s].reference ? 2.0 * plays : plays});
@@ -175,7 +175,7 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
     // of each part its levels, each with a session that sets it
     std::map<std::string, std::map<double, std::size_t>> parts;
     for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
-        for (const auto& [name, levels] : partsOf(protocol, protocol.sessions[s]))
+        for (const auto& [name, levels] : partLevels(protocol, protocol.sessions[s]))
             for (const double db : levels) parts[name].try_emplace(db, s);
     // sessions without alternatives play the same stimuli
     if (parts.size() > 1) parts.erase(std::string{});
@@ -184,7 +184,7 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
         if (levels.size() <= maxPlannedLevels) continue;
         spreadParts.insert(name);
         std::map<double, std::size_t> spreadLevels;
-        for (const double db : spread(levels.begin()->first, levels.rbegin()->first))
+        for (const double db : evenLevels(levels.begin()->first, levels.rbegin()->first))
             spreadLevels[db] = std::prev(levels.upper_bound(db))->second;
         levels = std::move(spreadLevels);
     }

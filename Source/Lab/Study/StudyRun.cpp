@@ -54,7 +54,7 @@ StudyInProgress::StudyInProgress(StudyRun run)
     , experiment_{run_.protocol, run_.participant, run_.participant.observer == Participant{}.observer}
     , error_{log_.error()} {
     if (!error_.empty()) return;
-    auto times = loadStudyTimes(timesPathOf(path_));
+    auto times = loadStudyTimes(timesPath(path_));
     error_ = times.error;
     times_ = std::move(times.value);
     if (!error_.empty()) return;
@@ -77,14 +77,14 @@ std::string StudyInProgress::logEvent(std::string_view event, const Apparatus& c
     times_.push_back({utcNow(), std::string(event), experiment_.answeredTrials(), current.language,
                       current.outputs, current.noiseOutputs});
     breakState_.apply(times_.back());
-    return writeStudyTimes(timesPathOf(path_), times_);
+    return writeStudyTimes(timesPath(path_), times_);
 }
 
 double StudyInProgress::remainingBreakSeconds() const {
     const double planned = experiment_.trial().breakSeconds;
-    const StudyEvent* const began = breakStart();
-    if (began == nullptr) return planned;
-    return std::clamp(planned - (unixSeconds(utcNow()) - unixSeconds(began->timeUtc)), 0.0, planned);
+    const StudyEvent* const start = breakStart();
+    if (start == nullptr) return planned;
+    return std::clamp(planned - (unixSeconds(utcNow()) - unixSeconds(start->timeUtc)), 0.0, planned);
 }
 
 std::string StudyInProgress::apparatusError(const Apparatus& current) const {
@@ -104,12 +104,12 @@ std::string StudyInProgress::apparatusError(const Apparatus& current) const {
                        numberText(current.masterDb) + " dB");
     if (before.noiseDb != current.noiseDb)
         return differs("the pink noise", noiseWords(before), noiseWords(current));
-    const auto began =
+    const auto start =
         std::find_if(times_.rbegin(), times_.rend(), std::mem_fn(&StudyEvent::isStartOrResume));
-    if (began == times_.rend()) return {}; // begun by a version that wrote no times
-    if (began->outputs != current.outputs) return differs("the outputs", began->outputs, current.outputs);
-    if (began->noiseOutputs != current.noiseOutputs)
-        return differs("the outputs of the noise", began->noiseOutputs, current.noiseOutputs);
+    if (start == times_.rend()) return {}; // begun by a version that wrote no times
+    if (start->outputs != current.outputs) return differs("the outputs", start->outputs, current.outputs);
+    if (start->noiseOutputs != current.noiseOutputs)
+        return differs("the outputs of the noise", start->noiseOutputs, current.noiseOutputs);
     return {};
 }
 

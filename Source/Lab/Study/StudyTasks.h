@@ -104,8 +104,8 @@ constexpr const StudyTaskDescription& taskDescription(StudyTask task) noexcept {
 
 /// The entry with that name; null if there is none. Any thread.
 constexpr const StudyTaskDescription* findStudyTask(std::string_view name) noexcept {
-    for (const auto& one : studyTasks)
-        if (one.name == name) return &one;
+    for (const auto& entry : studyTasks)
+        if (entry.name == name) return &entry;
     return nullptr;
 }
 
@@ -134,9 +134,9 @@ static_assert(
 inline std::string taskNames(std::initializer_list<AnswerKind> kinds) {
     std::string names;
     std::size_t count = 0;
-    for (const auto& one : studyTasks)
+    for (const auto& entry : studyTasks)
         for (const AnswerKind kind : kinds)
-            if (one.answer == kind) names.append(count++ > 0 ? " and " : "").append(one.name);
+            if (entry.answer == kind) names.append(count++ > 0 ? " and " : "").append(entry.name);
     return (count == 1 ? "the task " : "the tasks ") + names;
 }
 

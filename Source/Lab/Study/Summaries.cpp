@@ -45,7 +45,7 @@ double studentQuantile(double probability, std::size_t df) {
 double normalQuantile(double probability) {
     const double tail = std::min(probability, 1.0 - probability);
     const double z =
-        solveRising([](double at) { return -std::erfc(at / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
+        solveRising([](double x) { return -std::erfc(x / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
     return probability < 0.5 ? -z : z;
 }
 
@@ -81,7 +81,7 @@ std::vector<std::string> factorTokens(std::string_view condition) {
 }
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
-std::set<std::string> factorsOf(const std::string& condition) {
+std::set<std::string> findFactors(const std::string& condition) {
     std::set<std::string> factors; // a set, because both stimuli of a pair may have them
     for (std::string_view word : factorTokens(condition)) {
         RenderingMethod method;
@@ -93,8 +93,8 @@ std::set<std::string> factorsOf(const std::string& condition) {
     return factors;
 }
 
-ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
-                    const std::vector<double>& shares, bool isKnown) {
+ChoiceShare makeShare(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
+                      const std::vector<double>& shares, bool isKnown) {
     constexpr std::size_t minRankValues = 6; // two values of five cover the median in 94 % of samples
     const double none = std::nan("");
     ChoiceShare share{alternative, hits, trials, shares.size(), none, none};
@@ -136,10 +136,10 @@ std::vector<Alternatives> offeredAlternatives(const std::vector<ChoiceTrial>& tr
     return offers;
 }
 
-using Offered = std::map<const ChoiceTrial*, Alternatives>;
+using OffersByTrial = std::map<const ChoiceTrial*, Alternatives>;
 
 ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
-                        const Offered& offered, bool isKnown) {
+                        const OffersByTrial& offered, bool isKnown) {
     struct Votes {
         std::uint64_t hits = 0, trials = 0;
     };
@@ -160,7 +160,7 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
             shares.push_back(static_cast<double>(tally.hits) / static_cast<double>(tally.trials));
             all.hits += tally.hits, all.trials += tally.trials;
         }
-        summary.shares.push_back(shareOf(alternative, all.hits, all.trials, shares, isKnown));
+        summary.shares.push_back(makeShare(alternative, all.hits, all.trials, shares, isKnown));
     }
     return summary;
 }
@@ -197,10 +197,10 @@ RatingSummary summarise(const std::string& condition, const RatingTrials& trials
 }
 
 template <class Trial>
-using Groups = std::map<std::string, std::vector<const Trial*>, ByNumbers>;
+using Groups = std::map<std::string, std::vector<const Trial*>, NaturalOrder>;
 
 template <class Trial>
-Groups<Trial> byCondition(const std::vector<Trial>& trials) {
+Groups<Trial> groupByCondition(const std::vector<Trial>& trials) {
     Groups<Trial> conditions;
     for (const Trial& trial : trials) conditions[trial.condition].push_back(&trial);
     return conditions;
@@ -208,10 +208,10 @@ Groups<Trial> byCondition(const std::vector<Trial>& trials) {
 
 /// Trials by the factors in the names of their conditions, without factors that are conditions themselves.
 template <class Trial>
-Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& conditions) {
+Groups<Trial> groupByFactor(const std::vector<Trial>& trials, const Groups<Trial>& conditions) {
     Groups<Trial> factors;
     for (const Trial& trial : trials)
-        for (const auto& factor : factorsOf(trial.condition))
+        for (const auto& factor : findFactors(trial.condition))
             if (!conditions.contains(factor)) factors[factor].push_back(&trial);
     return factors;
 }
@@ -220,16 +220,16 @@ Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& co
 
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
     std::vector<const ChoiceTrial*> all;
-    Offered offered;
+    OffersByTrial offered;
     bool isKnown = true;
     const auto offers = offeredAlternatives(trials, isKnown);
     for (const auto& trial : trials) offered[&trial] = offers[all.size()], all.push_back(&trial);
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
     summaries.push_back(summarise("all", all, offered, isKnown));
-    const auto conditions = byCondition(trials);
+    const auto conditions = groupByCondition(trials);
     if (conditions.size() < 2) return summaries;
-    for (const auto& groups : {byFactor(trials, conditions), conditions})
+    for (const auto& groups : {groupByFactor(trials, conditions), conditions})
         for (const auto& [name, group] : groups)
             summaries.push_back(summarise(name, group, offered, isKnown));
     return summaries;
@@ -239,7 +239,7 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
     std::vector<RatingSummary> summaries;
     const bool isOverParticipants = std::ranges::any_of(
         trials, [&](const RatingTrial& trial) { return trial.participant != trials.front().participant; });
-    for (const auto& [condition, group] : byCondition(trials))
+    for (const auto& [condition, group] : groupByCondition(trials))
         summaries.push_back(summarise(condition, group, isOverParticipants));
     return summaries;
 }
@@ -249,7 +249,7 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
 namespace {
 
 /// Levels at which the sequence changes direction.
-std::vector<double> reversalsOf(const std::vector<double>& levels) {
+std::vector<double> findReversals(const std::vector<double>& levels) {
     std::vector<double> reversals;
     double last = 0.0;
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
@@ -283,7 +283,7 @@ using Run = std::vector<const LevelTrial*>; // one participant's trials of a ses
 double staircaseThreshold(const Run& run) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
-    const auto reversals = reversalsOf(levels);
+    const auto reversals = findReversals(levels);
     if (reversals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
     const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
                           reversals.end()};
@@ -311,7 +311,7 @@ double questThreshold(const Run& run, LevelSummary& summary) {
 
 using SessionKey = std::pair<std::string, std::string>; // session, plan of QUEST+
 
-std::map<SessionKey, Run> runsOf(const Run& trials) {
+std::map<SessionKey, Run> groupRuns(const Run& trials) {
     std::map<SessionKey, Run> runs;
     for (const LevelTrial* trial : trials) runs[{trial->session, trial->quest}].push_back(trial);
     return runs;
@@ -321,19 +321,19 @@ std::map<SessionKey, Run> runsOf(const Run& trials) {
 /// all share, as a standard deviation.
 double poolThresholds(const std::map<std::string, Run>& participants,
                       std::vector<std::vector<double>>& runThresholds) {
-    struct Place {
+    struct RunIndex {
         std::size_t participant, run;
     };
-    std::map<std::string, std::pair<std::vector<std::vector<LevelCount>>, std::vector<Place>>> plans;
+    std::map<std::string, std::pair<std::vector<std::vector<LevelCount>>, std::vector<RunIndex>>> plans;
     std::size_t total = 0;
     for (const auto& [participant, trials] : participants) {
         auto& thresholds = runThresholds.emplace_back();
-        for (const auto& [key, run] : runsOf(trials)) {
-            auto& [counts, places] = plans[key.second];
+        for (const auto& [key, run] : groupRuns(trials)) {
+            auto& [counts, indices] = plans[key.second];
             counts.push_back(countByLevel(run, [](const LevelTrial* t) {
                 return std::pair{t->levelDb, t->value > 0.5};
             }));
-            places.push_back({runThresholds.size() - 1, thresholds.size()});
+            indices.push_back({runThresholds.size() - 1, thresholds.size()});
             thresholds.push_back(0.0);
             ++total;
         }
@@ -355,7 +355,7 @@ std::string noThresholdReason(LevelTrial::Kind kind, const Run& trials, double t
     if (kind == LevelTrial::Kind::staircase) {
         std::string words;
         std::size_t at = 0, reasonCount = 0;
-        for (const auto& [key, run] : runsOf(trials)) {
+        for (const auto& [key, run] : groupRuns(trials)) {
             const double runThreshold = runThresholds[at++];
             if (std::isfinite(runThreshold)) continue;
             const std::size_t slash = key.first.find('/');
@@ -391,7 +391,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
     else
         for (const auto& [participant, trials] : participants) {
             auto& thresholds = runThresholds.emplace_back();
-            for (const auto& [session, run] : runsOf(trials))
+            for (const auto& [session, run] : groupRuns(trials))
                 thresholds.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
                                                                              : staircaseThreshold(run));
             summary.halfInterval /= static_cast<double>(thresholds.size());
@@ -426,8 +426,8 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
     std::ranges::stable_sort(summaries, [](const LevelSummary& a, const LevelSummary& b) {
         if (a.kind != b.kind) return a.kind < b.kind;
-        return a.condition != b.condition ? ByNumbers{}(a.condition, b.condition)
-                                          : ByNumbers{}(a.stimulus, b.stimulus);
+        return a.condition != b.condition ? NaturalOrder{}(a.condition, b.condition)
+                                          : NaturalOrder{}(a.stimulus, b.stimulus);
     });
     for (LevelSummary& summary : summaries) {
         std::map<std::string, Run> trialsByParticipant;

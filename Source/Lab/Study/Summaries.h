@@ -57,12 +57,12 @@ struct Moments {
 /// The trials of each participant, in the order of first trials. Any thread (allocates).
 template <class Trial>
 std::vector<std::pair<std::string, std::vector<Trial>>> groupByParticipant(const std::vector<Trial>& trials) {
-    std::map<std::string_view, std::size_t> places;
+    std::map<std::string_view, std::size_t> indices;
     std::vector<std::pair<std::string, std::vector<Trial>>> groups;
     for (const Trial& trial : trials) {
-        const auto [at, isNew] = places.try_emplace(trial.participant, groups.size());
+        const auto [entry, isNew] = indices.try_emplace(trial.participant, groups.size());
         if (isNew) groups.emplace_back(trial.participant, std::vector<Trial>{});
-        groups[at->second].second.push_back(trial);
+        groups[entry->second].second.push_back(trial);
     }
     return groups;
 }
@@ -115,7 +115,7 @@ struct ChoiceSummary {
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< shares of the offered alternatives, sorted by name
 
-    const ChoiceShare* shareOf(std::string_view alternative) const noexcept {
+    const ChoiceShare* findShare(std::string_view alternative) const noexcept {
         const auto found = std::ranges::find(shares, alternative, &ChoiceShare::alternative);
         return found == shares.end() ? nullptr : &*found;
     }

@@ -24,7 +24,7 @@ const EmbeddedFile& thesisFile(std::string_view name) { // precondition: the fil
 std::string remainingDeviations(const std::string& study) {
     std::string words;
     for (const ThesisDeviation& deviation :
-         deviationsOf(findProtocol(study + std::string{thesisSuffix}).value))
+         findDeviations(findProtocol(study + std::string{thesisSuffix}).value))
         words.append(words.empty() ? "" : "; ")
             .append(deviation.inThesis)
             .append(": ")
@@ -59,12 +59,12 @@ void addTransferSection(ThesisPage& result) {
     ExportTable table{
         "thesis-transfer", false,
         "study,condition,criterion,stimuli,it_bits,most_bits,percent_correct,least_bits,two_to_it,possible"};
-    for (const thesis::Identification& one : thesis::identifications) {
-        const double maxBits = std::log2(static_cast<double>(one.stimuli));
+    for (const thesis::Identification& row : thesis::identifications) {
+        const double maxBits = std::log2(static_cast<double>(row.stimuli));
         const auto add = [&](std::size_t criterion, double bits, double percent) {
             if (bits <= 0.0) return;
-            const double minBits = percent > 0.0 ? fanoBits(maxBits, percent / 100.0, one.stimuli) : 0.0;
-            table.cells(one.study, one.condition, criterion == 0 ? "exact" : "tolerance 1", one.stimuli, bits,
+            const double minBits = percent > 0.0 ? fanoBits(maxBits, percent / 100.0, row.stimuli) : 0.0;
+            table.cells(row.study, row.condition, criterion == 0 ? "exact" : "tolerance 1", row.stimuli, bits,
                         maxBits);
             if (percent > 0.0)
                 table.cells(percent, minBits);
@@ -74,8 +74,8 @@ void addTransferSection(ThesisPage& result) {
                                            ? "yes"
                                            : "NO: below what its percent correct allows");
         };
-        add(0, one.bits, one.percentCorrect);
-        add(1, one.bitsTolerance, one.percentTolerance);
+        add(0, row.bits, row.percentCorrect);
+        add(1, row.bitsTolerance, row.percentTolerance);
     }
     result.addTable("transfer.csv", table.text());
 }

@@ -145,7 +145,7 @@ void DeviceThread::begin(std::function<void()> call) {
     }};
 }
 
-bool DeviceThread::isOver(Clock::time_point end, const std::atomic<bool>* cancel) {
+bool DeviceThread::awaitEnd(Clock::time_point end, const std::atomic<bool>* cancel) {
     if (!call_) return true;
     {
         std::unique_lock lock{call_->mutex};
@@ -159,7 +159,7 @@ bool DeviceThread::isOver(Clock::time_point end, const std::atomic<bool>* cancel
 }
 
 void DeviceThread::abandon() {
-    if (isOver()) return;
+    if (awaitEnd()) return;
     {
         const std::lock_guard lock{call_->mutex};
         call_->isAbandoned = true;
@@ -178,7 +178,7 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
         const auto found = std::make_shared<std::vector<AudioDeviceName>>();
         DeviceThread thread;
         thread.begin([driver, found] { *found = scanDevices(*driver); });
-        if (thread.isOver(DeviceThread::Clock::now() + scanTimeOut))
+        if (thread.awaitEnd(DeviceThread::Clock::now() + scanTimeOut))
             std::ranges::move(*found, std::back_inserter(devices));
         else
             devices.push_back({driver->name(), "does not answer", 0});
@@ -189,19 +189,19 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
 FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& query, bool withInputs) {
     auto all = drivers();
     // older versions saved another name for the same outputs, which is not listed any more (AlsaDriver)
-    const std::string wanted = query == "ALSA:JACK Audio Connection Kit" ? "JACK:system" : query;
+    const std::string target = query == "ALSA:JACK Audio Connection Kit" ? "JACK:system" : query;
     const auto prefix = [](const auto& driver) { return driver->name() + ":"; };
-    const auto isWanted = [&](const auto& driver) { return wanted.starts_with(prefix(driver)); };
+    const auto isWanted = [&](const auto& driver) { return target.starts_with(prefix(driver)); };
     const bool hasDriver = std::ranges::any_of(all, isWanted);
     for (auto& driver : all) {
         if (hasDriver && !isWanted(driver)) continue;
         driver->scan();
-        std::string name = cleanLine(wanted.substr(hasDriver ? prefix(driver).size() : 0));
+        std::string name = cleanLine(target.substr(hasDriver ? prefix(driver).size() : 0));
         const auto isListed = [&](bool inputs) {
             const auto names = driver->deviceNames(inputs);
             return std::ranges::find(names, name) != names.end();
         };
-        if (name == picoDeviceName && !isListed(false)) name = findPicoIn(driver->deviceNames(false));
+        if (name == picoDeviceName && !isListed(false)) name = findPico(driver->deviceNames(false));
         if (name.empty()) continue;
         auto device = driver->create(name, withInputs && isListed(true));
         if (device) return {std::move(driver), std::move(device)};
@@ -210,9 +210,9 @@ FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& quer
 }
 
 std::string picoLayoutPreset(const AudioDrivers& drivers, const std::string& name) {
-    if (name != picoDeviceName) return picoLayoutPresetOf(name);
+    if (name != picoDeviceName) return parsePicoPreset(name);
     const auto found = findAudioDevice(drivers, name);
-    return found.device ? picoLayoutPresetOf(found.device->name()) : std::string{};
+    return found.device ? parsePicoPreset(found.device->name()) : std::string{};
 }
 
 int hardwareOutputCount(const AudioDeviceName& device) {

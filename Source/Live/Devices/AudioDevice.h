@@ -182,7 +182,7 @@ public:
 
     using Clock = std::chrono::steady_clock;
     /// Waits for the call until `end`, or until `cancel` (may be null) is true. True: it has finished.
-    bool isOver(Clock::time_point end = {}, const std::atomic<bool>* cancel = nullptr);
+    bool awaitEnd(Clock::time_point end = {}, const std::atomic<bool>* cancel = nullptr);
 
     /// Allows another call to start; a call that has not finished goes on in its thread, which is detached.
     void abandon();
@@ -226,7 +226,7 @@ inline bool isPico(std::string_view device) {
 
 /// The Pico among a driver's devices; empty: there is none. ALSA lists parts of a card, too: the card itself
 /// is preferred, because it has all its channels in their order. Any thread.
-inline std::string findPicoIn(const std::vector<std::string>& devices) {
+inline std::string findPico(const std::vector<std::string>& devices) {
     std::string found;
     for (const std::string& device : devices) {
         if (!isPico(device)) continue;
@@ -237,7 +237,7 @@ inline std::string findPicoIn(const std::vector<std::string>& devices) {
 }
 
 /// The layout preset for the Pico with that name: "pico4", "pico8"; empty: the name does not say. Any thread.
-inline std::string picoLayoutPresetOf(std::string_view device) {
+inline std::string parsePicoPreset(std::string_view device) {
     const auto start = device.find(picoProductName);
     if (start == std::string_view::npos) return {};
     const std::string preset{device.substr(start + picoProductName.size() - picoDeviceName.size(), 5)};

@@ -9,10 +9,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceSession::Limit openLimit = 10s;    // time limit for a device that a user opens
-constexpr DeviceSession::Limit retryLimit = 500ms; // a slower driver is tried again a second later
-constexpr DeviceSession::Limit closeLimit = 400ms; // a JACK client aborted here keeps its server busy
-constexpr auto firstBlockLimit = 1s;               // time for a newly opened device to ask for a block
+constexpr DeviceSession::TimeLimit openLimit = 10s;    // time limit for a device that a user opens
+constexpr DeviceSession::TimeLimit retryLimit = 500ms; // a slower driver is tried again a second later
+constexpr DeviceSession::TimeLimit closeLimit = 400ms; // a JACK client aborted here keeps its server busy
+constexpr auto firstBlockLimit = 1s;                   // time for a newly opened device to ask for a block
 constexpr std::chrono::milliseconds minFade = 100ms, maxFade = 400ms; // limits of three blocks' time
 constexpr int maxOutputs = 65'536;                                    // of a device
 
@@ -34,8 +34,8 @@ AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.request(played_.ownSession().channels(), settings.channelMap, settings.enchanters,
-                                  settings.listening.outputs());
+    if (auto error = map_.request(played_.ownSession().channels(), settings.channelMap,
+                                  settings.actuatorCount, settings.listening.outputs());
         !error.empty())
         return error;
     settings_ = settings;
@@ -45,25 +45,25 @@ std::string AudioOutput::open(const AudioOutputSettings& settings) {
     return openDevice(openLimit);
 }
 
-std::string AudioOutput::setMap(const std::vector<int>& channelMap, int enchanters,
+std::string AudioOutput::setMap(const std::vector<int>& channelMap, int actuatorCount,
                                 const ListeningSettings& listening) {
     if (auto error =
-            map_.request(played_.ownSession().channels(), channelMap, enchanters, listening.outputs());
+            map_.request(played_.ownSession().channels(), channelMap, actuatorCount, listening.outputs());
         !error.empty())
         return error;
     const AudioOutputSettings previous = settings_;
     settings_.channelMap = channelMap;
-    settings_.enchanters = enchanters;
+    settings_.actuatorCount = actuatorCount;
     settings_.listening = listening;
     if (auto error = listeningError(); !error.empty()) {
         settings_ = previous;
-        map_.request(played_.ownSession().channels(), previous.channelMap, previous.enchanters,
+        map_.request(played_.ownSession().channels(), previous.channelMap, previous.actuatorCount,
                      previous.listening.outputs());
         return error;
     }
     monitorMix_.setLevels(listening);
     if (!deviceSession_.device() || !isRunning_) return {};
-    if (settings_.opensAll) return map_.place(deviceSession_.device()->activeOutputs()), std::string{};
+    if (settings_.opensAll) return map_.applyRequest(deviceSession_.device()->activeOutputs()), std::string{};
     deviceSession_.close();
     isRunning_ = false;
     openDevice(openLimit);
@@ -89,7 +89,7 @@ DeviceRequest AudioOutput::deviceRequest() const {
     return request;
 }
 
-std::string AudioOutput::openDevice(DeviceSession::Limit limit) {
+std::string AudioOutput::openDevice(DeviceSession::TimeLimit limit) {
     if (auto error = listeningError(); !error.empty()) return error;
     if (auto error = deviceSession_.open(deviceRequest(), limit); !error.empty()) return error;
     maxFrames_ = 0;
@@ -141,7 +141,7 @@ void AudioOutput::close() {
 
 std::string AudioOutput::maintain(Clock::time_point now) {
     if (settings_.device.empty()) return {};
-    const int before = watch_.losses();
+    const int losses = watch_.losses();
     if (isGone(now)) {
         if (deviceSession_.device()) deviceSession_.close();
         isRunning_ = false;
@@ -152,18 +152,18 @@ std::string AudioOutput::maintain(Clock::time_point now) {
                        : error;
         watch_.countLoss(now);
     }
-    const bool isPaused = watch_.losses() == before && now - openedAt_ > firstBlockLimit && !isPlaying();
+    const bool isPaused = watch_.losses() == losses && now - openedAt_ > firstBlockLimit && !isPlaying();
     std::string message = adaptToDevice();
     if (settings_.device.starts_with(std::string{nullDeviceType} + ":"))
         return message; // nothing is felt there
-    if (message.empty() && isPaused && map_.unassignedActuators() < map_.enchanters())
+    if (message.empty() && isPaused && map_.unassignedActuators() < map_.drivenActuators())
         message = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
     if (message.empty() && deviceGuard_.hasNewEpisodes(status().guardEpisodes))
         message = settings_.device +
                   ": an actuator was turned down: what it got held its coil at nearly direct current";
     if (!message.empty() || map_.unassignedActuators() == 0) return message;
     return settings_.device + ": " + std::to_string(map_.unassignedActuators()) + " of " +
-           std::to_string(map_.enchanters()) + " actuators have no output there";
+           std::to_string(map_.drivenActuators()) + " actuators have no output there";
 }
 
 // Some drivers report that a device has gone, others just stop asking. A device whose outputs were
@@ -202,8 +202,8 @@ void AudioOutput::aboutToStart(AudioDevice& device) {
     deviceGuard_.begin(deviceSession_.fullName(), device.activeOutputs(), rate);
     onOffMotors_.prepare(settings_.onOffActuators, rate, settings_.onOffThreshold);
     monitorMix_.prepare(rate, block);
-    map_.place(device.activeOutputs());
-    map_.settle(rate);
+    map_.applyRequest(device.activeOutputs());
+    map_.finishFades(rate);
     isEnding_ = false;
     masterRamp_.prepare(rate, fadeInSeconds, 0.0f);
     isRunning_ = true;

@@ -36,20 +36,20 @@ public:
 
     /// Changes the assignment of outputs and the number of actuators, without interruption if the device's
     /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
-    std::string assign(const std::vector<int>& channelMap, int enchanters) {
-        return setMap(channelMap, enchanters, settings_.listening);
+    std::string assign(const std::vector<int>& channelMap, int actuatorCount) {
+        return setMap(channelMap, actuatorCount, settings_.listening);
     }
 
     /// The device output of each actuator, from 0, as assigned last; -1: none. M.
     const std::vector<int>& channelMap() const noexcept { return settings_.channelMap; }
 
     /// Whether a device runs that has the actuator's output. Any thread.
-    bool hasOutput(int enchanter) const noexcept { return isRunning_ && map_.channelOf(enchanter) >= 0; }
+    bool hasOutput(int actuator) const noexcept { return isRunning_ && map_.channelOf(actuator) >= 0; }
 
     /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
     /// one line with the reason, in which case nothing changes. M.
     std::string setListening(const ListeningSettings& listening) {
-        return setMap(settings_.channelMap, settings_.enchanters, listening);
+        return setMap(settings_.channelMap, settings_.actuatorCount, listening);
     }
 
     /// Plays `other` from its beginning, from the next block on, while the output's own session pauses; null
@@ -116,11 +116,11 @@ private:
     void aboutToStart(AudioDevice& device) override;
     void stopped() override { isRunning_ = false; }
 
-    std::string setMap(const std::vector<int>& channelMap, int enchanters,
+    std::string setMap(const std::vector<int>& channelMap, int actuatorCount,
                        const ListeningSettings& listening);
     std::string listeningError() const;  // empty, or why listening outputs cannot play
     DeviceRequest deviceRequest() const; // the device to open, by settings and output map
-    std::string openDevice(DeviceSession::Limit limit);
+    std::string openDevice(DeviceSession::TimeLimit limit);
     void fadeOut(); // returns when the outputs are silent, or after a time limit
     bool isGone(Clock::time_point now);
     std::string adaptToDevice(); // restarts for another sample rate, longer blocks or a new sink

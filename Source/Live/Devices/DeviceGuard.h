@@ -25,7 +25,7 @@ struct StoredGuardSums {
     };
     Output output{0, -1};
     GuardSums sums{};
-    std::chrono::steady_clock::time_point since{};
+    std::chrono::steady_clock::time_point storedAt{};
 };
 
 /// The guard states of outputs on which nothing plays now, for the whole process. Two sessions that play on
@@ -36,23 +36,23 @@ public:
     using Stored = StoredGuardSums;
     static inline Clock::time_point (*now)() = Clock::now; ///< tests set it
 
-    /// Stores an output's state: replaces the one stored at `since`, but combines with a later one.
+    /// Stores an output's state: replaces the one stored at `storedAt`, but combines with a later one.
     static void store(const std::string& device, int output, GuardSums sums,
-                      Clock::time_point since = {}) noexcept {
+                      Clock::time_point storedAt = {}) noexcept {
         const std::lock_guard lock{mutex_};
         const Stored::Output key{std::hash<std::string>{}(device), output};
         Stored* slot = find(key);
-        if (slot != nullptr && slot->since != since)
+        if (slot != nullptr && slot->storedAt != storedAt)
             sums = combinedSums(sums, decayedSums(*slot));
         else if (slot == nullptr)
-            slot = std::ranges::min_element(stored_, {}, &Stored::since); // empty, or the oldest
+            slot = std::ranges::min_element(stored_, {}, &Stored::storedAt); // empty, or the oldest
         *slot = {key, sums, now()};
     }
     /// The stored state of an output, decayed to the present. It remains stored for later users.
     static Stored storedFor(const std::string& device, int output) noexcept {
         const std::lock_guard lock{mutex_};
         const Stored* const found = find({std::hash<std::string>{}(device), output});
-        return found != nullptr ? Stored{found->output, decayedSums(*found), found->since} : Stored{};
+        return found != nullptr ? Stored{found->output, decayedSums(*found), found->storedAt} : Stored{};
     }
 
 private:
@@ -68,7 +68,7 @@ private:
     // The stored state after silence from then until now, in steps of 1/3000 s; after 8 s nothing is left.
     static GuardSums decayedSums(const Stored& stored) noexcept {
         constexpr int tilesPerSecond = 3000, maxTiles = 8 * tilesPerSecond;
-        const double seconds = std::chrono::duration<double>(now() - stored.since).count();
+        const double seconds = std::chrono::duration<double>(now() - stored.storedAt).count();
         const int tiles = static_cast<int>(std::clamp(seconds * tilesPerSecond, 0.0, 1.0 * maxTiles));
         if (tiles == maxTiles) return {};
         GuardLaw<1> law;
@@ -98,10 +98,10 @@ public:
         outputs_.assign(outputs.begin(), outputs.end());
         std::array<GuardSums, maxChannels> sums;
         std::size_t count = 0;
-        restoredAt_.fill({});
+        storedAt_.fill({});
         for (std::size_t k = 0; k < outputs_.size() && count < maxChannels; ++k)
             if (const auto stored = GuardMemory::storedFor(device_, outputs_[k]); stored.sums.load > 0.0f) {
-                sums[count] = stored.sums, restoredAt_[count] = stored.since;
+                sums[count] = stored.sums, storedAt_[count] = stored.storedAt;
                 channels_[count++] = static_cast<int>(k);
             }
         guardChannels_.fill(none);
@@ -113,7 +113,7 @@ public:
         for (std::size_t c = 0; c < guard_.channels(); ++c)
             if (const auto k = static_cast<std::size_t>(channels_[c]); k < outputs_.size())
                 if (const auto sums = guard_.sums(c); sums.load > 0.0f)
-                    GuardMemory::store(device_, outputs_[k], sums, restoredAt_[c]);
+                    GuardMemory::store(device_, outputs_[k], sums, storedAt_[c]);
         outputs_.clear();
     }
 
@@ -155,7 +155,7 @@ private:
     std::string device_;
     std::vector<int> outputs_;                // of the device, per channel of its callback
     std::array<int, maxChannels> channels_{}; // of the callback, per channel of the guard
-    std::array<GuardMemory::Clock::time_point, maxChannels> restoredAt_{}; // when the state was stored
+    std::array<GuardMemory::Clock::time_point, maxChannels> storedAt_{}; // when the state was stored
     std::array<std::size_t, maxChannels> guardChannels_{}; // channel of the guard, per actuator that plays
     std::atomic<float> gain_{1.0f};
     std::atomic<std::uint32_t> episodes_{0};

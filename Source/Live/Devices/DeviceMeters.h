@@ -84,8 +84,8 @@ private:
 struct ChannelMeters {
     std::array<float, limits::maxActuators> peaks{}; ///< 1 = full scale; falling by `meterFallDbPerSecond`
     std::array<bool, limits::maxActuators> isConnected{};
-    int enchanters = 0;
-    int connected = 0;
+    int actuatorCount = 0;
+    int connectedCount = 0;
     float limiterGain = 1.0f;
     float guardGain = 1.0f; ///< of the channel that OutputGuard attenuates most
 };
@@ -99,7 +99,7 @@ struct InputChunk {
     int count = 0;
     std::array<float, 256> samples;
 
-    std::span<const float> sound() const noexcept {
+    std::span<const float> usedSamples() const noexcept {
         return std::span{samples}.first(static_cast<std::size_t>(count));
     }
 };
@@ -117,7 +117,7 @@ public:
             chunk.sessionNs = sessionNs + std::int64_t{1'000'000'000} * done / rateHz;
             chunk.count = std::min(frames - done, static_cast<int>(chunk.samples.size()));
             for (int i = 0; i < chunk.count; ++i)
-                chunk.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
+                chunk.samples[static_cast<std::size_t>(i)] = inputMean(in, inputs, done + i);
             chunks_.push(chunk);
         }
     }
@@ -128,7 +128,7 @@ public:
     std::size_t chunksLost() const noexcept { return chunks_.overflows(); } ///< Any thread.
 
 private:
-    static float meanOf(const float* const* in, int inputs, int frame) noexcept {
+    static float inputMean(const float* const* in, int inputs, int frame) noexcept {
         float sum = 0.0f;
         for (int k = 0; k < inputs; ++k) sum += in[k] != nullptr ? in[k][frame] : 0.0f;
         return sum / static_cast<float>(inputs);
@@ -163,7 +163,7 @@ public:
         const std::size_t written = framesWritten_.load(std::memory_order_relaxed),
                           requested = static_cast<std::size_t>(frames),
                           freeFrames = frames_ - (written - framesRead_.load(std::memory_order_acquire));
-        const Parts parts = partsOf(written, std::min(freeFrames, requested));
+        const Parts parts = splitRange(written, std::min(freeFrames, requested));
         const auto activeChannels = static_cast<std::size_t>(activeChannels_.load(std::memory_order_relaxed));
         for (std::size_t j = 0; j < activeChannels; ++j) {
             std::copy_n(channels[j], parts.first, ring_[j].data() + parts.begin);
@@ -178,7 +178,7 @@ public:
     template <class Consume>
     void read(Consume consume) {
         const std::size_t read = framesRead_.load(std::memory_order_relaxed);
-        const Parts parts = partsOf(read, framesWritten_.load(std::memory_order_acquire) - read);
+        const Parts parts = splitRange(read, framesWritten_.load(std::memory_order_acquire) - read);
         std::vector<const float*> part(ring_.size());
         for (const auto& [start, size] :
              {std::pair{parts.begin, parts.first}, {std::size_t{0}, parts.wrapped}}) {
@@ -195,8 +195,8 @@ private:
     struct Parts {
         std::size_t begin, first, wrapped; // `first` frames from `begin` on, `wrapped` from the ring's start
     };
-    Parts partsOf(std::size_t from, std::size_t count) const noexcept {
-        const std::size_t begin = from % frames_, first = std::min(count, frames_ - begin);
+    Parts splitRange(std::size_t frame, std::size_t count) const noexcept {
+        const std::size_t begin = frame % frames_, first = std::min(count, frames_ - begin);
         return {begin, first, count - first};
     }
 

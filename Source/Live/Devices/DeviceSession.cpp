@@ -61,15 +61,15 @@ DeviceSession::~DeviceSession() {
     if (found_.device || opening_) close();
 }
 
-std::string DeviceSession::open(const DeviceRequest& request, Limit limit) {
+std::string DeviceSession::open(const DeviceRequest& request, TimeLimit limit) {
     const auto deadline = hasTimedOut_ ? Clock::time_point{} : Clock::now() + limit; // after a time-out,
                                                                                      // later calls do not
                                                                                      // wait
     hasTimedOut_ = true;
     isMissing_ = false;
-    const std::string noAnswer = request.name + ": its driver does not answer; nothing else is played on";
+    const std::string timeOutError = request.name + ": its driver does not answer; nothing else is played on";
     if (!awaitIdle(deadline, cancel_)) {
-        if (busyDevice_ == request.name) return noAnswer;
+        if (busyDevice_ == request.name) return timeOutError;
         thread_.abandon(); // another device may have a driver that answers
         opening_.reset();
         closingDevice_.reset();
@@ -80,7 +80,7 @@ std::string DeviceSession::open(const DeviceRequest& request, Limit limit) {
         busyDevice_ = request.name;
         thread_.begin([opening = opening_] { opening->open(); });
     }
-    if (!opening_ || !awaitIdle(Clock::now() + limit, cancel_)) return noAnswer;
+    if (!opening_ || !awaitIdle(Clock::now() + limit, cancel_)) return timeOutError;
     hasTimedOut_ = false;
     const auto opened = std::exchange(opening_, nullptr);
     found_ = std::move(opened->found);
@@ -106,7 +106,7 @@ void DeviceSession::awaitBlock() const noexcept {
     if (callback_) callback_->awaitBlock();
 }
 
-void DeviceSession::close(Limit limit) {
+void DeviceSession::close(TimeLimit limit) {
     detach();
     if (opening_ && awaitIdle({}, nullptr))
         found_ = std::move(std::exchange(opening_, nullptr)->found); // opened after the time limit
@@ -126,13 +126,13 @@ void DeviceSession::closeOnThread(FoundDevice& found) {
 
 // Devices are destroyed while M waits, because a driver may receive notifications on the message loop.
 bool DeviceSession::awaitIdle(Clock::time_point deadline, const std::atomic<bool>* cancel) {
-    if (!thread_.isOver(deadline, cancel)) return false;
+    if (!thread_.awaitEnd(deadline, cancel)) return false;
     if (!closingDevice_) return true;
     thread_.begin([closed = std::exchange(closingDevice_, nullptr)] {
         closed->device.reset(); // before its driver
         closed->driver.reset();
     });
-    return thread_.isOver(deadline, cancel);
+    return thread_.awaitEnd(deadline, cancel);
 }
 
 } // namespace physvib

@@ -64,7 +64,7 @@ struct DeviceRequest {
 /// One device from search to close, over DeviceThread. All methods: M.
 class DeviceSession {
 public:
-    using Limit = std::chrono::milliseconds;
+    using TimeLimit = std::chrono::milliseconds;
 
     /// `cancel` (may be null; outlives this object) ends every wait but that of close() when it becomes true.
     DeviceSession(AudioDrivers drivers, const std::atomic<bool>* cancel);
@@ -72,7 +72,7 @@ public:
 
     /// Finds and opens a device; none may be open. Returns empty, or one line with the reason. If the driver
     /// has not answered in time, a later call with the same request gets the device.
-    std::string open(const DeviceRequest& request, Limit limit);
+    std::string open(const DeviceRequest& request, TimeLimit limit);
 
     /// Whether the last open() failed because the device is not there, or has no outputs.
     bool isMissing() const noexcept { return isMissing_; }
@@ -86,8 +86,8 @@ public:
     void awaitBlock() const noexcept;
 
     /// A device that is not closed within `limit` is abandoned to its thread.
-    void close(Limit limit = closeLimit);
-    static constexpr Limit closeLimit{250};
+    void close(TimeLimit limit = closeLimit);
+    static constexpr TimeLimit closeLimit{250};
 
     AudioDevice* device() const noexcept { return found_.device.get(); } ///< null: none is open
     std::string fullName() const { return found_.fullName(); }

@@ -21,8 +21,8 @@ JackDevice::~JackDevice() {
 
 std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs, int, int) {
     close();
-    const auto held = stream_->client.lock();
-    if (!held) return "expected a running JACK server, found none";
+    const auto guard = stream_->client.lock();
+    if (!guard) return "expected a running JACK server, found none";
     stream_->xruns = 0;
     if (jack_.activate(stream_->client.get()) != 0) return "the JACK server refuses to call this program";
     isOpen_ = true;
@@ -31,9 +31,9 @@ std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs
     return {};
 }
 
-std::size_t JackDevice::connect(const Direction& direction, const ChannelSet& wanted, bool isOutput) {
+std::size_t JackDevice::connect(const Direction& direction, const ChannelSet& channels, bool isOutput) {
     std::size_t connected = 0;
-    for (const int k : wanted) {
+    for (const int k : channels) {
         const auto index = static_cast<std::size_t>(k);
         if (index >= direction.ports.size()) continue;
         const char *ours = jack_.port_name(direction.ports[index]), *theirs = direction.remote[index].c_str();
@@ -53,7 +53,7 @@ void JackDevice::awaitConnections(std::size_t inputs, std::size_t outputs) const
 
 void JackDevice::close() {
     stop();
-    if (const auto held = stream_->client.lock(); isOpen_ && held) jack_.deactivate(stream_->client.get());
+    if (const auto guard = stream_->client.lock(); isOpen_ && guard) jack_.deactivate(stream_->client.get());
     isOpen_ = false;
     stream_->in.active.clear();
     stream_->out.active.clear();
@@ -67,9 +67,9 @@ std::vector<jack_port_t*> JackDevice::connectedPorts(const Direction& direction)
 }
 
 bool JackDevice::haveConnectionsChanged() const {
-    const auto held = stream_->client.lockBriefly();
-    return held && (connectedPorts(stream_->in) != stream_->in.active ||
-                    connectedPorts(stream_->out) != stream_->out.active);
+    const auto guard = stream_->client.lockBriefly();
+    return guard && (connectedPorts(stream_->in) != stream_->in.active ||
+                     connectedPorts(stream_->out) != stream_->out.active);
 }
 
 bool JackDevice::isOpen() {
@@ -84,7 +84,7 @@ bool JackDevice::isOpen() {
 
 void JackDevice::start(AudioDeviceCallback& callback) {
     if (!isOpen_ || !isAlive()) return;
-    if (const auto held = stream_->client.lockBriefly()) {
+    if (const auto guard = stream_->client.lockBriefly()) {
         stream_->in.active = connectedPorts(stream_->in); // the render thread reads it once a callback is set
         stream_->out.active = connectedPorts(stream_->out);
     }
@@ -98,7 +98,7 @@ void JackDevice::stop() {
 int JackDevice::sampleRateHz() { return isAlive() ? stream_->rateHz : 0; }
 
 int JackDevice::blockFrames() {
-    if (const auto held = stream_->client.lockBriefly())
+    if (const auto guard = stream_->client.lockBriefly())
         stream_->blockFrames = static_cast<int>(jack_.get_buffer_size(stream_->client.get()));
     return isAlive() ? stream_->blockFrames : 0;
 }
@@ -114,8 +114,8 @@ ChannelSet JackDevice::activeOutputs() const {
 // Reads the latency at the ports that ours are connected to: JACK updates ours only when its graph changes.
 int JackDevice::deviceLatencyFrames() {
     jack_nframes_t maxFrames = 0;
-    const auto held = stream_->client.lockBriefly();
-    if (!held) return 0;
+    const auto guard = stream_->client.lockBriefly();
+    if (!guard) return 0;
     for (auto* port : connectedPorts(stream_->out)) {
         const char** const others = jack_.port_get_connections(port);
         for (const char** name = others; name != nullptr && *name != nullptr; ++name) {
@@ -170,7 +170,7 @@ bool isOwn(const std::string& client) {
            (client.starts_with("physvib-") && client.find_first_not_of("0123456789", 8) == std::string::npos);
 }
 
-std::vector<std::string> clientsOf(const std::vector<std::string>& ports) {
+std::vector<std::string> clientNames(const std::vector<std::string>& ports) {
     std::vector<std::string> clients;
     for (const std::string& port : ports) {
         const std::string client = port.substr(0, port.find(':'));
@@ -206,15 +206,15 @@ JackClient::JackClient(const JackLibrary& jack, const char* name)
 }
 
 JackClient::~JackClient() {
-    if (const auto held = lock()) jack_.client_close(client_);
+    if (const auto guard = lock()) jack_.client_close(client_);
 }
 
 bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == serverNumber_; }
 
 JackClient::Lock JackClient::lock(bool isBrief) const {
     if (!isAlive()) return {};
-    Lock held = isBrief ? Lock{jackMutex, std::chrono::milliseconds{50}} : Lock{jackMutex};
-    return held && isAlive() ? std::move(held) : Lock{};
+    Lock guard = isBrief ? Lock{jackMutex, std::chrono::milliseconds{50}} : Lock{jackMutex};
+    return guard && isAlive() ? std::move(guard) : Lock{};
 }
 
 void JackClient::keepUntilFreed(std::shared_ptr<void> callbacks) {
@@ -230,7 +230,7 @@ std::vector<std::string> JackClient::ports(JackPortFlags direction) const {
     return names;
 }
 
-std::vector<std::string> JackClient::portsOf(const std::string& owner, JackPortFlags direction) const {
+std::vector<std::string> JackClient::clientPorts(const std::string& owner, JackPortFlags direction) const {
     std::vector<std::string> names = ports(direction);
     std::erase_if(names, [&](const std::string& name) { return !name.starts_with(owner + ":"); });
     return names;
@@ -240,10 +240,10 @@ void JackDriver::scan() {
     inputs_.clear();
     outputs_.clear();
     const JackClient client{jack_, "physvib-scan"};
-    const auto held = client.lock();
-    if (!held) return;
-    inputs_ = clientsOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
-    outputs_ = clientsOf(client.ports(JackPortIsInput));
+    const auto guard = client.lock();
+    if (!guard) return;
+    inputs_ = clientNames(client.ports(JackPortIsOutput)); // what gives samples is an input here
+    outputs_ = clientNames(client.ports(JackPortIsInput));
 }
 
 std::unique_ptr<AudioDevice> JackDriver::create(const std::string& name, bool withInputs) {

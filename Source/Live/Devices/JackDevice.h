@@ -62,7 +62,7 @@ public:
     std::vector<std::string> ports(JackPortFlags direction) const;
 
     /// The ports() of one client.
-    std::vector<std::string> portsOf(const std::string& owner, JackPortFlags direction) const;
+    std::vector<std::string> clientPorts(const std::string& owner, JackPortFlags direction) const;
 
     /// Keeps the object that JACK may still call for a client without a server, until JACK frees the client.
     static void keepUntilFreed(std::shared_ptr<void> callbacks);
@@ -88,12 +88,12 @@ public:
     JackStream(const JackLibrary& jack, const std::string& device, bool withInputs)
         : client{jack, "physvib"}
         , jack_{jack} {
-        const auto held = client.lock();
-        if (!held) return;
+        const auto guard = client.lock();
+        if (!guard) return;
         rateHz = static_cast<int>(jack_.get_sample_rate(client.get()));
         blockFrames = static_cast<int>(jack_.get_buffer_size(client.get()));
-        out.remote = client.portsOf(device, JackPortIsInput);
-        if (withInputs) in.remote = client.portsOf(device, JackPortIsOutput);
+        out.remote = client.clientPorts(device, JackPortIsInput);
+        if (withInputs) in.remote = client.clientPorts(device, JackPortIsOutput);
         addPorts(in, "in_", JackPortIsInput);
         addPorts(out, "out_", JackPortIsOutput);
         jack_.set_process_callback(client.get(), onBlock, this);
@@ -185,7 +185,7 @@ private:
     using Direction = JackStream::Direction;
 
     bool isAlive() const noexcept { return stream_->client.isAlive(); }
-    std::size_t connect(const Direction& direction, const ChannelSet& wanted, bool isOutput);
+    std::size_t connect(const Direction& direction, const ChannelSet& channels, bool isOutput);
     void awaitConnections(std::size_t inputs, std::size_t outputs) const;
     std::vector<jack_port_t*> connectedPorts(const Direction& direction) const; // with the lock
     bool haveConnectionsChanged() const;

@@ -47,13 +47,13 @@ std::string marksError(const std::vector<int>& driven, const ListeningOutputs& l
 
 } // namespace
 
-std::string OutputMap::request(int enchanters, const std::vector<int>& wanted, int drivenCount,
+std::string OutputMap::request(int actuatorCount, const std::vector<int>& channelMap, int drivenCount,
                                const ListeningOutputs& listening) {
-    std::vector<int> outputs(static_cast<std::size_t>(enchanters), unspecified);
-    if (wanted.empty())
+    std::vector<int> outputs(static_cast<std::size_t>(actuatorCount), unspecified);
+    if (channelMap.empty())
         std::iota(outputs.begin(), outputs.end(), 0);
     else
-        std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
+        std::copy_n(channelMap.begin(), std::min(channelMap.size(), outputs.size()), outputs.begin());
     for (const int output : outputs)
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
             return "output " + std::to_string(output + 1) + " is given to two actuators; expected one each";
@@ -61,7 +61,7 @@ std::string OutputMap::request(int enchanters, const std::vector<int>& wanted, i
     if (auto error = marksError(outputs, listening); !error.empty()) return error;
     requestedOutputs_ = std::move(outputs);
     listening_ = listening;
-    drivenCount_ = drivenCount > 0 ? std::min(drivenCount, enchanters) : enchanters;
+    drivenCount_ = drivenCount > 0 ? std::min(drivenCount, actuatorCount) : actuatorCount;
     return {};
 }
 
@@ -82,7 +82,7 @@ int OutputMap::highestListeningOutput() const noexcept {
     return highest;
 }
 
-void OutputMap::place(const ChannelSet& active) {
+void OutputMap::applyRequest(const ChannelSet& active) {
     const auto callbackChannel = [&](int output) {
         const auto position = active.find(output);
         return position == active.end() ? -1 : static_cast<int>(std::distance(active.begin(), position));
@@ -95,16 +95,16 @@ void OutputMap::place(const ChannelSet& active) {
                                            std::memory_order_relaxed);
 }
 
-void OutputMap::settle(int sampleRateHz) noexcept {
+void OutputMap::finishFades(int sampleRateHz) noexcept {
     for (std::size_t j = 0; j < playingChannels_.size(); ++j) {
         playingChannels_[j] = channels_[j];
         ramps_[j].prepare(sampleRateHz, limits::channelRampSeconds, playingChannels_[j] < 0 ? 0.0f : 1.0f);
     }
 }
 
-int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
-    const auto j = static_cast<std::size_t>(enchanter);
-    const int target = channelOf(enchanter);
+int OutputMap::play(int actuator, float* samples, int frames) noexcept {
+    const auto j = static_cast<std::size_t>(actuator);
+    const int target = channelOf(actuator);
     if (playingChannels_[j] < 0 && target >= 0 &&
         std::find(playingChannels_.begin(), playingChannels_.end(), target) == playingChannels_.end())
         playingChannels_[j] = target;
@@ -118,7 +118,7 @@ int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
 
 int OutputMap::unassignedActuators() const noexcept {
     int count = 0;
-    for (int j = 0; j < enchanters(); ++j)
+    for (int j = 0; j < drivenActuators(); ++j)
         if (requestedOutputs_[static_cast<std::size_t>(j)] != noOutput && channelOf(j) < 0) ++count;
     return count;
 }

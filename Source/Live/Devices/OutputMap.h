@@ -31,12 +31,12 @@ public:
         playingChannels_.fill(-1);
     }
 
-    /// Requests that actuator j play on device output wanted[j], from 0; an empty list stands for j, and
+    /// Requests that actuator j play on device output channelMap[j], from 0; an empty list stands for j, and
     /// actuators beyond the list get no output. `drivenCount` actuators are driven (0: all); `listening` are
     /// the listening outputs. An output may not have two actuators (their sum could exceed its ceiling), an
     /// actuator and listeners, or marks and anything else. Returns empty; or the reason in one line, and
-    /// nothing has changed. place() applies the request.
-    std::string request(int enchanters, const std::vector<int>& wanted, int drivenCount = 0,
+    /// nothing has changed. applyRequest() applies it.
+    std::string request(int actuatorCount, const std::vector<int>& channelMap, int drivenCount = 0,
                         const ListeningOutputs& listening = {});
 
     /// Those of the `deviceOutputs` outputs of a device that the request uses.
@@ -46,19 +46,19 @@ public:
     int highestListeningOutput() const noexcept;
 
     /// Applies the request. A callback gets the `active` outputs only, packed together.
-    void place(const ChannelSet& active);
+    void applyRequest(const ChannelSet& active);
 
     /// Ends all fades: every actuator plays on its own output at once. M, while R does not run.
-    void settle(int sampleRateHz) noexcept;
+    void finishFades(int sampleRateHz) noexcept;
 
     /// Processes the next `frames` samples of an actuator in place. If its output has changed, it fades out
     /// (limits::channelRampSeconds) and then in on the new output, once no other actuator plays there.
     /// Returns the callback channel to play on; -1: none. R, wait-free.
-    int play(int enchanter, float* samples, int frames) noexcept;
+    int play(int actuator, float* samples, int frames) noexcept;
 
     /// Callback channel of an actuator; -1: none.
-    int channelOf(int enchanter) const noexcept {
-        return channels_[static_cast<std::size_t>(enchanter)].load(std::memory_order_relaxed);
+    int channelOf(int actuator) const noexcept {
+        return channels_[static_cast<std::size_t>(actuator)].load(std::memory_order_relaxed);
     }
 
     /// Callback channel of the i-th output of `source`; -1: none, or i is too large.
@@ -68,7 +68,7 @@ public:
     }
     static constexpr int maxListeningOutputs = 8; ///< outputs per source: four pairs of headphones
 
-    int enchanters() const noexcept { return drivenCount_; } ///< number that are to be driven
+    int drivenActuators() const noexcept { return drivenCount_; } ///< number that are to be driven
     /// Number of driven actuators without a callback channel, although the request gave them an output.
     int unassignedActuators() const noexcept;
 
@@ -115,7 +115,7 @@ struct AudioOutputSettings {
     int sampleRateHz = 0;        ///< 0: device default
     int blockFrames = 0;         ///< 0: device default
     float level = defaultLevel;  ///< master gain, 0 to 1, reached in a ramp
-    int enchanters = 0;          ///< number of actuators to drive; 0: as many as the session has channels
+    int actuatorCount = 0;       ///< number of actuators to drive; 0: as many as the session has channels
     bool opensAll = false;       ///< opens every output, so that assign() need not reopen the device
     ListeningSettings listening{};
     /// Actuators, from 0, that are motors which are either on or off (Core/Actuators/VibrationConverter.h).

@@ -50,7 +50,7 @@ public:
         rateHz_ = sampleRateHz;
         blockFrames_ = maxBlockFrames;
         latencyNs_ = std::int64_t{1'000'000'000} * latencyFrames / rateHz_;
-        maxPauseNs_ = isReal ? DevicePulse::limitNs(std::int64_t{1'000'000'000} * blockFrames_ / rateHz_)
+        maxPauseNs_ = isReal ? DevicePulse::maxPauseNs(std::int64_t{1'000'000'000} * blockFrames_ / rateHz_)
                              : DevicePulse::never;
         beginPulse();
         samples_.assign(static_cast<std::size_t>(ownSession_.rendered().count()),
@@ -105,10 +105,10 @@ private:
 
 class OnOffMotors {
 public:
-    /// Sets which `enchanters` (from 0) are such motors. M, while R does not run.
-    void prepare(const std::vector<int>& enchanters, int sampleRateHz, double threshold) {
+    /// Sets which `actuators` (from 0) are such motors. M, while R does not run.
+    void prepare(const std::vector<int>& actuators, int sampleRateHz, double threshold) {
         motors_.clear();
-        for (const int j : enchanters)
+        for (const int j : actuators)
             motors_.push_back({static_cast<std::size_t>(j), OnOffSteps{sampleRateHz, threshold}});
     }
 
@@ -117,21 +117,21 @@ public:
     void apply(float* const* channels, int frames) noexcept {
         for (Motor& motor : motors_)
             for (int n = 0; n < frames; ++n) {
-                float& sample = channels[motor.enchanter][n];
+                float& sample = channels[motor.actuator][n];
                 motor.steps.add(sample, [](long long, bool) {});
                 sample = motor.steps.isOn() ? 1.0f : 0.0f;
             }
     }
 
     /// R.
-    bool has(int enchanter) const noexcept {
-        return std::ranges::find(motors_, static_cast<std::size_t>(enchanter), &Motor::enchanter) !=
+    bool has(int actuator) const noexcept {
+        return std::ranges::find(motors_, static_cast<std::size_t>(actuator), &Motor::actuator) !=
                motors_.end();
     }
 
 private:
     struct Motor {
-        std::size_t enchanter;
+        std::size_t actuator;
         OnOffSteps steps;
     };
     std::vector<Motor> motors_;
@@ -155,13 +155,13 @@ public:
 
     /// Sets the gains of noise and contact sounds from their levels in dB. M.
     void setLevels(const ListeningSettings& l) {
-        const auto gainOf = [](const std::vector<int>& outputs, double db, double minDb, double maxDb) {
+        const auto toGain = [](const std::vector<int>& outputs, double db, double minDb, double maxDb) {
             return outputs.empty() ? 0.0 : fromDecibels(std::clamp(db, minDb, maxDb));
         };
         // the noise generator has a level of its own, so the gain is relative to it
-        noiseGain_ = static_cast<float>(gainOf(l.noise, l.noiseDb, PinkNoise::minDb, PinkNoise::maxDb) /
+        noiseGain_ = static_cast<float>(toGain(l.noise, l.noiseDb, PinkNoise::minDb, PinkNoise::maxDb) /
                                         PinkNoise::rootMeanSquare);
-        contactGain_ = static_cast<float>(gainOf(l.contacts, l.contactDb, minContactDb, maxContactDb));
+        contactGain_ = static_cast<float>(toGain(l.contacts, l.contactDb, minContactDb, maxContactDb));
     }
     /// M, while R does not run.
     void prepare(int sampleRateHz, int blockFrames) {

@@ -41,8 +41,8 @@ Receipts::Receipts(int actuators)
 }
 
 void Receipts::alignBinsTo(std::int64_t fromNs, std::int64_t untilNs) noexcept {
-    alignFromNs_.store(std::clamp<std::int64_t>(fromNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
-    alignUntilNs_.store(std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
+    newFromNs_.store(std::clamp<std::int64_t>(fromNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
+    newUntilNs_.store(std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
 }
 
 // Sets the end of the open bin: the next multiple of 10 ms, or an expected time before it.
@@ -50,8 +50,8 @@ void Receipts::setBinEnd() noexcept {
     const std::int64_t bin = std::max(1, currentBin_.rateHz / binsPerSecond), frame = currentBin_.end(),
                        excess = frame % bin;
     if (hasNewAlignment() || currentBin_.rateHz != alignedRateHz_) {
-        alignedFromNs_ = alignFromNs_.load(std::memory_order_relaxed);
-        alignedUntilNs_ = alignUntilNs_.load(std::memory_order_relaxed);
+        alignedFromNs_ = newFromNs_.load(std::memory_order_relaxed);
+        alignedUntilNs_ = newUntilNs_.load(std::memory_order_relaxed);
         alignedRateHz_ = currentBin_.rateHz;
         const FrameClock clock{currentBin_.rateHz};
         alignedFrames_ = {clock.at(alignedFromNs_).frame, clock.at(alignedUntilNs_).frame};
@@ -76,7 +76,7 @@ void Receipts::addBlock(std::uint32_t session, std::int64_t startFrame, int samp
         const auto partFrames =
             static_cast<int>(std::min<std::int64_t>(binEndFrame_ - currentBin_.end(), frames - done));
         missingOutputBits_ |= measureLanes_(outputs, count_, static_cast<std::size_t>(done),
-                                            static_cast<std::size_t>(partFrames), openLevels_.data());
+                                            static_cast<std::size_t>(partFrames), currentLevels_.data());
         currentBin_.frames += partFrames;
         done += partFrames;
         if (currentBin_.end() == binEndFrame_) publish();
@@ -94,10 +94,10 @@ void Receipts::publish() noexcept {
     bin.session.store(currentBin_.session, std::memory_order_release);
     bin.opening.store(currentBin_.opening, std::memory_order_release);
     const double seconds = static_cast<double>(currentBin_.frames) / currentBin_.rateHz;
-    joinLanes_(openLevels_.data(), count_, endedLevels_.data());
+    joinLanes_(currentLevels_.data(), count_, binLevels_.data());
     Level* level = &this->level(number, 0);
     for (std::size_t j = 0; j < count_; ++j, ++level) {
-        const auto [peak, squares] = endedLevels_[j];
+        const auto [peak, squares] = binLevels_[j];
         const bool hasOutput = (missingOutputBits_ >> j & 1) == 0;
         level->peak.store(hasOutput ? peak : -1.0f, std::memory_order_release);
         level->squares.store(squares, std::memory_order_release);
@@ -155,7 +155,7 @@ Receipt Receipts::receiptFor(std::int64_t fromNs, std::int64_t untilNs, int actu
         if (range.session != session) continue;
         const FrameClock clock{range.rateHz};
         const std::int64_t firstFrame = clock.at(fromNs).frame, endFrame = clock.at(untilNs).frame;
-        receipt.isOver = receipt.isOver || range.end() >= endFrame;
+        receipt.hasEnded = receipt.hasEnded || range.end() >= endFrame;
         hasStart = range.start <= firstFrame;
         if (range.start >= endFrame || range.end() <= firstFrame) continue;
         Measured sum;

@@ -18,7 +18,7 @@ struct Receipt {
     double peak = 0.0, meanSquare = 0.0; ///< of these frames
     bool isRunning = false; ///< every frame of the span left, in one piece: the device ran all the time, and
                             ///< the actuator had an output
-    bool isOver = false;    ///< false: the device has not asked for the end of the span yet
+    bool hasEnded = false;  ///< false: the device has not asked for the end of the span yet
     bool isInMemory = true; ///< false: the span is too old, and parts of it are unknown
     std::int64_t endNs = 0; ///< end of the last frame that left: start of a span that continues this one
     std::uint32_t opening = 0; ///< number of the last device start in the span; 0: no frame was sent
@@ -88,8 +88,8 @@ private:
         return levels_[static_cast<std::size_t>(bin % maxBins) * count_ + static_cast<std::size_t>(actuator)];
     }
     bool hasNewAlignment() const noexcept {
-        return alignedFromNs_ != alignFromNs_.load(std::memory_order_relaxed) ||
-               alignedUntilNs_ != alignUntilNs_.load(std::memory_order_relaxed);
+        return alignedFromNs_ != newFromNs_.load(std::memory_order_relaxed) ||
+               alignedUntilNs_ != newUntilNs_.load(std::memory_order_relaxed);
     }
     void setBinEnd() noexcept;
     void publish() noexcept;
@@ -101,7 +101,7 @@ private:
     const std::unique_ptr<Level[]> levels_;
     const std::unique_ptr<SharedTotal[]> totals_;
     std::atomic<std::int64_t> binsWritten_{0}; // bins so far; the next one is being written
-    std::atomic<std::int64_t> alignFromNs_{0}, alignUntilNs_{0};
+    std::atomic<std::int64_t> newFromNs_{0}, newUntilNs_{0};
 
     // R
     std::uint32_t opening_ = 0;
@@ -110,8 +110,8 @@ private:
     std::int64_t alignedFromNs_ = 0, alignedUntilNs_ = 0; // request that binEndFrame_ respects
     int alignedRateHz_ = 0;
     std::array<std::int64_t, 2> alignedFrames_{};
-    std::array<MeasuredLanes, static_cast<std::size_t>(limits::maxActuators)> openLevels_{};
-    std::array<Measured, static_cast<std::size_t>(limits::maxActuators)> endedLevels_{}; // at the bin's end
+    std::array<MeasuredLanes, static_cast<std::size_t>(limits::maxActuators)> currentLevels_{};
+    std::array<Measured, static_cast<std::size_t>(limits::maxActuators)> binLevels_{}; // at the bin's end
     std::uint64_t missingOutputBits_ = 0; // bit j: actuator j had no output in part of the bin
 };
 

@@ -32,8 +32,8 @@ constexpr std::array steamModels{HidModel{0x28DE, 0x1302, PadBus::usb}};
 constexpr std::array switchModels{HidModel{0x057E, 0x2006, PadBus::other},
                                   HidModel{0x057E, 0x2007, PadBus::other},
                                   HidModel{0x057E, 0x2009, PadBus::other}};
-constexpr HidFeedKind dualSense{dualSenseModels, "DualSense by Bluetooth"},
-    steam{steamModels, "Steam Controller (2026)"}, switchPad{switchModels, "Switch controller"};
+constexpr HidFeedKind dualSenseKind{dualSenseModels, "DualSense by Bluetooth"},
+    steamKind{steamModels, "Steam Controller (2026)"}, switchKind{switchModels, "Switch controller"};
 
 template <const HidFeedKind& kind>
 std::vector<SinkUnit> listHidPads() {
@@ -48,7 +48,7 @@ std::unique_ptr<Sink> makeCoilOutput(const std::string& address, const PhantomPa
 }
 
 std::unique_ptr<Sink> makeToneOutput(const std::string& address, const PhantomPanner& panner) {
-    return std::make_unique<HidOutput>(address, std::make_unique<ToneFeed>(switchPad, panner));
+    return std::make_unique<HidOutput>(address, std::make_unique<ToneFeed>(switchKind, panner));
 }
 
 template <class Output>
@@ -57,10 +57,10 @@ std::unique_ptr<Sink> makeOutput(const std::string& address, const PhantomPanner
 }
 
 /// The entry of a controller with two motors or coils; "auto" finds the first one.
-constexpr SinkKind padKind(std::string_view name, std::string_view title, std::string_view about,
+constexpr SinkKind padKind(std::string_view name, std::string_view title, std::string_view tooltip,
                            std::string_view settingKey, decltype(SinkKind::listUnits) listUnits,
-                           decltype(SinkKind::make) make, bool acceptsRawReports = true) {
-    return {name, title, about, settingKey, anyPad, {}, 2, {}, false, listUnits, make, acceptsRawReports};
+                           decltype(SinkKind::makeSink) make, bool acceptsRawReports = true) {
+    return {name, title, tooltip, settingKey, anyPad, {}, 2, {}, false, listUnits, make, acceptsRawReports};
 }
 
 constinit const std::array sinkTable{
@@ -71,13 +71,13 @@ constinit const std::array sinkTable{
             "controller", listGamePads, makeOutput<PadOutput>, false),
     padKind("DUALSENSE", "DualSense by Bluetooth",
             "Its two coils play the session's samples, up to 18 ms after the device", "dualsense",
-            listHidPads<dualSense>, makeCoilOutput<dualSense, dualSenseSamples>),
+            listHidPads<dualSenseKind>, makeCoilOutput<dualSenseKind, dualSenseSamples>),
     padKind("STEAM", "Steam Controller (2026)",
-            "Its coils play the session's samples, up to 8 ms after the device", "steam", listHidPads<steam>,
-            makeCoilOutput<steam, steamSamples>),
+            "Its coils play the session's samples, up to 8 ms after the device", "steam",
+            listHidPads<steamKind>, makeCoilOutput<steamKind, steamSamples>),
     padKind("SWITCH", "Switch controller",
             "Two tones on either side follow all hits, felt together with the device", "switch",
-            listHidPads<switchPad>, makeToneOutput),
+            listHidPads<switchKind>, makeToneOutput),
 };
 
 // Index at which the last sink of `text` starts, and its kind; npos: there is none.
@@ -96,7 +96,7 @@ std::size_t sinkStart(std::string_view text, const SinkKind*& kind) {
 
 std::span<const SinkKind> sinkKinds() noexcept { return sinkTable; }
 
-const SinkKind& kindOf(const SinkName& sink) noexcept {
+const SinkKind& findSinkKind(const SinkName& sink) noexcept {
     return *std::ranges::find(sinkTable, std::string_view{sink.kind}, &SinkKind::name);
 }
 
@@ -115,19 +115,19 @@ OutputNames::OutputNames(std::string_view text) {
 
 std::string channelCountError(const std::vector<SinkName>& sinks, int channels) {
     for (const SinkName& sink : sinks)
-        if (const SinkKind& kind = kindOf(sink);
+        if (const SinkKind& kind = findSinkKind(sink);
             !kind.tooManyActuatorsError.empty() && channels > kind.actuators)
             return std::string(kind.tooManyActuatorsError);
     return {};
 }
 
-std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
+std::string openSinks(const std::vector<SinkName>& names, const PhantomPanner& panner,
                       const std::function<bool()>& keepGoing, Sinks& opened) {
-    if (wanted.size() > maxNamedSinks)
+    if (names.size() > maxNamedSinks)
         return "expected at most " + std::to_string(maxNamedSinks) + " outputs beside the device, found " +
-               std::to_string(wanted.size());
-    for (const SinkName& sink : wanted) {
-        opened.push_back(kindOf(sink).make(sink.address, panner));
+               std::to_string(names.size());
+    for (const SinkName& sink : names) {
+        opened.push_back(findSinkKind(sink).makeSink(sink.address, panner));
         if (!keepGoing) continue;
         if (auto error = opened.back()->awaitReady(keepGoing); !error.empty()) return error;
     }

@@ -15,7 +15,7 @@ namespace physvib {
 
 /// A connected unit that a sink can play on.
 struct SinkUnit {
-    std::string address{}, about{}; ///< as in an output name; a description for users
+    std::string address{}, label{}; ///< as in an output name; a description for users
     bool isLikely = true;           ///< known to be a unit of this kind, so the first-start dialog offers it
 };
 
@@ -23,7 +23,7 @@ struct SinkUnit {
 struct SinkKind {
     std::string_view name;       ///< as in output names: "BOARD"
     std::string_view title;      ///< for users: "Four-channel board"
-    std::string_view about;      ///< tooltip
+    std::string_view tooltip;    ///< for users
     std::string_view settingKey; ///< key under which a program saves the choice
     std::string_view anyAddress; ///< `address` that means the first unit found
     std::string_view otherTitle; ///< what may be typed beside the listed units: "Serial port"; empty: nothing
@@ -32,7 +32,7 @@ struct SinkKind {
                                             ///< panned onto those of the unit
     bool isPreferred; ///< connected units are made for vibration, so the first-start dialog offers them first
     std::vector<SinkUnit> (*listUnits)(); ///< message thread (M); queries the system for a while
-    std::unique_ptr<Sink> (*make)(const std::string& address, const PhantomPanner& panner);
+    std::unique_ptr<Sink> (*makeSink)(const std::string& address, const PhantomPanner& panner);
     bool acceptsRawReports = false; ///< a controller that gets raw HID reports, not motor commands
 };
 
@@ -46,7 +46,7 @@ struct SinkName {
 };
 
 /// The entry of that kind, which must exist: OutputNames makes only such names. Any thread.
-const SinkKind& kindOf(const SinkName& sink) noexcept;
+const SinkKind& findSinkKind(const SinkName& sink) noexcept;
 
 /// Parses "DEVICE", "KIND:ADDRESS" or "DEVICE+KIND:ADDRESS", with up to maxNamedSinks sinks. Without a
 /// device, the sinks follow the clock of the null device None.
@@ -67,7 +67,7 @@ constexpr std::size_t maxNamedSinks = SinkSet::maxSinks / 2;
 
 /// Opens all requested sinks for a session with that panner. Returns the first error. Waits for each as long
 /// as `keepGoing` returns true; without `keepGoing` it does not wait. M.
-std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
+std::string openSinks(const std::vector<SinkName>& names, const PhantomPanner& panner,
                       const std::function<bool()>& keepGoing, Sinks& opened);
 
 } // namespace physvib

@@ -6,9 +6,9 @@
 namespace physvib {
 void visitFields(auto& v, FieldsOf<EqualisedActuator>) {
     constexpr auto resonator = &EqualisedActuator::resonator;
-    v.field("resonance_hz", in(resonator, &Resonator::resonanceHz),
-            kinds::within(limits::minMeasuredHz, limits::maxFrequencyHz));
-    v.field("q", in(resonator, &Resonator::q), kinds::within(limits::minQ, limits::maxQ));
+    v.field("resonance_hz", nest(resonator, &Resonator::resonanceHz),
+            kinds::range(limits::minMeasuredHz, limits::maxFrequencyHz));
+    v.field("q", nest(resonator, &Resonator::q), kinds::range(limits::minQ, limits::maxQ));
     v.field("band_hz", &EqualisedActuator::band, Custom<FrequencyBand>{});
 }
 
@@ -52,7 +52,7 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
     if (!other.empty()) known.push_back(other);
     for (const std::string& name : json.names())
         if (std::ranges::find(known, name) == known.end())
-            json.fail("unknown field " + inQuotes(name) + ": expected " + listed(known));
+            json.fail("unknown field " + inQuotes(name) + ": expected " + nameList(known));
 }
 
 } // namespace

@@ -50,7 +50,7 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
      limits::maxChannelDelaySeconds},
     {"ceiling", RenderControl::Kind::ceiling, ControlDescription::ValueType::number, "value", 1e-6, 1.0},
 });
-inline constexpr auto controlNames = namesOf(controlTable);
+inline constexpr auto controlNames = entryNames(controlTable);
 
 /// Reads a panner, and its layout's names into `kind`. Throws JsonError.
 PhantomPanner readCustom(const JsonField& json, const DescribedPanner<LayoutDescription>& kind);
@@ -87,7 +87,7 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     using E = CollisionEvent;
     using C = ToneCourse;
     constexpr auto course = &E::course;
-    constexpr auto travel = in(course, &C::travelNs);
+    constexpr auto travel = nest(course, &C::travelNs);
     v.field("time_s", &E::timeNs, kinds::Time{});
     v.field("frequency_hz", &E::frequencyHz, kinds::positive);
     v.field("sound", &E::sound, kinds::wholeNumber(0, std::numeric_limits<SoundNumber>::max()),
@@ -97,16 +97,16 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     v.field("x_m", &E::x, kinds::number);
     v.field("y_m", &E::y, kinds::number);
     v.field("z_m", &E::z, kinds::number, Need::optional);
-    v.field("part", in(&E::source, &CollisionSource::part),
+    v.field("part", nest(&E::source, &CollisionSource::part),
             kinds::wholeNumber(0, std::numeric_limits<PartNumber>::max()), Need::optional);
     v.field("duration_s", &E::durationNs, kinds::Time{}, Need::optional);
     if (v.has("travel_s", travel)) {
-        v.field("to_x_m", in(course, &C::toX), kinds::number);
-        v.field("to_y_m", in(course, &C::toY), kinds::number);
-        v.field("to_z_m", in(course, &C::toZ), kinds::number, Need::optional);
+        v.field("to_x_m", nest(course, &C::toX), kinds::number);
+        v.field("to_y_m", nest(course, &C::toY), kinds::number);
+        v.field("to_z_m", nest(course, &C::toZ), kinds::number, Need::optional);
         v.field("travel_s", travel, kinds::Time{});
     }
-    v.field("since_s", in(course, &C::toneAgeNs), kinds::Time{}, Need::optional.from(5));
+    v.field("since_s", nest(course, &C::toneAgeNs), kinds::Time{}, Need::optional.from(5));
     v.field("spread", &E::spread, kinds::OneOf{spreadNames}, Need::optional.from(5));
 }
 
@@ -118,7 +118,7 @@ OrderedJson writeCustom(const Custom<RenderingMethod>& kind, const RenderingMeth
 namespace detail {
 
 // Readers; all throw JsonError.
-SceneRun readRunStart(const JsonField& json, const SceneRun* before, bool isJournal);
+SceneRun readRunStart(const JsonField& json, const SceneRun* prior, bool isJournal);
 WorldStall readStall(const JsonField& json, const SceneRun& run); ///< an error if before the run's last
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
@@ -126,7 +126,7 @@ CollisionEvent readStrike(const JsonField& json);
 void readClipFile(const JsonField& json, SessionLog& log);
 
 // Writers.
-OrderedJson runStartJson(const SceneRun& run, const SceneRun* before, bool isJournal);
+OrderedJson runStartJson(const SceneRun& run, const SceneRun* prior, bool isJournal);
 OrderedJson inputJson(const LiveInput& input, const Scene& scene);
 OrderedJson timedControlJson(const RenderControl& control);
 OrderedJson recordingsJson(RecordingsChange change, const std::filesystem::path& folder);

@@ -50,7 +50,7 @@ LineInput readAction(const JsonField& json, const std::vector<Material>& materia
         detail::readValue(json, line, {}, materials);
         return std::move(line.action);
     }
-    if (!json["control"].isString(silenceName)) return readControl(json, channels);
+    if (!json["control"].equals(silenceName)) return readControl(json, channels);
     json.expectObject({"control", "on"});
     return SilenceControl{json["on"].boolean()};
 }
@@ -74,8 +74,8 @@ std::optional<double> extractId(Json& root) {
 /// The number after the first "id" of a line that may be malformed.
 std::optional<double> findId(std::string_view line) {
     constexpr std::string_view key = "\"id\"", blank = " \t";
-    const auto at = line.find(key);
-    const auto colon = at == line.npos ? at : line.find_first_not_of(blank, at + key.size());
+    const auto keyAt = line.find(key);
+    const auto colon = keyAt == line.npos ? keyAt : line.find_first_not_of(blank, keyAt + key.size());
     const auto begin =
         colon == line.npos || line[colon] != ':' ? line.npos : line.find_first_not_of(blank, colon + 1);
     if (begin == line.npos) return std::nullopt;
@@ -93,7 +93,7 @@ std::string answerLine(const PlainMessage& answer) {
     OrderedJson json{{"answer", answer.name}};
     for (const NamedValue& value : answer.values)
         json[value.name] = std::visit([](const auto& plain) { return OrderedJson(plain); }, value.value);
-    return jsonLine(json);
+    return compactJson(json);
 }
 
 InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels) {
@@ -159,9 +159,9 @@ Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Ma
 }
 
 Result<SilenceControl> readPlainSilence(const std::vector<NamedValue>& values) {
-    const auto* on = values.size() == 1 ? std::get_if<double>(&values.front().value) : nullptr;
-    if (on == nullptr || values.front().name != onName) return Failure{"silence: expected on, and 1 or 0"};
-    return SilenceControl{*on != 0.0};
+    const auto* flag = values.size() == 1 ? std::get_if<double>(&values.front().value) : nullptr;
+    if (flag == nullptr || values.front().name != onName) return Failure{"silence: expected on, and 1 or 0"};
+    return SilenceControl{*flag != 0.0};
 }
 
 } // namespace physvib

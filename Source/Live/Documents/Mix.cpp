@@ -9,16 +9,16 @@ namespace {
 
 double roundedToFaderStep(double db) noexcept { return std::round(10.0 * db) / 10.0; }
 
-double lineDb(const GainPoint& from, const GainPoint& to, double seconds) noexcept {
-    const double length = to.seconds - from.seconds;
-    return length > 0.0 ? from.db + (to.db - from.db) * (seconds - from.seconds) / length : to.db;
+double lineDb(const GainPoint& start, const GainPoint& end, double seconds) noexcept {
+    const double length = end.seconds - start.seconds;
+    return length > 0.0 ? start.db + (end.db - start.db) * (seconds - start.seconds) / length : end.db;
 }
 
-/// Index in from..to of the largest deviation from a straight line; `from` if all are within tolerance.
-std::size_t farthestPoint(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
-    std::size_t found = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-        const double deviationDb = std::abs(lane[i].db - lineDb(lane[from], lane[to], lane[i].seconds));
+/// Index in first..last of the largest deviation from a straight line; `first` if all are within tolerance.
+std::size_t farthestPoint(const GainLane& lane, std::size_t first, std::size_t last, double toleranceDb) {
+    std::size_t found = first;
+    for (std::size_t i = first + 1; i < last; ++i) {
+        const double deviationDb = std::abs(lane[i].db - lineDb(lane[first], lane[last], lane[i].seconds));
         if (deviationDb > toleranceDb) toleranceDb = deviationDb, found = i;
     }
     return found;
@@ -29,21 +29,21 @@ GainLane withinTolerance(const GainLane& lane, double toleranceDb) {
     if (lane.size() < 3) return lane;
     GainLane result{lane.front()};
     std::vector<std::size_t> ends{lane.size() - 1}; // ends of the segments still to check, the next one last
-    for (std::size_t from = 0; !ends.empty();) {
-        const std::size_t middle = farthestPoint(lane, from, ends.back(), toleranceDb);
-        if (middle != from) {
+    for (std::size_t first = 0; !ends.empty();) {
+        const std::size_t middle = farthestPoint(lane, first, ends.back(), toleranceDb);
+        if (middle != first) {
             ends.push_back(middle);
             continue;
         }
-        from = ends.back();
+        first = ends.back();
         ends.pop_back();
-        result.push_back(lane[from]);
+        result.push_back(lane[first]);
     }
     return result;
 }
 
 /// The strip's group; for a strip without one, a group that changes nothing.
-const StripGroup& groupOf(const Mix& mix, const Strip& strip) {
+const StripGroup& findGroup(const Mix& mix, const Strip& strip) {
     static const StripGroup none{};
     return strip.group < 0 ? none : mix.groups[static_cast<std::size_t>(strip.group)];
 }
@@ -53,7 +53,7 @@ Strip ungrouped(const Strip& strip, const StripGroup& group) {
     Strip single = strip;
     single.gainDb = sumDb({strip.gainDb, group.gainDb});
     single.isMuted |= group.isMuted;
-    single.lane = simplified(sumOf(strip.lane, group.lane));
+    single.lane = simplified(sumLanes(strip.lane, group.lane));
     single.group = -1;
     return single;
 }
@@ -122,7 +122,7 @@ double sumDb(std::initializer_list<double> gainsDb) noexcept {
     return std::clamp(sum, minStripDb, maxStripDb);
 }
 
-GainLane sumOf(const GainLane& a, const GainLane& b) {
+GainLane sumLanes(const GainLane& a, const GainLane& b) {
     std::vector<double> times;
     for (const GainLane* lane : {&a, &b})
         for (const GainPoint& point : *lane) times.push_back(point.seconds);
@@ -146,8 +146,8 @@ GainLane simplified(const GainLane& lane, std::size_t maxPoints) {
 std::vector<Strip> effectiveStrips(const Mix& mix) {
     std::vector<Strip> effective = mix.strips;
     for (Strip& strip : effective) {
-        if (strip.group >= 0) strip.gainDb = sumDb({strip.gainDb, groupOf(mix, strip).gainDb});
-        strip.isMuted |= groupOf(mix, strip).isMuted;
+        if (strip.group >= 0) strip.gainDb = sumDb({strip.gainDb, findGroup(mix, strip).gainDb});
+        strip.isMuted |= findGroup(mix, strip).isMuted;
         strip.group = -1;
         strip.lane.clear();
     }
@@ -155,23 +155,23 @@ std::vector<Strip> effectiveStrips(const Mix& mix) {
 }
 
 bool hasLane(const Mix& mix, std::size_t strip) {
-    return !mix.strips[strip].lane.empty() || !groupOf(mix, mix.strips[strip]).lane.empty();
+    return !mix.strips[strip].lane.empty() || !findGroup(mix, mix.strips[strip]).lane.empty();
 }
 
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds) {
     const Strip& self = mix.strips[strip];
-    const StripGroup& group = groupOf(mix, self);
+    const StripGroup& group = findGroup(mix, self);
     return sumDb({self.gainDb, group.gainDb, laneDbAt(self.lane, seconds), laneDbAt(group.lane, seconds)});
 }
 
 double maxGainDb(const Mix& mix, std::size_t strip) {
     const Strip& self = mix.strips[strip];
-    const StripGroup& group = groupOf(mix, self);
+    const StripGroup& group = findGroup(mix, self);
     return sumDb({self.gainDb, group.gainDb, maxGainDb(self.lane), maxGainDb(group.lane)});
 }
 
 double maxAddedDb(const Mix& mix, std::size_t strip) {
-    const StripGroup& group = groupOf(mix, mix.strips[strip]);
+    const StripGroup& group = findGroup(mix, mix.strips[strip]);
     return maxGainDb(mix.strips[strip].lane) + (group.gainDb + maxGainDb(group.lane));
 }
 
@@ -201,7 +201,7 @@ void removeGroup(Mix& mix, int group) {
     mix.groups.erase(mix.groups.begin() + group);
 }
 
-MixerLimits MixerLimits::of(const Mix& mix) {
+MixerLimits MixerLimits::fromMix(const Mix& mix) {
     std::vector<Strip> strips = effectiveStrips(mix);
     for (std::size_t j = 0; j < strips.size(); ++j) strips[j].gainDb = maxGainDb(mix, j);
     return {mix.levelDb, strips};

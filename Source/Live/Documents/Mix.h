@@ -45,7 +45,7 @@ double maxGainDb(const GainLane& lane) noexcept; ///< largest value of its point
 double sumDb(std::initializer_list<double> gainsDb) noexcept;
 
 /// The sum of both lanes, with the points of both (allocates).
-GainLane sumOf(const GainLane& a, const GainLane& b);
+GainLane sumLanes(const GainLane& a, const GainLane& b);
 
 /// Removes points within 0.25 dB of the line between their neighbours, and more until at most `maxPoints`
 /// remain (allocates).
@@ -77,7 +77,7 @@ struct Strip {
 constexpr double minCeilingDb = -60.0; // lower values would amount to a mute
 constexpr int maxStripOutputs = 1024;
 constexpr std::size_t maxGroups = 16;
-inline constexpr auto stripRangeDb = kinds::within(minStripDb, maxStripDb); // minStripDb is silence
+inline constexpr auto stripRangeDb = kinds::range(minStripDb, maxStripDb); // minStripDb is silence
 
 /// The fields that the plug-in's strips, which have no groups and lanes, have too.
 void visitStrip(auto& v) {
@@ -85,8 +85,8 @@ void visitStrip(auto& v) {
     v.field("mute", &Strip::isMuted, kinds::boolean);
     v.field("solo", &Strip::isSolo, kinds::boolean);
     v.field("invert", &Strip::isInverted, kinds::boolean);
-    v.field("delay_ms", &Strip::delayMs, kinds::within(0.0, 1e3 * limits::maxChannelDelaySeconds));
-    v.field("ceiling_db", &Strip::ceilingDb, kinds::within(minCeilingDb, 0.0));
+    v.field("delay_ms", &Strip::delayMs, kinds::range(0.0, 1e3 * limits::maxChannelDelaySeconds));
+    v.field("ceiling_db", &Strip::ceilingDb, kinds::range(minCeilingDb, 0.0));
 }
 
 struct PluginStrip; // the plug-in's strip in files
@@ -153,8 +153,8 @@ inline Strip makeNextStrip(std::span<const Strip> strips) noexcept {
 }
 
 /// Resizes to one strip per actuator. Any thread.
-inline void resizeStrips(std::vector<Strip>& strips, int enchanters) {
-    const auto count = static_cast<std::size_t>(enchanters);
+inline void resizeStrips(std::vector<Strip>& strips, int actuators) {
+    const auto count = static_cast<std::size_t>(actuators);
     while (strips.size() < count) strips.push_back(makeNextStrip(strips));
     strips.resize(count);
 }
@@ -171,7 +171,7 @@ inline float channelGain(const Strip& strip) noexcept {
 }
 
 /// Largest sample value that the strip lets pass. Any thread.
-inline float ceilingOf(const Strip& strip) noexcept {
+inline float channelCeiling(const Strip& strip) noexcept {
     return static_cast<float>(fromDecibels(strip.ceilingDb));
 }
 
@@ -188,23 +188,23 @@ bool sendStrips(std::span<SentStrip> sent, std::span<const Strip> strips, Send s
     using Kind = RenderControl::Kind;
     bool isSent = true;
     for (std::size_t j = 0; j < strips.size(); ++j) {
-        const auto change = [&](Kind kind, float value, float& sentValue) {
+        const auto sendChange = [&](Kind kind, float value, float& sentValue) {
             if (value == sentValue) return;
             if (send(RenderControl{0, kind, static_cast<int>(j), value, {}}))
                 sentValue = value;
             else
                 isSent = false;
         };
-        change(Kind::gain, channelGain(strips[j]), sent[j].gain);
-        change(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), sent[j].delaySeconds);
-        change(Kind::ceiling, ceilingOf(strips[j]), sent[j].ceiling);
-        change(Kind::mute, isSilent(strips, j) ? 1.0f : 0.0f, sent[j].mute);
+        sendChange(Kind::gain, channelGain(strips[j]), sent[j].gain);
+        sendChange(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), sent[j].delaySeconds);
+        sendChange(Kind::ceiling, channelCeiling(strips[j]), sent[j].ceiling);
+        sendChange(Kind::mute, isSilent(strips, j) ? 1.0f : 0.0f, sent[j].mute);
     }
     return isSent;
 }
 
 // N s per metre of the screen (thesis 5.3.1)
-constexpr double thesisDrag = 32'000.0, minDrag = 1'000.0, maxDrag = 100'000.0;
+constexpr double defaultDrag = 32'000.0, minDrag = 1'000.0, maxDrag = 100'000.0;
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
@@ -214,8 +214,8 @@ struct Mix {
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per actuator
     std::vector<StripGroup> groups{};
-    double levelDb = -12.0;                              ///< master level; minStripDb is silence
-    double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< impulse of a drag in the world
+    double levelDb = -12.0;                               ///< master level; minStripDb is silence
+    double dragNewtonSecondsPerScreenMetre = defaultDrag; ///< impulse of a drag in the world
 
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept {
@@ -233,8 +233,8 @@ struct Mix {
     }
 };
 
-inline constexpr auto exponentRange = kinds::within(1e-3, 100.0);
-inline constexpr auto masterRangeDb = kinds::within(minStripDb, 0.0);
+inline constexpr auto exponentRange = kinds::range(1e-3, 100.0);
+inline constexpr auto masterRangeDb = kinds::range(minStripDb, 0.0);
 
 /// A JSON kind: layout, law, exponent and field of a panner, for at most `channels` actuators. `described`
 /// has the parts of the layout that a panner does not store: name, labels, full scales; empty: not known.
@@ -248,7 +248,7 @@ DescribedPanner(int, Layout&) -> DescribedPanner<Layout>; // Clang 14 does not d
 
 /// Scene and seed are no fields: they come from the session's last scene run.
 void visitFields(auto& v, FieldsOf<Mix>) {
-    constexpr auto dragRange = kinds::within(minDrag, maxDrag);
+    constexpr auto dragRange = kinds::range(minDrag, maxDrag);
     v.field("layout", &Mix::layout, Custom<LayoutDescription>{});
     v.field("law", &Mix::law, kinds::OneOf{panningLawNames});
     v.field("exponent", &Mix::exponent, exponentRange);
@@ -314,7 +314,7 @@ struct MixerLimits {
     double levelDb = 0.0;
     std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
 
-    static MixerLimits of(const Mix& mix);
+    static MixerLimits fromMix(const Mix& mix);
     /// Level of the loudest output by gain, ceiling and master; the master's alone if no output is in use.
     double loudestOutputDb() const;
 };

@@ -19,7 +19,7 @@ std::size_t checkedSize(const JsonField& list, std::size_t maxItems) {
 
 /// Reads a part with a file reader; its errors then begin with the field's name instead of a file name.
 auto readEmbedded(const JsonField& json, auto read) {
-    auto part = read(json.fileText(), json.path());
+    auto part = read(json.jsonText(), json.path());
     if (!part) throw JsonError({}, part.error);
     return std::move(part.value);
 }
@@ -40,11 +40,11 @@ struct ComponentLimit {
 }; // a vector; `max` limits both components
 
 int readCustom(const JsonField& json, const MaterialName& kind) {
-    const std::string wanted = json.text();
+    const std::string name = json.text();
     const auto& materials = kind.scene->materials;
-    const auto found = std::ranges::find(materials, wanted, &Material::name);
+    const auto found = std::ranges::find(materials, name, &Material::name);
     if (found == materials.end())
-        json.fail("expected the name of a material of the scene, found " + inQuotes(wanted));
+        json.fail("expected the name of a material of the scene, found " + inQuotes(name));
     return static_cast<int>(found - materials.begin());
 }
 OrderedJson writeCustom(const MaterialName& kind, const int& material) {
@@ -70,19 +70,19 @@ struct SceneNote {
 // Which fields a rule has depends on its kind ("do").
 void visitFields(auto& v, FieldsOf<SceneNote>) {
     constexpr auto rule = &SceneNote::rule;
-    constexpr auto vector = in(rule, &NoteRule::atFullVelocity);
-    v.field("note", in(rule, &NoteRule::note), kinds::wholeNumber(0, 127));
-    v.field("do", in(rule, &NoteRule::kind), kinds::OneOf{noteKindNames});
+    constexpr auto vector = nest(rule, &NoteRule::atFullVelocity);
+    v.field("note", nest(rule, &NoteRule::note), kinds::wholeNumber(0, 127));
+    v.field("do", nest(rule, &NoteRule::kind), kinds::OneOf{noteKindNames});
     if (v.object.rule.kind == NoteKind::push) {
-        v.field("object", in(rule, &NoteRule::object), kinds::text);
+        v.field("object", nest(rule, &NoteRule::object), kinds::text);
         v.field("impulse_ns", vector, ComponentLimit{sceneLimits::maxImpulseNewtonSeconds});
         return;
     }
-    v.field("material", in(rule, &NoteRule::material), MaterialName{v.object.scene});
-    v.field("x", in(rule, &NoteRule::x), kinds::upTo(1.0));
-    v.field("y", in(rule, &NoteRule::y), kinds::upTo(1.0));
+    v.field("material", nest(rule, &NoteRule::material), MaterialName{v.object.scene});
+    v.field("x", nest(rule, &NoteRule::x), kinds::upTo(1.0));
+    v.field("y", nest(rule, &NoteRule::y), kinds::upTo(1.0));
     if (v.object.rule.kind == NoteKind::strike) return;
-    v.field("radius_m", in(rule, &NoteRule::radiusMetres), Radius{});
+    v.field("radius_m", nest(rule, &NoteRule::radiusMetres), Radius{});
     v.field("velocity_m_per_s", vector, ComponentLimit{sceneLimits::maxSpeedMetresPerSecond});
 }
 
@@ -190,6 +190,6 @@ Result<PluginState> readPluginState(std::string_view text, std::string_view name
                     [](const Json& root) { return readStateRoot(JsonField(root, {})); });
 }
 
-std::string pluginStateJson(const PluginState& state) { return jsonLines(writeTable(state)); }
+std::string pluginStateJson(const PluginState& state) { return prettyJson(writeTable(state)); }
 
 } // namespace physvib

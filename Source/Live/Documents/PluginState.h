@@ -73,7 +73,7 @@ inline constexpr std::array<std::string_view, 3> notePlacementNames{"octave", "a
 /// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity.
 struct NoteVoice {
     NotePitch pitch = NotePitch::material;
-    NotePlacement places = NotePlacement::octave;
+    NotePlacement placement = NotePlacement::octave;
     bool isHeld = false;           ///< with NotePitch::note: sounds until note-off; otherwise it decays
     bool levelsPeak = false;       ///< the loudest actuator has the strike level; otherwise they share it
     double decayPerSecond = 12.0;  ///< with NotePitch::note, if not held
@@ -94,13 +94,13 @@ void visitFields(auto& v, FieldsOf<NoteVoice>) {
     using V = NoteVoice;
     using L = NoteVoiceLimits;
     v.field("pitch", &V::pitch, kinds::OneOf{notePitchNames});
-    v.field("places", &V::places, kinds::OneOf{notePlacementNames});
+    v.field("places", &V::placement, kinds::OneOf{notePlacementNames});
     v.field("held", &V::isHeld, kinds::boolean);
     v.field("loudest", &V::levelsPeak, kinds::boolean);
-    v.field("decay_per_s", &V::decayPerSecond, kinds::within(L::minDecayPerSecond, L::maxDecayPerSecond));
-    v.field("release_s", &V::releaseSeconds, kinds::within(L::minReleaseSeconds, L::maxReleaseSeconds));
-    v.field("velocity_exponent", &V::velocityExponent, kinds::within(L::minExponent, L::maxExponent));
-    v.field("bend_semitones", &V::bendSemitones, kinds::within(0.0, L::maxSemitones));
+    v.field("decay_per_s", &V::decayPerSecond, kinds::range(L::minDecayPerSecond, L::maxDecayPerSecond));
+    v.field("release_s", &V::releaseSeconds, kinds::range(L::minReleaseSeconds, L::maxReleaseSeconds));
+    v.field("velocity_exponent", &V::velocityExponent, kinds::range(L::minExponent, L::maxExponent));
+    v.field("bend_semitones", &V::bendSemitones, kinds::range(0.0, L::maxSemitones));
 }
 
 /// Maps a MIDI controller to the whole range of a parameter.
@@ -163,7 +163,7 @@ void visitFields(auto& v, FieldsOf<PluginState>) {
     v.field("voice", &S::voice, kinds::Object<NoteVoice>{}, Need::required.from(5));
     v.field("notes", &S::notes, kinds::Notes{&v.object.scene});
     v.field("controllers", &S::controllers, Custom<std::vector<ControllerRule>>{});
-    v.field("editor_px", both(&S::editorWidth, &S::editorHeight), EditorSize{}, Need::optional.from(2));
+    v.field("editor_px", memberPair(&S::editorWidth, &S::editorHeight), EditorSize{}, Need::optional.from(2));
     v.field("parameters", &S::parameters, Custom<ParameterValues>{});
 }
 

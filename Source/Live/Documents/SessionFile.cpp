@@ -34,13 +34,13 @@ void readEach(const JsonField& json, std::string_view name, auto read) {
     for (std::size_t i = 0, count = list.arraySize(); i < count; ++i) read(list.item(i));
 }
 
-SceneRun readRun(const JsonField& json, const SceneRun* before) {
-    SceneRun run = readRunStart(json, before, false);
+SceneRun readRun(const JsonField& json, const SceneRun* prior) {
+    SceneRun run = readRunStart(json, prior, false);
     if (json.has("inputs"))
         detail::readValue(json["inputs"], run.inputs, items(0, sceneLimits::maxLiveInputs),
                           run.scene->materials);
     readEach(json, "stalls", [&](const JsonField& stall) { run.stalls.push_back(readStall(stall, run)); });
-    const bool isCheckedBefore = before != nullptr && run.scene == before->scene && run.inputs.empty();
+    const bool isCheckedBefore = prior != nullptr && run.scene == prior->scene && run.inputs.empty();
     if (const std::string error = isCheckedBefore ? std::string{} : validate(run.fullScene()); !error.empty())
         json.fail(error);
     return run;
@@ -68,8 +68,8 @@ SavedSession readSessionRoot(const JsonField& root) {
     return session;
 }
 
-OrderedJson runJson(const SceneRun& run, const SceneRun* before) {
-    OrderedJson json = runStartJson(run, before, false);
+OrderedJson runJson(const SceneRun& run, const SceneRun* prior) {
+    OrderedJson json = runStartJson(run, prior, false);
     for (const LiveInput& input : run.inputs) json["inputs"].push_back(inputJson(input, *run.scene));
     for (const WorldStall& stall : run.stalls) json["stalls"].push_back(writeTable(stall));
     return json;
@@ -83,21 +83,21 @@ std::string relativePath(const std::filesystem::path& folder, const std::string&
 
 } // namespace
 
-SceneRun readRunStart(const JsonField& json, const SceneRun* before, bool isJournal) {
+SceneRun readRunStart(const JsonField& json, const SceneRun* prior, bool isJournal) {
     SceneRun run;
     isJournal ? readTable<SceneRun, JournalRun>(json, run) : readTable(json, run);
-    if (before != nullptr && run.startNs < before->startNs)
+    if (prior != nullptr && run.startNs < prior->startNs)
         json["start_s"].fail("expected a time that is not before that of the take above");
-    if (before != nullptr && !json.has("scene"))
-        run.scene = before->scene;
+    if (prior != nullptr && !json.has("scene"))
+        run.scene = prior->scene;
     else
         run.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
     return run;
 }
 
-OrderedJson runStartJson(const SceneRun& run, const SceneRun* before, bool isJournal) {
+OrderedJson runStartJson(const SceneRun& run, const SceneRun* prior, bool isJournal) {
     OrderedJson json = isJournal ? writeTable<SceneRun, JournalRun>(run) : writeTable(run);
-    const bool isSame = before != nullptr && (before->scene == run.scene || *before->scene == *run.scene);
+    const bool isSame = prior != nullptr && (prior->scene == run.scene || *prior->scene == *run.scene);
     if (!isSame) json["scene"] = fieldsJson(*run.scene, run.scene->materials);
     return json;
 }
@@ -213,31 +213,31 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
 
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
     OrderedJson root = writeTable(session);
-    const SceneRun* before = nullptr;
+    const SceneRun* prior = nullptr;
     for (const SceneRun& run : session.log.runs) {
-        root["takes"].push_back(detail::runJson(run, before));
-        before = &run;
+        root["takes"].push_back(detail::runJson(run, prior));
+        prior = &run;
     }
-    for (const RenderControl& control : controlsOf(session.log, true, session.channels))
+    for (const RenderControl& control : logControls(session.log, true, session.channels))
         root["controls"].push_back(detail::timedControlJson(control));
     for (const RecordingsChange& change : session.log.recordings)
         root["recordings"].push_back(detail::recordingsJson(change, folder));
     for (const ClipFile& clip : session.log.clips) root["clips"].push_back(detail::clipJson(clip, folder));
     for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(writeTable(strike));
     if (session.mix) root["desk"] = writeTable(*session.mix);
-    return jsonLines(root);
+    return prettyJson(root);
 }
 
 // A pause is one long stall at the end. Stalls of slow motion are shorter; after others the world steps on.
 bool endsPaused(const SavedSession& session) {
-    constexpr std::int64_t minNs = 100'000'000;
+    constexpr std::int64_t minPauseNs = 100'000'000;
     const SceneRun& last = session.log.runs.back();
     if (last.stalls.empty()) return false;
     const WorldStall& stall = last.stalls.back();
-    return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= minNs;
+    return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= minPauseNs;
 }
 
-Mix mixOf(const SavedSession& session) {
+Mix mixAtEnd(const SavedSession& session) {
     Mix mix = session.mix.value_or(Mix{});
     mix.scene = std::make_shared<const Scene>(sceneAtEndOfRun(session.log.runs.back()));
     mix.seed = session.log.runs.back().seed;
@@ -269,7 +269,7 @@ Mix mixOf(const SavedSession& session) {
     return mix;
 }
 
-std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels) {
+std::vector<RenderControl> logControls(const SessionLog& log, bool keepLayouts, int channels) {
     std::vector<RenderControl> all;
     if (keepLayouts)
         for (const PannerChange& change : log.panners)

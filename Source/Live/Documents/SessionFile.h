@@ -48,10 +48,10 @@ struct SavedSession {
 void visitSetup(auto& v) {
     using S = SavedSession;
     constexpr auto run = &S::run;
-    v.field("steps_per_second", in(run, &RunSettings::stepsPerSecond),
+    v.field("steps_per_second", nest(run, &RunSettings::stepsPerSecond),
             kinds::wholeNumber(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
-    v.field("timing", in(run, &RunSettings::timing), kinds::OneOf{timingNames});
-    v.field("location", in(run, &RunSettings::location), kinds::OneOf{locationNames});
+    v.field("timing", nest(run, &RunSettings::timing), kinds::OneOf{timingNames});
+    v.field("location", nest(run, &RunSettings::location), kinds::OneOf{locationNames});
     v.field("limiter", &S::limiterEnabled, kinds::boolean);
     v.field("channels", &S::channels, kinds::wholeNumber(1, limits::maxActuators));
     v.field("panning", &S::panner, DescribedPanner{v.object.channels, v.object.layout});
@@ -90,14 +90,15 @@ void visitFields(auto& v, FieldsOf<EventShaping>) {
     using S = EventShaping;
     constexpr auto method = &S::method;
     v.field("method", method, Custom<RenderingMethod>{}, Need::filled);
-    v.field("fixed_amplitude", in(method, &RenderingMethod::fixedAmplitude),
+    v.field("fixed_amplitude", nest(method, &RenderingMethod::fixedAmplitude),
             kinds::upTo(limits::maxAmplitude), Need::filled);
-    v.field("holds_level", in(method, &RenderingMethod::holdsLevel), kinds::boolean, Need::optional.from(3));
-    v.field("remap_hz", in(&S::remap, &FrequencyRemap::band), Custom<FrequencyBand>{}, Need::optional);
-    v.field("gain", &S::gain, kinds::upTo(limits::maxAmplitude), Need::optional.from(3));
-    v.field("perceived_level", in(&S::perceived, &PerceivedLevel::isWeighted), kinds::boolean,
+    v.field("holds_level", nest(method, &RenderingMethod::holdsLevel), kinds::boolean,
             Need::optional.from(3));
-    v.field("gamma", &S::truncation, kinds::within(0.0, S::maxTruncation), Need::optional.from(3));
+    v.field("remap_hz", nest(&S::remap, &FrequencyRemap::band), Custom<FrequencyBand>{}, Need::optional);
+    v.field("gain", &S::gain, kinds::upTo(limits::maxAmplitude), Need::optional.from(3));
+    v.field("perceived_level", nest(&S::perceived, &PerceivedLevel::isWeighted), kinds::boolean,
+            Need::optional.from(3));
+    v.field("gamma", &S::truncation, kinds::range(0.0, S::maxTruncation), Need::optional.from(3));
 }
 
 /// Parses a session; or one line about the first error, `name: takes[0].scene.bodies[1]...`. Unknown and
@@ -109,7 +110,7 @@ Result<SavedSession> loadSession(const std::filesystem::path& path);
 
 /// The mixer state at the end: the saved one, or one made of layout, gains and mutes; its scene is the last
 /// one as it was left, with drawings. Any thread.
-Mix mixOf(const SavedSession& session);
+Mix mixAtEnd(const SavedSession& session);
 
 /// Whether the world was paused when the session ended. Any thread.
 bool endsPaused(const SavedSession& session);
@@ -151,7 +152,7 @@ public:
     std::int64_t completeNs() const noexcept { return completeNs_; }
 
 private:
-    std::string linesOf(SessionLog& log, std::int64_t sessionNs);
+    std::string formatLines(SessionLog& log, std::int64_t sessionNs);
 
     int channels_;
     std::filesystem::path folder_;

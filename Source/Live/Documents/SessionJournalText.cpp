@@ -11,10 +11,10 @@ namespace {
 // the indented session file is larger than the journal
 constexpr std::size_t maxJournalBytes = limits::maxSessionFileBytes / 4 * 3;
 
-std::string lineOf(const char* name, OrderedJson item) {
+std::string formatLine(const char* name, OrderedJson item) {
     OrderedJson json;
     json[name] = std::move(item);
-    return jsonLine(json) + "\n";
+    return compactJson(json) + "\n";
 }
 
 /// Builds a session from the lines of a journal.
@@ -75,9 +75,9 @@ private:
 /// The text up to the last complete "seconds" line; lines after it were cut off.
 std::string_view completePart(std::string_view text) {
     constexpr std::string_view marker = "\n{ \"seconds\": ";
-    for (std::size_t at = text.rfind(marker); at != std::string_view::npos && at > 0;
-         at = text.rfind(marker, at - 1))
-        if (const std::size_t end = text.find('\n', at + 1); end != std::string_view::npos)
+    for (std::size_t start = text.rfind(marker); start != std::string_view::npos && start > 0;
+         start = text.rfind(marker, start - 1))
+        if (const std::size_t end = text.find('\n', start + 1); end != std::string_view::npos)
             return text.substr(0, end + 1);
     return text.substr(0, text.find('\n') + 1);
 }
@@ -115,7 +115,7 @@ Result<SavedSession> readJournal(std::string_view text, std::string_view name) {
 JournalLines::JournalLines(const SavedSession& session, std::filesystem::path folder)
     : channels_{session.channels}
     , folder_{std::move(folder)}
-    , head_{jsonLine(writeTable<SavedSession, JournalHead>(session)) + "\n"}
+    , head_{compactJson(writeTable<SavedSession, JournalHead>(session)) + "\n"}
     , bytesWritten_{head_.size()} {}
 
 std::string JournalLines::nextLines(SessionLog& log, std::int64_t sessionNs) {
@@ -123,7 +123,7 @@ std::string JournalLines::nextLines(SessionLog& log, std::int64_t sessionNs) {
         log = {std::vector<SceneRun>(1), {}, {}, {}, {}, {}};
         return {};
     }
-    std::string text = linesOf(log, sessionNs);
+    std::string text = formatLines(log, sessionNs);
     if (runInputs_ > sceneLimits::maxLiveInputs)
         limitError_ = std::to_string(sceneLimits::maxLiveInputs) + " inputs";
     else if (bytesWritten_ + text.size() > maxJournalBytes)
@@ -136,33 +136,33 @@ std::string JournalLines::nextLines(SessionLog& log, std::int64_t sessionNs) {
     return text;
 }
 
-std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
+std::string JournalLines::formatLines(SessionLog& log, std::int64_t sessionNs) {
     std::string text;
     for (SceneRun& run : log.runs) {
         if (!std::exchange(isRunWritten_, true)) {
-            text +=
-                lineOf("take", detail::runStartJson(run, previousRun_.scene ? &previousRun_ : nullptr, true));
+            text += formatLine("take",
+                               detail::runStartJson(run, previousRun_.scene ? &previousRun_ : nullptr, true));
             runInputs_ = 0;
             lastStall_ = {-1};
         }
         for (const LiveInput& input : run.inputs)
-            text += lineOf("input", detail::inputJson(input, *run.scene));
+            text += formatLine("input", detail::inputJson(input, *run.scene));
         runInputs_ += std::exchange(run.inputs, {}).size();
         for (const WorldStall& stall : run.stalls)
-            if (std::exchange(lastStall_, stall) != stall) text += lineOf("stall", writeTable(stall));
+            if (std::exchange(lastStall_, stall) != stall) text += formatLine("stall", writeTable(stall));
         run.stalls.clear();
         if (&run == &log.runs.back()) break;
-        text += lineOf("world_end_s", kinds::Time{}.write(run.worldEndNs));
+        text += formatLine("world_end_s", kinds::Time{}.write(run.worldEndNs));
         isRunWritten_ = false;
         previousRun_.scene = run.scene;
     }
     if (log.runs.size() > 1) log.runs.erase(log.runs.begin(), log.runs.end() - 1);
-    for (const RenderControl& control : controlsOf(log, true, channels_))
-        text += lineOf("control", detail::timedControlJson(control));
+    for (const RenderControl& control : logControls(log, true, channels_))
+        text += formatLine("control", detail::timedControlJson(control));
     for (const RecordingsChange& change : log.recordings)
-        text += lineOf("recordings", detail::recordingsJson(change, folder_));
-    for (const ClipFile& clip : log.clips) text += lineOf("clip", detail::clipJson(clip, folder_));
-    for (const CollisionEvent& strike : log.strikes) text += lineOf("strike", writeTable(strike));
+        text += formatLine("recordings", detail::recordingsJson(change, folder_));
+    for (const ClipFile& clip : log.clips) text += formatLine("clip", detail::clipJson(clip, folder_));
+    for (const CollisionEvent& strike : log.strikes) text += formatLine("strike", writeTable(strike));
     log.panners.clear();
     log.channels.clear();
     log.recordings.clear();
@@ -170,7 +170,7 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
     log.strikes.clear();
     OrderedJson last{{"seconds", kinds::Time{}.write(sessionNs)}};
     if (!log.runs.empty()) last["world_end_s"] = kinds::Time{}.write(log.runs.back().worldEndNs);
-    return text + jsonLine(last) + "\n";
+    return text + compactJson(last) + "\n";
 }
 
 } // namespace physvib

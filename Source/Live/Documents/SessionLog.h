@@ -98,10 +98,10 @@ struct ClipFile {
 
 void visitFields(auto& v, FieldsOf<ClipFile>) {
     constexpr auto file = &ClipFile::file;
-    v.legacyField("frequency_hz", in(file, &RecordingFile::frequencyHz), kinds::positive);
-    v.field("file", in(file, &RecordingFile::path), kinds::text);
+    v.legacyField("frequency_hz", nest(file, &RecordingFile::frequencyHz), kinds::positive);
+    v.field("file", nest(file, &RecordingFile::path), kinds::text);
     v.field("channel", &ClipFile::channel, kinds::wholeNumber(0, limits::maxActuators - 1), Need::optional);
-    v.field("hash", in(file, &RecordingFile::hash), kinds::text);
+    v.field("hash", nest(file, &RecordingFile::hash), kinds::text);
 }
 
 struct SessionLog {
@@ -120,6 +120,6 @@ struct SessionLog {
 
 /// The controls in time order, as a renderer needs them, without recordings: layouts only if `keepLayouts`,
 /// and channels below `channels`. They point to panners of the log. Any thread.
-std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
+std::vector<RenderControl> logControls(const SessionLog& log, bool keepLayouts, int channels);
 
 } // namespace physvib

@@ -31,7 +31,7 @@ std::string lagNote(Spread spread, const PhantomPanner& panner) {
     return {};
 }
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double toSeconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 } // namespace
 
@@ -55,18 +55,18 @@ PlainMessage latencyAnswer(const Session& session) {
     return {"latency",
             {{"play_out_s", time.outputLatencySeconds()},
              {"direct_s", time.directSeconds()},
-             {"messages_s", time.outputLatencySeconds() - seconds(time.inputLeadNs())}}};
+             {"messages_s", time.outputLatencySeconds() - toSeconds(time.inputLeadNs())}}};
 }
 
 PlainMessage statusAnswer(const Session& session) {
     const WorldRunner& world = session.world();
     const SessionSize size = world.size();
     return {"status",
-            {{"session_s", seconds(session.timeline().presentNs())},
+            {{"session_s", toSeconds(session.timeline().presentNs())},
              {"waiting", static_cast<double>(size.strikes)},
              {"bodies", static_cast<double>(size.bodies)},
              {"lost", static_cast<double>(world.drops())},
-             {"stalls_s", seconds(world.stalledNs())},
+             {"stalls_s", toSeconds(world.stalledNs())},
              {"dropped", static_cast<double>(session.pulse().dropped())}}};
 }
 
@@ -74,7 +74,7 @@ Result<PlainMessage> MessageRouter::handle(const PlainMessage& message, MessageT
                                            const ClipSource& clips) {
     const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
     if (description == messageTable.end())
-        return Failure{inQuotes(message.name) + ": expected one of " + listed(namesOf(messageTable))};
+        return Failure{inQuotes(message.name) + ": expected one of " + nameList(entryNames(messageTable))};
     try {
         const PhantomPanner panner = session_.panner();
         const MessageValues values{message, *description, panner};
@@ -82,9 +82,9 @@ Result<PlainMessage> MessageRouter::handle(const PlainMessage& message, MessageT
             return (*answer)(session_);
         checkTime(values, tag);
         std::string note;
-        auto strikes = strikesOf(*description, values, clips, panner, note);
+        auto strikes = makeStrikes(*description, values, clips, panner, note);
         const std::lock_guard lock{mutex_};
-        const std::int64_t timeNs = timeOf(values, tag);
+        const std::int64_t timeNs = resolveTimeNs(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
         if (std::holds_alternative<MessageDescription::Stop>(description->action))
             submitStop(timeNs);
@@ -97,11 +97,11 @@ Result<PlainMessage> MessageRouter::handle(const PlainMessage& message, MessageT
     }
 }
 
-std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& description,
-                                                     const MessageValues& values, const ClipSource& clips,
-                                                     const PhantomPanner& panner, std::string& note) {
+std::vector<CollisionEvent> MessageRouter::makeStrikes(const MessageDescription& description,
+                                                       const MessageValues& values, const ClipSource& clips,
+                                                       const PhantomPanner& panner, std::string& note) {
     if (std::holds_alternative<MessageDescription::Clip>(description.action))
-        return clip(values, clips, panner, note);
+        return addClip(values, clips, panner, note);
     const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.action);
     if (strikes != nullptr && *strikes == pathStrikes) note = lagNote(values.spread(), panner);
     return strikes == nullptr
@@ -112,8 +112,8 @@ std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& d
 // Checks the time before a file is read. It is computed again afterwards, because reading takes time.
 void MessageRouter::checkTime(const MessageValues& values, const MessageTag* tag) {
     const std::lock_guard lock{mutex_};
-    MessageTag copy = tag == nullptr ? MessageTag{} : *tag;
-    timeOf(values, tag == nullptr ? nullptr : &copy);
+    MessageTag tagCopy = tag == nullptr ? MessageTag{} : *tag;
+    resolveTimeNs(values, tag == nullptr ? nullptr : &tagCopy);
 }
 
 std::int64_t MessageRouter::nowNs() const {
@@ -123,7 +123,7 @@ std::int64_t MessageRouter::nowNs() const {
 
 // Session times in the past are refused: a render of the log would differ from what was felt. A sender of
 // time tags cannot know the session time, so a late tag is marked and acted on at once.
-std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag) const {
+std::int64_t MessageRouter::resolveTimeNs(const MessageValues& values, MessageTag* tag) const {
     values.expectOneOf({"at", "in"});
     if (tag != nullptr) {
         for (const char* name : {"at", "in"})
@@ -132,16 +132,16 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag)
         return tag->isLate ? nowNs() : scheduledNs(values, "time tag", tag->sessionNs);
     }
     if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
-    if (!values.has("at") || values.isWord("at")) {
-        if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
+    if (!values.has("at") || values.isText("at")) {
+        if (values.text("at") != "now") values.fail("at", "expected a session time, or now");
         return nowNs();
     }
     const std::int64_t timeNs = std::llround(values.number("at") * 1e9),
                        presentNs = session_.timeline().presentNs();
     if (timeNs < presentNs)
         values.fail("at", "expected a session time that is not over: it is " +
-                              fixedNumber(seconds(presentNs), 3) + " s, found " +
-                              numberText(seconds(timeNs)) + " s");
+                              fixedNumber(toSeconds(presentNs), 3) + " s, found " +
+                              numberText(toSeconds(timeNs)) + " s");
     return scheduledNs(values, "at", timeNs);
 }
 
@@ -165,11 +165,11 @@ void MessageRouter::submitStrikes(std::vector<CollisionEvent> strikes, std::int6
 
 // Adds the clip to the session before its events, so that they find its samples. Reading a file takes long,
 // but does not block other inputs.
-std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips,
-                                                const PhantomPanner& panner, std::string& note) {
+std::vector<CollisionEvent> MessageRouter::addClip(const MessageValues& values, const ClipSource& clips,
+                                                   const PhantomPanner& panner, std::string& note) {
     if (!clips) values.fail("file", "expected no clips here: no folder was given to read them from");
-    if (values.word("file").empty()) values.fail("file", "expected a file's name");
-    const auto loaded = clips(values.word("file"));
+    if (values.text("file").empty()) values.fail("file", "expected a file's name");
+    const auto loaded = clips(values.text("file"));
     if (!loaded) values.fail("file", loaded.error);
     auto strikes = clipStrikes(values, loaded.value, panner); // checked before anything is kept
     const auto number = session_.addClip(loaded.value.channels);

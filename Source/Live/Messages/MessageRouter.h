@@ -36,7 +36,7 @@ struct PlainMessage;
 struct MessageArgument {
     enum class Type {
         number, ///< from `minimum` to `maximum`
-        word,
+        text,
         place,  ///< an actuator's letter, or x and y in metres of the field
         places, ///< letters, or x, y, x, y...
         numbers ///< rising, each from `minimum` to `maximum`
@@ -82,12 +82,12 @@ inline constexpr MessageArgument level{"level", Type::number, 0.0,
 inline constexpr MessageArgument place{"place", Type::place, 0.0,
                                        0.0,     "",          "where; left out: the middle of the field"};
 inline constexpr MessageArgument law{
-    "law",    Type::word,
+    "law",    Type::text,
     0.0,      0.0,
     "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
 
 inline constexpr MessageArgument part{
-    "part", Type::word,
+    "part", Type::text,
     0.0,    0.0,
     "",     "of the body ([names](space.md#parts)), on whose actuators alone it is felt; left out: all"};
 
@@ -97,7 +97,7 @@ inline constexpr std::array timeArguments{
     MessageArgument{"in", Type::number, 0.0, maxAheadSeconds, "0", "seconds from now, instead of `at`"}};
 
 inline constexpr std::array strike{
-    MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
+    MessageArgument{"material", Type::text, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
     MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "",
                     "instead of a material; below 5 with a decay of at least 1"},
     MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "",
@@ -109,9 +109,9 @@ inline constexpr std::array strike{
     law,
     part};
 inline constexpr std::array pattern{
-    MessageArgument{"pattern", Type::word, 0.0, 0.0, "",
+    MessageArgument{"pattern", Type::text, 0.0, 0.0, "",
                     "one to three actuators and a pulse's ms: `ABA-250`"},
-    MessageArgument{"enchanters", Type::word, 0.0, 0.0, "",
+    MessageArgument{"enchanters", Type::text, 0.0, 0.0, "",
                     "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
     MessageArgument{"pulse_s", Type::number, 0.001, 10.0, "0.25", "length of each of those"},
     MessageArgument{"gap_s", Type::number, 0.0, 10.0, "0.1", "silence between two pulses"},
@@ -129,7 +129,7 @@ inline constexpr std::array path{
                     "instead of `seconds`: when each place is reached"},
     MessageArgument{"strokes", Type::number, 0.0, 64.0, "0",
                     "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
-    MessageArgument{"law", Type::word, 0.0, 0.0, "auto",
+    MessageArgument{"law", Type::text, 0.0, 0.0, "auto",
                     "as of a strike; `auto` is felt where it is, and equally strong all the way: "
                     "`neighbours` on a row, grid or belt of three or more, else `equal`; `linear`, `log` and "
                     "`log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
@@ -139,7 +139,7 @@ inline constexpr std::array path{
 
 inline constexpr std::array clip{
     MessageArgument{
-        "file", Type::word, 0.0, 0.0, "",
+        "file", Type::text, 0.0, 0.0, "",
         "a recording or [haptic file](events.md#haptic-files-of-others), in the folder that the door "
         "reads from"},
     MessageArgument{
@@ -183,7 +183,7 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
 struct LoadedClip {
     std::vector<ContactRecording> channels; ///< one or more, of one file, equal in rate and length; their
                                             ///< `file` has path and hash
-    std::vector<ActuatorPlace> shares; ///< places as shares of the field, 0 to 1, one per channel; empty:
+    std::vector<ActuatorPlace> places; ///< places as shares of the field, 0 to 1, one per channel; empty:
                                        ///< the file has no places
 };
 
@@ -213,12 +213,12 @@ public:
 
 private:
     void checkTime(const MessageValues& values, const MessageTag* tag);
-    std::vector<CollisionEvent> strikesOf(const MessageDescription& description, const MessageValues& values,
-                                          const ClipSource& clips, const PhantomPanner& panner,
-                                          std::string& note);
-    std::vector<CollisionEvent> clip(const MessageValues& values, const ClipSource& clips,
-                                     const PhantomPanner& panner, std::string& note);
-    std::int64_t timeOf(const MessageValues& values, MessageTag* tag) const;
+    std::vector<CollisionEvent> makeStrikes(const MessageDescription& description,
+                                            const MessageValues& values, const ClipSource& clips,
+                                            const PhantomPanner& panner, std::string& note);
+    std::vector<CollisionEvent> addClip(const MessageValues& values, const ClipSource& clips,
+                                        const PhantomPanner& panner, std::string& note);
+    std::int64_t resolveTimeNs(const MessageValues& values, MessageTag* tag) const;
     std::int64_t scheduledNs(const MessageValues& values, std::string_view name, std::int64_t timeNs) const;
     void submitStrikes(std::vector<CollisionEvent> strikes, std::int64_t startNs, bool isNow);
     void submitStop(std::int64_t timeNs);
@@ -244,7 +244,7 @@ public:
 
     /// True if this error is to be reported.
     bool shouldReport(std::string_view reason, std::int64_t nowNs) noexcept {
-        const std::uint64_t cause = causeOf(reason);
+        const std::uint64_t cause = hashCause(reason);
         ReportedCause* entry = nullptr; // entry of this cause, or a free one
         for (ReportedCause& candidate : reported_) {
             const bool isFree = candidate.untilNs <= nowNs;
@@ -260,7 +260,7 @@ public:
     std::uint64_t resetSuppressedCount() noexcept { return std::exchange(suppressed_, 0); }
 
     /// Equal for errors that differ only in what was found, in numbers and in quoted words. Any thread.
-    static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
+    static constexpr std::uint64_t hashCause(std::string_view reason) noexcept {
         std::uint64_t hash = fnv1a({});
         bool isQuoted = false;
         for (const char c : reason.substr(0, reason.find(", found "))) {

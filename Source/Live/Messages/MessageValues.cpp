@@ -18,32 +18,32 @@ constexpr double maxPlaceMetres = 1e6; // beyond every field
 
 bool isOnSomeField(double metres) { return std::abs(metres) <= maxPlaceMetres; }
 
-std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+std::int64_t toNs(double seconds) { return std::llround(seconds * 1e9); }
 
-CollisionEvent toneOf(const MessageValues& values, const ActuatorPlace& place, double fromSeconds,
-                      double toSeconds, Spread spread) {
+CollisionEvent makeTone(const MessageValues& values, const ActuatorPlace& place, double startSeconds,
+                        double endSeconds, Spread spread) {
     CollisionEvent tone;
-    tone.timeNs = nanoseconds(fromSeconds);
-    tone.durationNs = nanoseconds(toSeconds) - tone.timeNs;
+    tone.timeNs = toNs(startSeconds);
+    tone.durationNs = toNs(endSeconds) - tone.timeNs;
     tone.frequencyHz = values.number("frequency_hz");
     tone.amplitude = values.number("level");
     tone.x = place.xMetres;
     tone.y = place.yMetres;
     tone.z = place.zMetres;
     tone.spread = spread;
-    if (values.has("part")) tone.source.part = partNumberOf(values.word("part"));
+    if (values.has("part")) tone.source.part = toPartNumber(values.text("part"));
     return tone;
 }
 
 /// For a tone that begins at phase 0: moves its end to a zero crossing of the frequency that is played.
-CollisionEvent endedAtCrossing(CollisionEvent tone, const EventShaping& shaping) {
+CollisionEvent cutAtCrossing(CollisionEvent tone, const EventShaping& shaping) {
     if (tone.durationNs > 0) tone.durationNs = toneEndNs(shaping(tone).frequencyHz, tone.durationNs);
     return tone;
 }
 
 void applyMaterial(CollisionEvent& strike, const MessageValues& values,
                    const std::vector<Material>& materials) {
-    const std::string name = values.word("material");
+    const std::string name = values.text("material");
     const auto found = std::ranges::find(materials, name, &Material::name);
     if (found == materials.end() || !(found->frequencyHz > 0.0))
         values.fail("material", "expected a material of the scene that vibrates, found " + inQuotes(name));
@@ -54,19 +54,19 @@ void applyMaterial(CollisionEvent& strike, const MessageValues& values,
     strike.decayPerSecond = found->decayPerSecond;
 }
 
-std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view name,
-                                   const std::string& letters, double pulseSeconds,
-                                   const EventShaping& shaping) {
+std::vector<CollisionEvent> makePulses(const MessageValues& values, std::string_view name,
+                                       const std::string& letters, double pulseSeconds,
+                                       const EventShaping& shaping) {
     if (letters.empty() || letters.size() > messages::maxPulses)
         values.fail(name, "expected 1 to " + std::to_string(messages::maxPulses) + " letters, found " +
                               std::to_string(letters.size()));
     std::vector<CollisionEvent> all;
-    double from = 0.0;
+    double start = 0.0;
     for (const char letter : letters) {
-        all.push_back(endedAtCrossing(
-            toneOf(values, values.enchanter(name, letter), from, from + pulseSeconds, Spread::nearest),
-            shaping));
-        from += pulseSeconds + values.number("gap_s");
+        all.push_back(cutAtCrossing(makeTone(values, values.actuatorPlace(name, letter), start,
+                                             start + pulseSeconds, Spread::nearest),
+                                    shaping));
+        start += pulseSeconds + values.number("gap_s");
     }
     return all;
 }
@@ -78,7 +78,7 @@ struct Route {
 
     double startSeconds() const { return times.front(); }
     double seconds() const { return times.back() - times.front(); }
-    ActuatorPlace at(double time) const {
+    ActuatorPlace placeAt(double time) const {
         const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
             std::ranges::upper_bound(times, time) - times.begin(), 1, std::ssize(times) - 1));
         const double share = std::clamp((time - times[next - 1]) / (times[next] - times[next - 1]), 0.0, 1.0);
@@ -121,7 +121,7 @@ Route timedRoute(const MessageValues& values) {
 }
 
 /// Ends the last segment at a zero crossing of the whole tone. Later segments are removed.
-void endAtCrossing(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
+void cutLastSegment(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
     const auto& last = segments.back();
     const std::int64_t endNs = toneEndNs(shaping(last).frequencyHz, last.course.toneAgeNs + last.durationNs);
     while (segments.back().course.toneAgeNs >= endNs)
@@ -130,28 +130,28 @@ void endAtCrossing(std::vector<CollisionEvent>& segments, const EventShaping& sh
 }
 
 /// Events of one moving tone, a segment each, which continue each other's phase.
-std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route,
+std::vector<CollisionEvent> makeMotion(const MessageValues& values, const Route& route,
                                        const EventShaping& shaping) {
     std::vector<CollisionEvent> segments;
     for (std::size_t i = 0; i + 1 < route.places.size(); ++i) {
         CollisionEvent segment =
-            toneOf(values, route.places[i], route.times[i], route.times[i + 1], values.spread());
+            makeTone(values, route.places[i], route.times[i], route.times[i + 1], values.spread());
         if (segment.durationNs == 0) continue; // shorter than a nanosecond
         segment.course.toX = route.places[i + 1].xMetres;
         segment.course.toY = route.places[i + 1].yMetres;
         segment.course.toZ = route.places[i + 1].zMetres;
         segment.course.travelNs = segment.durationNs;
-        segment.course.toneAgeNs = segment.timeNs - nanoseconds(route.startSeconds());
+        segment.course.toneAgeNs = segment.timeNs - toNs(route.startSeconds());
         segments.push_back(segment);
     }
-    if (!segments.empty()) endAtCrossing(segments, shaping);
+    if (!segments.empty()) cutLastSegment(segments, shaping);
     return segments;
 }
 
 /// Events of Tactile Brush: stationary vibrations that overlap in phase, as parts of one tone. Each begins
 /// and ends at a zero crossing.
-std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count,
-                                         const EventShaping& shaping) {
+std::vector<CollisionEvent> makeStrokes(const MessageValues& values, const Route& route, int count,
+                                        const EventShaping& shaping) {
     const double length = strokeSeconds(count, route.seconds());
     constexpr double minSeconds = 0.01; // two periods of 200 Hz
     if (length < minSeconds)
@@ -159,9 +159,9 @@ std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Rout
                                    " in " + numberText(route.seconds()) + " s");
     std::vector<CollisionEvent> strokes;
     for (int k = 0; k < count; ++k) {
-        const double fromSeconds = route.startSeconds() + k * strokeOnsetDelaySeconds(length);
-        const ActuatorPlace place = route.at(route.startSeconds() + route.seconds() * k / (count - 1));
-        strokes.push_back(toneOf(values, place, fromSeconds, fromSeconds + length, values.spread()));
+        const double startSeconds = route.startSeconds() + k * strokeOnsetDelaySeconds(length);
+        const ActuatorPlace place = route.placeAt(route.startSeconds() + route.seconds() * k / (count - 1));
+        strokes.push_back(makeTone(values, place, startSeconds, startSeconds + length, values.spread()));
         CollisionEvent& stroke = strokes.back();
         const std::int64_t startNs = strokes.front().timeNs;
         const double playedHz = shaping(stroke).frequencyHz;
@@ -173,19 +173,20 @@ std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Rout
     return strokes;
 }
 
-ActuatorPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip,
-                             const PhantomPanner& panner) {
-    if (values.has("place") || (clip.shares.empty() && clip.channels.size() == 1)) return values.place();
+ActuatorPlace channelPlace(std::size_t j, const MessageValues& values, const LoadedClip& clip,
+                           const PhantomPanner& panner) {
+    if (values.has("place") || (clip.places.empty() && clip.channels.size() == 1)) return values.place();
     const double width = panner.fieldWidthMetres(), height = panner.fieldHeightMetres();
-    if (!clip.shares.empty()) return {clip.shares[j].xMetres * width, clip.shares[j].yMetres * height};
+    if (!clip.places.empty()) return {clip.places[j].xMetres * width, clip.places[j].yMetres * height};
     const ActuatorLayout& layout = panner.layout();
     if (static_cast<int>(clip.channels.size()) != layout.count)
         values.fail("file", "expected one channel, places, or as many channels as actuators, " +
                                 std::to_string(layout.count) + ", found " +
                                 std::to_string(clip.channels.size()));
-    const ActuatorPlace& at = layout.places[j];
-    return {at.xMetres / layout.extentWidthMetres * width, at.yMetres / layout.extentHeightMetres * height,
-            at.zMetres / layout.extentWidthMetres * width};
+    const ActuatorPlace& place = layout.places[j];
+    return {place.xMetres / layout.extentWidthMetres * width,
+            place.yMetres / layout.extentHeightMetres * height,
+            place.zMetres / layout.extentWidthMetres * width};
 }
 
 } // namespace
@@ -227,12 +228,12 @@ double MessageValues::inRange(const MessageArgument& argument, double found) con
 }
 
 double MessageValues::number(std::string_view name) const {
-    const MessageArgument& wanted = argument(name);
+    const MessageArgument& entry = argument(name);
     const PlainValue* const value = find(name);
-    if (value == nullptr) return parseNumber<double>(wanted.defaultText).value_or(0.0);
+    if (value == nullptr) return parseNumber<double>(entry.defaultText).value_or(0.0);
     const auto* const found = std::get_if<double>(value);
     if (found == nullptr) fail(name, "expected a number");
-    return inRange(wanted, *found);
+    return inRange(entry, *found);
 }
 
 int MessageValues::wholeNumber(std::string_view name) const {
@@ -241,7 +242,7 @@ int MessageValues::wholeNumber(std::string_view name) const {
     return static_cast<int>(found);
 }
 
-std::string MessageValues::word(std::string_view name) const {
+std::string MessageValues::text(std::string_view name) const {
     const PlainValue* const value = find(name);
     if (value == nullptr) return std::string(argument(name).defaultText);
     const auto* const found = std::get_if<std::string>(value);
@@ -249,7 +250,7 @@ std::string MessageValues::word(std::string_view name) const {
     return *found;
 }
 
-bool MessageValues::isWord(std::string_view name) const {
+bool MessageValues::isText(std::string_view name) const {
     const PlainValue* const value = find(name);
     return value != nullptr && std::holds_alternative<std::string>(*value);
 }
@@ -268,31 +269,31 @@ std::vector<double> MessageValues::numbers(std::string_view name) const {
 }
 
 Spread MessageValues::spread() const {
-    const std::string name = word("law");
+    const std::string name = text("law");
     if (name == nameOf(PanningLaw::automatic)) return panner_.travelSpread();
     const auto found = std::ranges::find(spreadNames, name);
     if (found != spreadNames.end()) return static_cast<Spread>(found - spreadNames.begin());
-    fail("law", "expected one of " + listed(spreadNames) + ", found " + inQuotes(name));
+    fail("law", "expected one of " + nameList(spreadNames) + ", found " + inQuotes(name));
 }
 
-ActuatorPlace MessageValues::enchanter(std::string_view name, char letter) const {
+ActuatorPlace MessageValues::actuatorPlace(std::string_view name, char letter) const {
     const ActuatorLayout& layout = panner_.layout();
     const int j = letter - 'A';
     if (j < 0 || j >= layout.count || letter > 'Z')
         fail(name, "expected " + std::string(layout.count > 1 ? "letters from A to " : "the letter ") +
                        static_cast<char>('A' + std::min(layout.count, 26) - 1) + ", found " +
                        inQuotes({&letter, 1}));
-    const ActuatorPlace& at = layout.places[static_cast<std::size_t>(j)];
-    return {at.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres,
-            at.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres,
-            at.zMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres};
+    const ActuatorPlace& place = layout.places[static_cast<std::size_t>(j)];
+    return {place.xMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres,
+            place.yMetres * panner_.fieldHeightMetres() / layout.extentHeightMetres,
+            place.zMetres * panner_.fieldWidthMetres() / layout.extentWidthMetres};
 }
 
 ActuatorPlace MessageValues::place() const {
     const PlainValue* const value = find("place");
     if (value == nullptr) return {0.5 * panner_.fieldWidthMetres(), 0.5 * panner_.fieldHeightMetres()};
     if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1)
-        return enchanter("place", letter->front());
+        return actuatorPlace("place", letter->front());
     const auto* const found = std::get_if<std::vector<double>>(value);
     const std::size_t count = found == nullptr ? 0 : found->size();
     if ((count != 2 && count != 3) || !std::ranges::all_of(*found, isOnSomeField))
@@ -305,7 +306,7 @@ std::vector<ActuatorPlace> MessageValues::places() const {
     const PlainValue* const value = find("places");
     if (value == nullptr) fail("places", "expected places, found none");
     if (const auto* letters = std::get_if<std::string>(value))
-        for (const char letter : *letters) all.push_back(enchanter("places", letter));
+        for (const char letter : *letters) all.push_back(actuatorPlace("places", letter));
     if (const auto* found = std::get_if<std::vector<double>>(value)) {
         if (found->size() % 2 != 0 || !std::ranges::all_of(*found, isOnSomeField))
             fail("places", "expected pairs of x and y in metres");
@@ -329,7 +330,7 @@ void MessageValues::expectOneOf(std::initializer_list<std::string_view> names) c
 std::vector<CollisionEvent> strikeStrikes(const MessageValues& values, const std::vector<Material>& materials,
                                           const EventShaping& shaping) {
     values.expectOneOf({"material", "frequency_hz"});
-    CollisionEvent strike = toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread());
+    CollisionEvent strike = makeTone(values, values.place(), 0.0, values.number("seconds"), values.spread());
     strike.decayPerSecond = values.number("decay_per_s");
     if (values.has("material"))
         applyMaterial(strike, values, materials);
@@ -339,13 +340,13 @@ std::vector<CollisionEvent> strikeStrikes(const MessageValues& values, const std
         values.fail("seconds", "expected a length, or a decay: it would not end");
     if (isTooSlow(strike))
         values.fail(values.has("material") ? "material" : "frequency_hz", tooSlowError(strike));
-    return {endedAtCrossing(strike, shaping)};
+    return {cutAtCrossing(strike, shaping)};
 }
 
 std::vector<CollisionEvent> phantomStrikes(const MessageValues& values, const std::vector<Material>&,
                                            const EventShaping& shaping) {
-    return {endedAtCrossing(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()),
-                            shaping)};
+    return {cutAtCrossing(makeTone(values, values.place(), 0.0, values.number("seconds"), values.spread()),
+                          shaping)};
 }
 
 std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const std::vector<Material>&,
@@ -353,15 +354,15 @@ std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const st
     values.expectOneOf({"pattern", "enchanters"});
     values.expectOneOf({"pattern", "pulse_s"});
     if (values.has("enchanters"))
-        return pulses(values, "enchanters", values.word("enchanters"), values.number("pulse_s"), shaping);
-    const std::string label = values.word("pattern");
+        return makePulses(values, "enchanters", values.text("enchanters"), values.number("pulse_s"), shaping);
+    const std::string label = values.text("pattern");
     const auto pattern = parsePatternLabel(label);
     if (!pattern)
         values.fail("pattern",
                     "expected one like ABA-250 (one to three actuators, then milliseconds), found " +
                         inQuotes(label));
-    return pulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)),
-                  pattern->pulseSeconds, shaping);
+    return makePulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)),
+                      pattern->pulseSeconds, shaping);
 }
 
 std::vector<CollisionEvent> pathStrikes(const MessageValues& values, const std::vector<Material>&,
@@ -370,14 +371,14 @@ std::vector<CollisionEvent> pathStrikes(const MessageValues& values, const std::
     const Route route = values.has("times_s") ? timedRoute(values) : steadyRoute(values);
     const int strokes = values.wholeNumber("strokes");
     if (strokes == 1) values.fail("strokes", "expected 0, or 2 and more, found 1");
-    return strokes == 0 ? movingTone(values, route, shaping) : strokesAlong(values, route, strokes, shaping);
+    return strokes == 0 ? makeMotion(values, route, shaping) : makeStrokes(values, route, strokes, shaping);
 }
 
 std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip,
                                         const PhantomPanner& panner) {
     std::vector<CollisionEvent> strikes;
     for (std::size_t j = 0; j < clip.channels.size(); ++j) {
-        const ActuatorPlace place = placeOfChannel(j, values, clip, panner);
+        const ActuatorPlace place = channelPlace(j, values, clip, panner);
         const ContactRecording& channel = clip.channels[j];
         CollisionEvent& strike = strikes.emplace_back();
         strike.frequencyHz = clipFrequencyHz;
@@ -386,8 +387,7 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         strike.y = place.yMetres;
         strike.z = place.zMetres;
         // so that the last sample is included
-        strike.durationNs =
-            nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;
+        strike.durationNs = toNs(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1;
         strike.spread = values.spread();
     }
     return strikes;

@@ -29,15 +29,15 @@ public:
     bool has(std::string_view name) const { return find(name) != nullptr; }
     double number(std::string_view name) const; ///< a number in range, or the default
     int wholeNumber(std::string_view name) const;
-    std::string word(std::string_view name) const; ///< without a value the default
-    bool isWord(std::string_view name) const;
+    std::string text(std::string_view name) const; ///< without a value the default
+    bool isText(std::string_view name) const;
     std::vector<double> numbers(std::string_view name) const;
     Spread spread() const;       ///< of the argument `law`
     ActuatorPlace place() const; ///< in metres of the field
     std::vector<ActuatorPlace> places() const;
 
     /// The actuator's place, in metres of the field.
-    ActuatorPlace enchanter(std::string_view name, char letter) const;
+    ActuatorPlace actuatorPlace(std::string_view name, char letter) const;
 
     /// Throws if more than one of these was given.
     void expectOneOf(std::initializer_list<std::string_view> names) const;

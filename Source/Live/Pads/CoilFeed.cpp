@@ -20,7 +20,7 @@ constexpr int defaultRateHz = 48000;
 constexpr double zeroCrossings = 6.0, cutOff = 0.4833; // zeros on each side; share of the lower rate
 
 /// Weights for a centre that lies `delayFrames` input frames before the newest one.
-std::vector<float> kernelFor(double delayFrames, std::size_t taps, double cyclesPerFrame) {
+std::vector<float> makeKernel(double delayFrames, std::size_t taps, double cyclesPerFrame) {
     std::vector<double> weights(taps);
     const double half = zeroCrossings / (2.0 * cyclesPerFrame);
     for (std::size_t k = 0; k < taps; ++k) {
@@ -44,11 +44,11 @@ CoilFeed::CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const Phan
     , channels_{static_cast<std::size_t>(panner.layout().count)}
     , reducer_{defaultRateHz, format.rateHz}
     , reducedHz_{defaultRateHz} {
-    sides_.write(coilGainsOf(panner.layout()));
+    coilGains_.write(computeCoilGains(panner.layout()));
     begin();
 }
 
-CoilFeed::CoilGains CoilFeed::coilGainsOf(const ActuatorLayout& layout) noexcept {
+CoilFeed::CoilGains CoilFeed::computeCoilGains(const ActuatorLayout& layout) noexcept {
     CoilGains sides{static_cast<std::size_t>(layout.count), {}};
     const auto places = std::span{layout.places}.first(static_cast<std::size_t>(layout.count));
     const auto [left, right] = std::ranges::minmax(places, {}, &ActuatorPlace::xMetres);
@@ -63,11 +63,11 @@ CoilFeed::CoilGains CoilFeed::coilGainsOf(const ActuatorLayout& layout) noexcept
 }
 
 void CoilFeed::onControl(const RenderControl& control) noexcept {
-    if (control.panner != nullptr) sides_.write(coilGainsOf(control.panner->layout()));
+    if (control.panner != nullptr) coilGains_.write(computeCoilGains(control.panner->layout()));
 }
 
 void CoilFeed::onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
-    const CoilGains& sides = sides_.read();
+    const CoilGains& sides = coilGains_.read();
     const std::size_t count = std::min(sides.count, channels_);
     rateHz_.store(block.sampleRateHz, std::memory_order_relaxed);
     for (int n = 0; n < block.frames; ++n)
@@ -161,7 +161,7 @@ RateReducer::RateReducer(int inHz, int outHz)
     const double cyclesPerFrame = cutOff * outHz / inHz, half = zeroCrossings / (2.0 * cyclesPerFrame);
     const auto taps = static_cast<std::size_t>(2.0 * std::ceil(half)) + 2;
     for (int phase = 0; phase < outRate_; ++phase)
-        kernels_.push_back(kernelFor(half + static_cast<double>(phase) / outRate_, taps, cyclesPerFrame));
+        kernels_.push_back(makeKernel(half + static_cast<double>(phase) / outRate_, taps, cyclesPerFrame));
     ring_.resize(taps);
 }
 
@@ -169,18 +169,18 @@ RateReducer::RateReducer(int inHz, int outHz)
 void RateReducer::push(const CoilFrame& frame) {
     ring_[oldest_] = frame;
     oldest_ = (oldest_ + 1) % ring_.size();
-    if (due_ <= 0) {
-        outputFrames_.push_back(filtered(static_cast<std::size_t>(-due_)));
-        due_ += inRate_;
+    if (untilDue_ <= 0) {
+        outputFrames_.push_back(filtered(static_cast<std::size_t>(-untilDue_)));
+        untilDue_ += inRate_;
     }
-    due_ -= outRate_;
+    untilDue_ -= outRate_;
 }
 
 CoilFrame RateReducer::filtered(std::size_t phase) const {
     const std::vector<float>& kernel = kernels_[phase];
     CoilFrame sum{};
-    for (std::size_t k = 0, at = oldest_; k < kernel.size(); ++k, at = at + 1 == ring_.size() ? 0 : at + 1)
-        for (std::size_t side = 0; side < 2; ++side) sum[side] += kernel[k] * ring_[at][side];
+    for (std::size_t k = 0, i = oldest_; k < kernel.size(); ++k, i = i + 1 == ring_.size() ? 0 : i + 1)
+        for (std::size_t side = 0; side < 2; ++side) sum[side] += kernel[k] * ring_[i][side];
     return sum;
 }
 

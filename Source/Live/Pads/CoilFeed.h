@@ -37,7 +37,7 @@ private:
     std::vector<std::vector<float>> kernels_; // per phase, oldest frame first; each sums to 1
     std::vector<CoilFrame> ring_;             // the newest input frames
     std::size_t oldest_ = 0;                  // index in the ring; overwritten next
-    int due_ = 0; // time to the next output frame, in 1/outRate_ of an input frame
+    int untilDue_ = 0; // time to the next output frame, in 1/outRate_ of an input frame
     std::deque<CoilFrame> outputFrames_;
 };
 
@@ -51,8 +51,8 @@ public:
     void onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override;
     void onControl(const RenderControl& control) noexcept override;
     void begin() override;
-    std::span<const PadReport> startReports() const noexcept override { return format_.on; }
-    std::span<const PadReport> endReports() const noexcept override { return format_.off; }
+    std::span<const PadReport> startReports() const noexcept override { return format_.onReports; }
+    std::span<const PadReport> endReports() const noexcept override { return format_.offReports; }
     std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
     PadReport silentReport() override;
     std::uint64_t lost() const noexcept override { return samples_.overflows() + skipped_; }
@@ -64,7 +64,7 @@ private:
         std::size_t count = 0;
         std::array<CoilFrame, limits::maxActuators> gains{};
     };
-    static CoilGains coilGainsOf(const ActuatorLayout& layout) noexcept;
+    static CoilGains computeCoilGains(const ActuatorLayout& layout) noexcept;
     void drainQueue();
     PadReport compose(float level);
     void adjustPace();
@@ -73,7 +73,7 @@ private:
     const HidFeedKind& kind_;
     const CoilFormat& format_;
     const std::size_t channels_; // of the session
-    LatestValue<CoilGains> sides_;
+    LatestValue<CoilGains> coilGains_;
     EventQueue<CoilFrame, 16384> samples_;
     std::atomic<int> rateHz_{0}; // sample rate of the queued frames
 

@@ -33,12 +33,12 @@ private:
 };
 
 // The first two bytes of a GUID are the bus number, as on Linux.
-PadBus busOf(const SDL_JoystickGUID& guid) {
+PadBus readBus(const SDL_JoystickGUID& guid) {
     const int bus = guid.data[0] | guid.data[1] << 8;
     return bus == 0x03 ? PadBus::usb : bus == 0x05 ? PadBus::bluetooth : PadBus::other;
 }
 
-const char* profileOf(SDL_GameControllerType type) {
+const char* chooseProfile(SDL_GameControllerType type) {
     switch (type) {
     case SDL_CONTROLLER_TYPE_XBOX360:
     case SDL_CONTROLLER_TYPE_XBOXONE: return "pad-xbox";
@@ -49,15 +49,15 @@ const char* profileOf(SDL_GameControllerType type) {
     }
 }
 
-GamePadInfo infoOf(const SdlLibrary& sdl, int index) {
+GamePadInfo readInfo(const SdlLibrary& sdl, int index) {
     GamePadInfo info;
     const char* name = sdl.JoystickNameForIndex(index);
     info.name = name ? name : "a controller without a name";
     info.id = sdl.JoystickGetDeviceInstanceID(index);
-    info.bus = busOf(sdl.JoystickGetDeviceGUID(index));
+    info.bus = readBus(sdl.JoystickGetDeviceGUID(index));
     const auto type =
         sdl.IsGameController(index) ? sdl.GameControllerTypeForIndex(index) : SDL_CONTROLLER_TYPE_UNKNOWN;
-    info.profile = profileOf(type);
+    info.profile = chooseProfile(type);
     info.isDualSense = type == SDL_CONTROLLER_TYPE_PS5;
     return info;
 }
@@ -66,7 +66,7 @@ class SdlPad final : public GamePad {
 public:
     SdlPad(const SdlLibrary& sdl, int index)
         : sdl_{sdl}
-        , info_{infoOf(sdl, index)}
+        , info_{readInfo(sdl, index)}
         , joystick_{sdl.JoystickOpen(index)}
         , controller_{sdl.IsGameController(index) ? sdl.GameControllerOpen(index) : nullptr} {
         if (joystick_ == nullptr) return;
@@ -199,7 +199,7 @@ std::vector<GamePadInfo> GamePads::list() {
     if (sdl_ == nullptr) return found;
     const JoystickLock lock{*sdl_};
     for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
-        const GamePadInfo info = infoOf(*sdl_, i);
+        const GamePadInfo info = readInfo(*sdl_, i);
         found.push_back(claimPad(info.id) ? SdlPad{*sdl_, i}.info() : info);
     }
     return found;
@@ -209,7 +209,7 @@ std::unique_ptr<GamePad> GamePads::open(const std::string& name) {
     if (sdl_ == nullptr) return {};
     const JoystickLock lock{*sdl_};
     for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
-        const GamePadInfo info = infoOf(*sdl_, i);
+        const GamePadInfo info = readInfo(*sdl_, i);
         if (!matchesName(info, name) || !claimPad(info.id)) continue;
         auto pad = std::make_unique<SdlPad>(*sdl_, i);
         if (pad->isOpen() && pad->info().hasMotors) return pad;

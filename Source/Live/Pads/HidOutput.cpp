@@ -17,7 +17,7 @@ std::mutex openNodesMutex;
 std::set<std::filesystem::path> openNodes; // nodes opened by this process; guarded by openNodesMutex
 
 /// "HID_ID=0005:0000054C:00000CE6": bus, vendor, product.
-bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bus) {
+bool matchesModel(std::span<const HidModel> models, const std::string& id, PadBus& bus) {
     unsigned number = 0, vendor = 0, product = 0;
     if (std::sscanf(id.c_str(), "%x:%x:%x", &number, &vendor, &product) != 3) return false;
     bus = number == 0x03 ? PadBus::usb : number == 0x05 ? PadBus::bluetooth : PadBus::other;
@@ -33,7 +33,7 @@ constexpr std::int64_t timeOutNs = 500 * msNs;
 
 } // namespace
 
-HidFolders HidFolders::ofSystem() {
+HidFolders HidFolders::systemFolders() {
     if (const char* folder = std::getenv("PHYSVIB_HIDRAW"))
         return {std::filesystem::path{folder} / "class", std::filesystem::path{folder} / "dev"};
     return {};
@@ -43,38 +43,38 @@ std::vector<HidNode> HidDevice::list(std::span<const HidModel> models, const Hid
     std::vector<HidNode> found;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator{folders.classes, ignored}) {
-        HidNode place{folders.nodes / entry.path().filename(), {}, {}};
+        HidNode hidNode{folders.nodes / entry.path().filename(), {}, {}};
         std::ifstream file{entry.path() / "device" / "uevent"};
         bool isModel = false;
         for (std::string line; std::getline(file, line);) {
-            const auto at = line.find('=');
-            if (at == line.npos) continue;
-            const std::string value = line.substr(at + 1);
-            if (line.starts_with("HID_ID=")) isModel = isOneOf(models, value, place.bus);
-            if (line.starts_with("HID_NAME=")) place.name = value;
+            const auto separator = line.find('=');
+            if (separator == line.npos) continue;
+            const std::string value = line.substr(separator + 1);
+            if (line.starts_with("HID_ID=")) isModel = matchesModel(models, value, hidNode.bus);
+            if (line.starts_with("HID_NAME=")) hidNode.name = value;
         }
-        if (isModel) found.push_back(std::move(place));
+        if (isModel) found.push_back(std::move(hidNode));
     }
     std::ranges::sort(found, {}, &HidNode::path);
     return found;
 }
 
-Result<std::unique_ptr<HidDevice>> HidDevice::open(std::span<const HidModel> models, const std::string& where,
+Result<std::unique_ptr<HidDevice>> HidDevice::open(std::span<const HidModel> models, const std::string& name,
                                                    const HidFolders& folders) {
     std::string openError;
     const std::lock_guard lock{openNodesMutex};
-    for (HidNode& place : list(models, folders)) {
-        const std::string node = place.path.string();
-        if (where != anyPad && lowerCase(place.name + " " + node).find(lowerCase(where)) == std::string::npos)
+    for (HidNode& hidNode : list(models, folders)) {
+        const std::string node = hidNode.path.string();
+        if (name != anyPad && lowerCase(hidNode.name + " " + node).find(lowerCase(name)) == std::string::npos)
             continue;
-        if (openNodes.contains(place.path)) continue;
+        if (openNodes.contains(hidNode.path)) continue;
         if (std::FILE* const file = std::fopen(node.c_str(), "r+b")) {
             std::setvbuf(file, nullptr, _IONBF, 0);
-            openNodes.insert(place.path);
-            return std::unique_ptr<HidDevice>{new HidDevice{std::move(place), file}};
+            openNodes.insert(hidNode.path);
+            return std::unique_ptr<HidDevice>{new HidDevice{std::move(hidNode), file}};
         }
         const bool isForbidden = errno == EACCES || errno == EPERM;
-        openError = place.name +
+        openError = hidNode.name +
                     (isForbidden ? ": this user may not write to " + node +
                                        "; install PhysVib's rule for udev and connect it again (Docs/pads.md)"
                                  : ": " + node + " cannot be opened");
@@ -85,17 +85,17 @@ Result<std::unique_ptr<HidDevice>> HidDevice::open(std::span<const HidModel> mod
 HidDevice::~HidDevice() {
     std::fclose(file_);
     const std::lock_guard lock{openNodesMutex};
-    openNodes.erase(place_.path);
+    openNodes.erase(hidNode_.path);
 }
 
 bool HidDevice::write(std::span<const std::uint8_t> report) {
     std::error_code ignored;
-    return std::filesystem::exists(place_.path, ignored) &&
+    return std::filesystem::exists(hidNode_.path, ignored) &&
            std::fwrite(report.data(), 1, report.size(), file_) == report.size();
 }
 
-HidOutput::HidOutput(const std::string& where, std::unique_ptr<HidFeed> feed)
-    : nameFilter_{where.empty() ? anyPad : where}
+HidOutput::HidOutput(const std::string& name, std::unique_ptr<HidFeed> feed)
+    : nameFilter_{name.empty() ? anyPad : name}
     , feed_{std::move(feed)}
     , thread_{[this] { run(); }} {}
 
@@ -134,8 +134,8 @@ void HidOutput::connect() {
     if (!found) return;
     pad_ = std::move(found.value);
     hasStartedOutput_ = false;
-    node_ = pad_->place().path.string();
-    lastName_ = pad_->place().name;
+    node_ = pad_->hidNode().path.string();
+    lastName_ = pad_->hidNode().name;
     leadSeconds_ = feed_->leadSeconds();
     ++counts_.connections;
 }
@@ -202,10 +202,10 @@ SinkState HidOutput::state() const {
     state.lost = feed_->lost();
     state.playsClips = feed_->playsClips();
     state.error = currentError();
-    state.where = state.isReady ? kindName() + ", " + node_ + ": up to " +
+    state.label = state.isReady ? kindName() + ", " + node_ + ": up to " +
                                       fixedNumber(1e3 * feed_->maxDelaySeconds(), 0) + " ms after the device"
                                 : state.error;
-    state.details = {{"Controller", state.where, !state.isReady},
+    state.details = {{"Controller", state.label, !state.isReady},
                      {"Reports", std::to_string(counts_.reports), false}};
     return state;
 }

@@ -39,7 +39,7 @@ struct HidNode {
 /// FOLDER/class and FOLDER/dev.
 struct HidFolders {
     std::filesystem::path classes = "/sys/class/hidraw", nodes = "/dev";
-    static HidFolders ofSystem();
+    static HidFolders systemFolders();
 };
 
 /// An open controller, exclusive within the process; only for writing. One thread at a time.
@@ -48,25 +48,25 @@ public:
     /// Connected controllers of these models, sorted by node. Empty where the system has no such list. Any
     /// thread but the render thread (R), as all functions here.
     static std::vector<HidNode> list(std::span<const HidModel> models,
-                                     const HidFolders& folders = HidFolders::ofSystem());
+                                     const HidFolders& folders = HidFolders::systemFolders());
 
-    /// Opens the first one whose name or node contains `where` (ignoring case; anyPad: any) and that this
+    /// Opens the first one whose name or node contains `name` (ignoring case; anyPad: any) and that this
     /// process has not opened. An error if there is none, or this user may not write to it.
-    static Result<std::unique_ptr<HidDevice>> open(std::span<const HidModel> models, const std::string& where,
-                                                   const HidFolders& folders = HidFolders::ofSystem());
+    static Result<std::unique_ptr<HidDevice>> open(std::span<const HidModel> models, const std::string& name,
+                                                   const HidFolders& folders = HidFolders::systemFolders());
     ~HidDevice();
     HidDevice(const HidDevice&) = delete;
     HidDevice& operator=(const HidDevice&) = delete;
 
-    const HidNode& place() const noexcept { return place_; }
+    const HidNode& hidNode() const noexcept { return hidNode_; }
     /// Sends one whole report, its number first; may wait for the system. False: the controller has gone.
     bool write(std::span<const std::uint8_t> report);
 
 private:
-    HidDevice(HidNode place, std::FILE* file)
-        : place_{std::move(place)}
+    HidDevice(HidNode hidNode, std::FILE* file)
+        : hidNode_{std::move(hidNode)}
         , file_{file} {}
-    HidNode place_;
+    HidNode hidNode_;
     std::FILE* file_;
 };
 
@@ -117,8 +117,8 @@ struct HidCounts {
 /// The message thread (M) waits for it in the destructor, and at most 250 ms for its silence in follow().
 class HidOutput final : public Sink {
 public:
-    /// `where`: anyPad, or part of a controller's name or node. M.
-    HidOutput(const std::string& where, std::unique_ptr<HidFeed> feed);
+    /// `name`: anyPad, or part of a controller's name or node. M.
+    HidOutput(const std::string& name, std::unique_ptr<HidFeed> feed);
     ~HidOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;

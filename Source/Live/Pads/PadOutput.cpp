@@ -15,15 +15,15 @@ std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) 
 
 } // namespace
 
-PadOutput::PadOutput(const std::string& where, const PhantomPanner& panner)
-    : wantedName_{where.substr(0, where.find('@'))}
+PadOutput::PadOutput(const std::string& name, const PhantomPanner& panner)
+    : nameFilter_{name.substr(0, name.find('@'))}
     , initialPanner_{panner}
-    , gripPanner_{PadMotors::gripsOf(panner)} {
-    if (wantedName_.empty()) wantedName_ = anyPad;
-    if (const auto at = where.find('@'); at != where.npos) {
-        auto profile = findPad(where.substr(at + 1));
+    , gripPanner_{PadMotors::makeGripPanner(panner)} {
+    if (nameFilter_.empty()) nameFilter_ = anyPad;
+    if (const auto separator = name.find('@'); separator != name.npos) {
+        auto profile = findPad(name.substr(separator + 1));
         error_ = profile.error;
-        isProfileGiven_ = true;
+        hasRequestedProfile_ = true;
         profile_ = std::move(profile.value);
     } else {
         profile_ = builtInPads().front();
@@ -48,13 +48,13 @@ void PadOutput::follow(OutputClock* device) {
         for (CollisionEvent event; device && events_.pop(event);) {
         } // events of an earlier session
         for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
-        gripPanner_ = PadMotors::gripsOf(initialPanner_);
+        gripPanner_ = PadMotors::makeGripPanner(initialPanner_);
     };
     device_.follow(device, change, [this] { return !error_.empty(); });
 }
 
 void PadOutput::begin() {
-    PadLaw law = profile_.law;
+    PadModel law = profile_.law;
     if (connectedPad_)
         law.commandsPerSecond = std::min(law.commandsPerSecond, maxCommandsPerSecond(connectedPad_->bus));
     motors_ = PadMotors{law};
@@ -85,8 +85,8 @@ void PadOutput::connect(GamePads& pads) {
     if (pad_ ? pad_->isAttached() : steadyNs() < nextSearchNs_) return;
     nextSearchNs_ = steadyNs() + searchIntervalNs;
     pad_.reset();                                                  // close it before it is opened again
-    pad_ = pads.open(lastName_.empty() ? wantedName_ : lastName_); // this thread alone sets that
-    if (!pad_ && !lastName_.empty()) pad_ = pads.open(wantedName_);
+    pad_ = pads.open(lastName_.empty() ? nameFilter_ : lastName_); // this thread alone sets that
+    if (!pad_ && !lastName_.empty()) pad_ = pads.open(nameFilter_);
     const std::lock_guard lock{device_.mutex};
     connectedPad_.reset();
     if (!pad_) return;
@@ -94,7 +94,7 @@ void PadOutput::connect(GamePads& pads) {
     lastName_ = connectedPad_->name;
     sentCommand_ = {};
     ++counts_.connections;
-    if (!isProfileGiven_)
+    if (!hasRequestedProfile_)
         if (auto builtIn = findPad(connectedPad_->profile)) profile_ = std::move(builtIn.value);
     if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // it stays, plugged in or not
     begin();
@@ -113,7 +113,7 @@ std::optional<PadCommand> PadOutput::dueCommand(std::int64_t nowNs) {
 void PadOutput::processControls(std::int64_t sessionNs) {
     for (RenderControl control; controls_.pop(control); controls_.done(control)) {
         if (control.panner != nullptr)
-            pendingPanners_.push_back({control.timeNs, PadMotors::gripsOf(*control.panner)});
+            pendingPanners_.push_back({control.timeNs, PadMotors::makeGripPanner(*control.panner)});
         if (control.kind == RenderControl::Kind::stopAll) stopsNs_.push_back(control.timeNs);
     }
     for (; !stopsNs_.empty() && stopsNs_.front() <= sessionNs; stopsNs_.erase(stopsNs_.begin()))
@@ -158,8 +158,8 @@ std::string PadOutput::currentError() const {
     if (!error_.empty()) return error_;
     if (connectedPad_) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
-    return wantedName_ == anyPad ? "no game controller with motors is there: plug it in, or switch it on"
-                                 : "no game controller with motors is called " + inQuotes(wantedName_) +
+    return nameFilter_ == anyPad ? "no game controller with motors is there: plug it in, or switch it on"
+                                 : "no game controller with motors is called " + inQuotes(nameFilter_) +
                                        ": plug it in, or choose another";
 }
 
@@ -177,11 +177,11 @@ SinkState PadOutput::state() const {
     state.playsClips = false;
     state.lost = motors_.lost() + events_.overflows() + controls_.overflows();
     state.error = currentError();
-    state.where = connectedPad_ ? connectedPad_->name + " (" + busName(connectedPad_->bus) +
+    state.label = connectedPad_ ? connectedPad_->name + " (" + busName(connectedPad_->bus) +
                                       "): " + profile_.name + ", needs " + milliseconds(leadSeconds_)
                                 : state.error;
     state.details = {
-        {"Controller", state.where, !state.isReady},
+        {"Controller", state.label, !state.isReady},
         {"Motors",
          std::to_string(counts_.commands) + " commands, " + std::to_string(counts_.refused) + " refused",
          counts_.refused > 0}};
@@ -192,7 +192,7 @@ std::string PadOutput::summary(const std::function<bool()>&) const {
     const std::lock_guard lock{device_.mutex};
     const PadMotor& slower =
         profile_.law.low.riseSeconds > profile_.law.high.riseSeconds ? profile_.law.low : profile_.law.high;
-    std::string line = (lastName_.empty() ? wantedName_ : lastName_) + ": " + std::to_string(counts_.events) +
+    std::string line = (lastName_.empty() ? nameFilter_ : lastName_) + ": " + std::to_string(counts_.events) +
                        " events as " + profile_.name + ", " + std::to_string(counts_.commands) +
                        " commands, " + std::to_string(counts_.repeats) + " repeated, " +
                        std::to_string(counts_.late) + " overtaken, " + std::to_string(counts_.refused) +

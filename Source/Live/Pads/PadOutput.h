@@ -31,9 +31,9 @@ struct PadCounts {
 /// waits for it in the destructor, and at most 250 ms for its output to stop in follow().
 class PadOutput final : public Sink {
 public:
-    /// `where`: a controller name or anyPad; optionally followed by "@" and the name or file of a profile,
+    /// `name`: a controller name or anyPad; optionally followed by "@" and the name or file of a profile,
     /// instead of the one that suits the controller. M.
-    PadOutput(const std::string& where, const PhantomPanner& panner);
+    PadOutput(const std::string& name, const PhantomPanner& panner);
     ~PadOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
@@ -57,8 +57,8 @@ private:
     void begin();
     std::string currentError() const;
 
-    std::string wantedName_;
-    bool isProfileGiven_ = false;
+    std::string nameFilter_;
+    bool hasRequestedProfile_ = false;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
@@ -73,7 +73,7 @@ private:
     std::string error_; // a permanent error: nothing can be played
     std::optional<GamePadInfo> connectedPad_;
     std::string lastName_; // of the last controller
-    PadMotors motors_{PadLaw{}};
+    PadMotors motors_{PadModel{}};
     const PhantomPanner initialPanner_; // the session's first panner
     PhantomPanner gripPanner_;
     std::vector<PannerChange> pendingPanners_; // panners and stops that wait for their time

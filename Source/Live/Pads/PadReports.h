@@ -29,7 +29,7 @@ struct CoilFormat {
     /// Frames as a report, `number` counts reports from 0. Any thread.
     PadReport (*encode)(std::span<const CoilFrame> frames, std::uint32_t number) noexcept;
     /// Reports that switch samples on or off, in order, `switchSeconds` apart; empty: none needed.
-    std::span<const PadReport> on, off;
+    std::span<const PadReport> onReports, offReports;
 };
 constexpr double switchSeconds = 0.01;
 

@@ -8,18 +8,18 @@ namespace physvib {
 namespace {
 
 constexpr double onSeconds = 0.75, restSeconds = 0.75, repeatSeconds = 0.1;
-constexpr double steadyFrom = 0.4;     // s after a step's begin; motors need 0.2 s
+constexpr double steadySeconds = 0.4;  // s after a step's begin; motors need 0.2 s
 constexpr double windowSeconds = 0.04; // a few revolutions of the heavy motor
 constexpr double minShare = 0.08;      // of the largest strength; below it the motor does not turn
 constexpr double minPeakRatio = 4.0;   // largest strength to that at rest; below it nothing moved
 
-/// Variance summed over the axes, within [from, to); 0 for fewer than three samples.
-double variance(const PadStep& step, double from, double to) {
+/// Variance summed over the axes, within [start, end); 0 for fewer than three samples.
+double variance(const PadStep& step, double start, double end) {
     double sum = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double n = 0.0, mean = 0.0, squares = 0.0;
         for (const PadStep::Sample& sample : step.samples) {
-            if (sample.seconds < from || sample.seconds >= to) continue;
+            if (sample.seconds < start || sample.seconds >= end) continue;
             const double value = static_cast<double>(sample.metresPerSecond2[axis]), deviation = value - mean;
             mean += deviation / ++n;
             squares += deviation * (value - mean);
@@ -58,8 +58,8 @@ bool holdMotors(GamePad& pad, double low, double high, double seconds, const Pad
 
 Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTrialClock& clock) {
     std::vector<PadStep> steps;
-    std::array<float, 3> now{}, before{};
-    if (!pad.acceleration(now))
+    std::array<float, 3> reading{}, lastReading{};
+    if (!pad.acceleration(reading))
         return Failure{
             pad.info().name +
             ": it does not tell its acceleration; DualSense, DualShock 4 and Switch controllers do"};
@@ -72,9 +72,9 @@ Result<std::vector<PadStep>> recordMotor(GamePad& pad, bool isHeavy, const PadTr
         sampling.tick = [&] {
             clock.tick();
             // each sensor report counts once
-            if (pad.acceleration(now) && now != before)
-                step.samples.push_back({clock.seconds() - begin, now});
-            before = now;
+            if (pad.acceleration(reading) && reading != lastReading)
+                step.samples.push_back({clock.seconds() - begin, reading});
+            lastReading = reading;
         };
         const bool isWhole = holdMotors(pad, isHeavy ? step.command : 0.0, isHeavy ? 0.0 : step.command,
                                         onSeconds, sampling) &&
@@ -91,27 +91,27 @@ Result<PadMotor> fitMotor(const std::vector<PadStep>& steps) {
     for (const PadStep& step : steps)
         noise =
             std::min(noise, variance(step, step.onSeconds + 0.6 * restSeconds, step.onSeconds + restSeconds));
-    const auto strength = [noise](const PadStep& step, double from, double to) {
-        return std::sqrt(std::max(0.0, variance(step, from, to) - noise));
+    const auto strength = [noise](const PadStep& step, double start, double end) {
+        return std::sqrt(std::max(0.0, variance(step, start, end) - noise));
     };
     std::vector<double> strengths;
     for (const PadStep& step : steps)
-        strengths.push_back(
-            std::max(strengths.empty() ? 0.0 : strengths.back(), strength(step, steadyFrom, step.onSeconds)));
+        strengths.push_back(std::max(strengths.empty() ? 0.0 : strengths.back(),
+                                     strength(step, steadySeconds, step.onSeconds)));
     const double peak = strengths.back();
     if (!(peak * peak > minPeakRatio * minPeakRatio * noise) || !(peak > 0.0))
         return Failure{"nothing moved: is the controller lying on something soft?"};
     PadMotor motor;
-    const auto turns = std::ranges::find_if(strengths, [&](double s) { return s >= minShare * peak; });
-    const auto first = static_cast<std::size_t>(turns - strengths.begin());
+    const auto firstTurning = std::ranges::find_if(strengths, [&](double s) { return s >= minShare * peak; });
+    const auto first = static_cast<std::size_t>(firstTurning - strengths.begin());
     motor.threshold = first == 0 ? 0.0 : rounded(0.5 * (steps[first - 1].command + steps[first].command));
     motor.half = std::clamp(rounded(commandAt(0.5 * peak, steps, strengths)), motor.threshold + 0.01, 0.98);
     motor.full = std::clamp(rounded(commandAt(0.98 * peak, steps, strengths)), motor.half + 0.01, 1.0);
     const PadStep& fullStep = steps.back();
-    const auto secondsTo = [&](double from, auto isReached) {
-        for (double t = from; t < fullStep.onSeconds + restSeconds - windowSeconds; t += 0.002)
+    const auto secondsTo = [&](double start, auto isReached) {
+        for (double t = start; t < fullStep.onSeconds + restSeconds - windowSeconds; t += 0.002)
             if (isReached(strength(fullStep, t - 0.5 * windowSeconds, t + 0.5 * windowSeconds)))
-                return t - from;
+                return t - start;
         return restSeconds;
     };
     motor.riseSeconds = std::max(0.005, rounded(secondsTo(0.0, [&](double s) { return s >= 0.9 * peak; })));

@@ -11,7 +11,7 @@ constexpr std::size_t maxVoices = 512; // sounding or waiting events; the weakes
 constexpr double minEnergy = 1e-6;     // of full scale, below the smallest step of a report
 
 /// Mean square of the event's amplitude from `fromNs` on, for a report's length.
-double energyOf(const CollisionEvent& event, std::int64_t fromNs) {
+double meanEnergy(const CollisionEvent& event, std::int64_t fromNs) {
     const std::int64_t begin = std::max(fromNs, event.timeNs);
     std::int64_t end = fromNs + ToneFeed::reportNs;
     if (event.durationNs > 0) end = std::min(end, event.timeNs + event.durationNs);
@@ -56,13 +56,13 @@ struct PartialMoments {
 TonePair ToneFeed::fitTones(std::vector<Partial> partials) {
     std::erase_if(partials, [](const Partial& partial) { return partial.energy < minEnergy; });
     std::ranges::sort(partials, {}, &Partial::frequencyHz);
-    PartialMoments all, below, low, high;
+    PartialMoments all, lows, low, high;
     for (const Partial& partial : partials) all.add(partial);
     double minError = INFINITY;
-    for (std::size_t i = 0;; below.add(partials[i++])) { // the first i are the low tone's
-        const PartialMoments above = i < partials.size() ? all.minus(below) : PartialMoments{};
-        if (const double error = below.errorIn(lowToneBand) + above.errorIn(highToneBand); error < minError)
-            minError = error, low = below, high = above;
+    for (std::size_t i = 0;; lows.add(partials[i++])) { // the first i are the low tone's
+        const PartialMoments highs = i < partials.size() ? all.minus(lows) : PartialMoments{};
+        if (const double error = lows.errorIn(lowToneBand) + highs.errorIn(highToneBand); error < minError)
+            minError = error, low = lows, high = highs;
         if (i == partials.size()) break;
     }
     TonePair tones;
@@ -75,13 +75,13 @@ TonePair ToneFeed::fitTones(std::vector<Partial> partials) {
 ToneFeed::ToneFeed(const HidFeedKind& kind, const PhantomPanner& panner)
     : kind_{kind}
     , initialPanner_{panner}
-    , gripPanner_{PadMotors::gripsOf(panner)} {}
+    , gripPanner_{PadMotors::makeGripPanner(panner)} {}
 
 void ToneFeed::begin() {
     for (CollisionEvent event; events_.pop(event);) {
     }
     for (RenderControl control; controls_.pop(control);) controls_.done(control);
-    gripPanner_ = PadMotors::gripsOf(initialPanner_);
+    gripPanner_ = PadMotors::makeGripPanner(initialPanner_);
     pendingPanners_.clear();
     stopsNs_.clear();
     voices_.clear();
@@ -92,7 +92,7 @@ void ToneFeed::begin() {
 void ToneFeed::processQueues() {
     for (RenderControl control; controls_.pop(control); controls_.done(control)) {
         if (control.panner != nullptr)
-            pendingPanners_.push_back({control.timeNs, PadMotors::gripsOf(*control.panner)});
+            pendingPanners_.push_back({control.timeNs, PadMotors::makeGripPanner(*control.panner)});
         if (control.kind == RenderControl::Kind::stopAll) stopsNs_.push_back(control.timeNs);
     }
     for (CollisionEvent event; events_.pop(event);) {
@@ -106,11 +106,11 @@ void ToneFeed::processQueues() {
     }
 }
 
-TonePair ToneFeed::tonesOf(std::size_t side, std::int64_t fromNs, double level) const {
+TonePair ToneFeed::computeTones(std::size_t side, std::int64_t fromNs, double level) const {
     std::vector<Partial> partials;
     for (const Voice& voice : voices_)
         partials.push_back({voice.event.frequencyHz, level * level * voice.gains[side] * voice.gains[side] *
-                                                         energyOf(voice.event, fromNs)});
+                                                         meanEnergy(voice.event, fromNs)});
     return fitTones(std::move(partials));
 }
 
@@ -120,15 +120,15 @@ std::optional<PadReport> ToneFeed::next(std::int64_t nowNs, std::int64_t session
     for (; !stopsNs_.empty() && stopsNs_.front() <= sessionNs; stopsNs_.erase(stopsNs_.begin()))
         std::erase_if(voices_, [&](const Voice& voice) { return voice.event.timeNs < stopsNs_.front(); });
     std::erase_if(voices_, [&](const Voice& voice) {
-        return voice.event.timeNs <= sessionNs && energyOf(voice.event, sessionNs) < minEnergy;
+        return voice.event.timeNs <= sessionNs && meanEnergy(voice.event, sessionNs) < minEnergy;
     });
     if (voices_.size() > maxVoices) {
         std::ranges::nth_element(voices_, voices_.begin() + maxVoices, std::ranges::greater{},
                                  [](const Voice& voice) { return std::abs(voice.event.amplitude); });
         voices_.resize(maxVoices);
     }
-    const TonePair left = tonesOf(0, sessionNs, static_cast<double>(level)),
-                   right = tonesOf(1, sessionNs, static_cast<double>(level));
+    const TonePair left = computeTones(0, sessionNs, static_cast<double>(level)),
+                   right = computeTones(1, sessionNs, static_cast<double>(level));
     const bool isSilent = left == TonePair{} && right == TonePair{};
     if (isSilent && silentReports_ >= silentReportCount) return {};
     silentReports_ = isSilent ? silentReports_ + 1 : 0;

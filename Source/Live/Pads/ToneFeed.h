@@ -42,7 +42,7 @@ private:
         std::array<double, 2> gains; // left, right
     };
     void processQueues();
-    TonePair tonesOf(std::size_t side, std::int64_t fromNs, double level) const;
+    TonePair computeTones(std::size_t side, std::int64_t fromNs, double level) const;
 
     const HidFeedKind& kind_;
     const PhantomPanner initialPanner_; // the session's first panner

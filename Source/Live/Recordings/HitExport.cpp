@@ -30,25 +30,25 @@ std::vector<CollisionEvent> stationaryEvents(std::span<const CollisionEvent> eve
 }
 
 /// Data of an actuator's profile; without one ("none"), only its full scale.
-Result<ClipDevice> deviceOf(const HitExport& hits, const ActuatorDescription& enchanter) {
-    const ClipDevice device{0.0, 0.0, 0.0, enchanter.fullScaleG};
-    const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
+Result<ClipDevice> makeDevice(const HitExport& hits, const ActuatorDescription& actuator) {
+    const ClipDevice device{0.0, 0.0, 0.0, actuator.fullScaleG};
+    const std::string& name = hits.actuator.empty() ? actuator.actuator : hits.actuator;
     if (name == "none") return device;
     const auto profile = findActuator(name);
-    if (!profile) return Failure{hits.layoutName + ": actuator " + enchanter.label + ": " + profile.error};
+    if (!profile) return Failure{hits.layoutName + ": actuator " + actuator.label + ": " + profile.error};
     const FrequencyBand band = profile.value.bandOrUnknown();
-    return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), enchanter.fullScaleG};
+    return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), actuator.fullScaleG};
 }
 
 /// The band of the channel's actuator, if known.
-FrequencyScale scaleOf(const Clip& clip, const FrequencyScale& defaultScale) {
+FrequencyScale channelScale(const Clip& clip, const FrequencyScale& defaultScale) {
     const ClipDevice& device = clip.channels.front().device;
     return device.highHz > device.lowHz ? FrequencyScale{device.lowHz, device.highHz} : defaultScale;
 }
 
 std::string summary(const ClipPart& part, std::size_t bytes) {
-    return part.path + "  " + counted(part.clip.channels.size(), "channel") + ", " +
-           fixedNumber(part.clip.seconds(), 2) + " s, " + counted(part.clip.points(), "keyframe") + ", " +
+    return part.path + "  " + plural(part.clip.channels.size(), "channel") + ", " +
+           fixedNumber(part.clip.seconds(), 2) + " s, " + plural(part.clip.points(), "keyframe") + ", " +
            fixedNumber(static_cast<double>(bytes) * 1e-3, 1) + " kB\n";
 }
 
@@ -56,17 +56,18 @@ std::string summary(const ClipPart& part, std::size_t bytes) {
 double durationSeconds(std::span<const CollisionEvent> events, int rate) {
     double end = 0.0;
     for (const CollisionEvent& event : events) {
-        const auto life =
+        const auto decaySeconds =
             static_cast<double>(lifeFramesOf(decayIncrementOf(event.decayPerSecond, rate))) / rate;
-        const double gate = event.durationNs > 0 ? 1e-9 * static_cast<double>(event.durationNs) : life;
-        end = std::max(end, 1e-9 * static_cast<double>(event.timeNs) + std::min(life, gate));
+        const double toneSeconds =
+            event.durationNs > 0 ? 1e-9 * static_cast<double>(event.durationNs) : decaySeconds;
+        end = std::max(end, 1e-9 * static_cast<double>(event.timeNs) + std::min(decaySeconds, toneSeconds));
     }
     return end;
 }
 
 } // namespace
 
-Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings) {
+Result<Clip> makeHitClip(const HitExport& hits, const EventClipSettings& settings) {
     if (const std::size_t found = hits.events.size(); found > limits::maxClipEvents)
         return Failure{hits.source + ": expected at most " + std::to_string(limits::maxClipEvents) +
                        " hits, found " + std::to_string(found)};
@@ -75,7 +76,7 @@ Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings
     clip.extentWidthMetres = hits.layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = hits.layout.geometry.extentHeightMetres;
     for (std::size_t j = 0; j < std::min(clip.channels.size(), hits.layout.actuators.size()); ++j) {
-        const auto device = deviceOf(hits, hits.layout.actuators[j]);
+        const auto device = makeDevice(hits, hits.layout.actuators[j]);
         if (!device) return Failure{device.error};
         clip.channels[j].label = hits.layout.actuators[j].label;
         clip.channels[j].place = hits.layout.geometry.places[j];
@@ -85,7 +86,7 @@ Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings
     return clip;
 }
 
-std::vector<ClipPart> partsOf(const Clip& clip, const std::string& targetPath, ClipFormat format) {
+std::vector<ClipPart> splitClip(const Clip& clip, const std::string& targetPath, ClipFormat format) {
     if (!isMono(format) || clip.channels.size() == 1) return {{targetPath, clip}};
     std::vector<ClipPart> parts;
     const std::filesystem::path path{targetPath};
@@ -107,7 +108,7 @@ Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat fo
     std::list<AtomicFile> files;
     std::string report;
     for (const ClipPart& part : parts) {
-        const std::string bytes = clipBytes(part.clip, format, scaleOf(part.clip, defaultScale));
+        const std::string bytes = clipBytes(part.clip, format, channelScale(part.clip, defaultScale));
         if (const std::string& error = files.emplace_back(part.path).error(); !error.empty())
             return Failure{error};
         if (const std::string& error = files.back().write(bytes); !error.empty()) return Failure{error};
@@ -118,11 +119,11 @@ Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat fo
     return report;
 }
 
-std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
-                                  const FrequencyScale& defaultScale) {
+std::vector<std::string> listLosses(const std::vector<ClipPart>& parts, ClipFormat format,
+                                    const FrequencyScale& defaultScale) {
     std::vector<std::string> losses;
     for (const ClipPart& part : parts)
-        for (const std::string& loss : clipLosses(part.clip, format, scaleOf(part.clip, defaultScale)))
+        for (const std::string& loss : clipLosses(part.clip, format, channelScale(part.clip, defaultScale)))
             if (std::ranges::find(losses, loss) == losses.end()) losses.push_back(loss);
     return losses;
 }

@@ -23,7 +23,7 @@ struct HitExport {
 };
 
 /// A clip with a channel per actuator, drawn by `settings`; or the error in one line. M.
-Result<Clip> clipOfHits(const HitExport& hits, const EventClipSettings& settings);
+Result<Clip> makeHitClip(const HitExport& hits, const EventClipSettings& settings);
 
 /// One file of an exported clip.
 struct ClipPart {
@@ -33,7 +33,7 @@ struct ClipPart {
 
 /// The files of a clip: one; for single-channel formats, one per channel that is not empty: NAME-A.haptic,
 /// NAME-B.haptic... Any thread.
-std::vector<ClipPart> partsOf(const Clip& clip, const std::string& targetPath, ClipFormat format);
+std::vector<ClipPart> splitClip(const Clip& clip, const std::string& targetPath, ClipFormat format);
 
 /// Writes all files or none. `defaultScale`: frequency range that the format's 0 to 1 stands for, where the
 /// channel's actuator has no known band. Returns one line per file with its length and size, or one line with
@@ -42,8 +42,8 @@ Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat fo
                                const FrequencyScale& defaultScale = {});
 
 /// Lines on what the format cannot express, without duplicates. Any thread.
-std::vector<std::string> lossesOf(const std::vector<ClipPart>& parts, ClipFormat format,
-                                  const FrequencyScale& defaultScale = {});
+std::vector<std::string> listLosses(const std::vector<ClipPart>& parts, ClipFormat format,
+                                    const FrequencyScale& defaultScale = {});
 
 /// Writes one channel per actuator of the panner, from 0 s until all events have decayed. Returns empty, or
 /// one line with the reason. M only.

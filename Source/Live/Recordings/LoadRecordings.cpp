@@ -18,30 +18,30 @@ namespace {
 struct FileContent {
     SampledSound sound;
     std::string hash;
-    std::vector<ActuatorPlace> shares{};
+    std::vector<ActuatorPlace> places{};
 };
 
 /// Positions of the channels as fractions of the extent; empty unless every channel has one.
-std::vector<ActuatorPlace> sharesOf(const Clip& clip) {
-    std::vector<ActuatorPlace> shares;
+std::vector<ActuatorPlace> relativePlaces(const Clip& clip) {
+    std::vector<ActuatorPlace> places;
     for (const ClipChannel& channel : clip.channels)
         if (channel.place && clip.extentWidthMetres > 0.0 && clip.extentHeightMetres > 0.0)
-            shares.push_back({channel.place->xMetres / clip.extentWidthMetres,
+            places.push_back({channel.place->xMetres / clip.extentWidthMetres,
                               channel.place->yMetres / clip.extentHeightMetres});
-    return shares.size() == clip.channels.size() ? shares : std::vector<ActuatorPlace>{};
+    return places.size() == clip.channels.size() ? places : std::vector<ActuatorPlace>{};
 }
 
 /// Reads a haptic file once: samples and hash come from the same bytes.
 Result<FileContent> readHapticFile(const std::filesystem::path& path, ClipFormat format) {
-    if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular)
+    if (const auto regular = openRegularFile(path, limits::maxRecordingFileBytes); !regular)
         return Failure{regular.error};
     const auto bytes = readFile(path, limits::maxClipFileBytes);
     if (!bytes) return Failure{bytes.error};
     const auto clip = readClip(bytes.value, path.string(), format);
     if (!clip) return Failure{clip.error};
-    auto sound = soundOf(clip.value, path);
+    auto sound = clipToSound(clip.value, path);
     if (!sound) return Failure{sound.error};
-    return FileContent{std::move(sound.value), contentHash(bytes.value), sharesOf(clip.value)};
+    return FileContent{std::move(sound.value), contentHash(bytes.value), relativePlaces(clip.value)};
 }
 
 /// The decoders read from the disk, so computing the hash reads the file again.
@@ -164,7 +164,7 @@ std::string checkAndSetHash(RecordingFile& file) {
     return {};
 }
 
-double energyOf(const std::vector<float>& samples, int rateHz) {
+double computeEnergy(const std::vector<float>& samples, int rateHz) {
     double sum = 0.0;
     for (std::size_t n = 0;
          n < std::min(samples.size(), static_cast<std::size_t>(matchWindowSeconds * rateHz)); ++n)
@@ -173,20 +173,20 @@ double energyOf(const std::vector<float>& samples, int rateHz) {
 }
 
 /// Energy of the mode whose envelope starts at 1.
-double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
+double modeEnergy(double frequencyHz, double decayPerSecond, int rateHz) {
     std::vector<float> mode(static_cast<std::size_t>(matchWindowSeconds * rateHz));
     for (std::size_t n = 0; n < mode.size(); ++n) {
         const double t = static_cast<double>(n) / rateHz;
         mode[n] = static_cast<float>(portable::sin(2.0 * std::numbers::pi * frequencyHz * t) *
                                      portable::exp(-decayPerSecond * t));
     }
-    return energyOf(mode, rateHz);
+    return computeEnergy(mode, rateHz);
 }
 
 } // namespace
 
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
-    const auto format = clipFormatOf(path.string());
+    const auto format = findClipFormat(path.string());
     auto content = format ? readHapticFile(path, *format) : readSoundFile(path);
     if (!content) return Failure{content.error};
     LoadedClip clip;
@@ -201,7 +201,7 @@ Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
     }
     if (clip.channels.empty() || clip.channels.front().samples.empty())
         return Failure{path.string() + ": expected something to feel, found no samples"};
-    clip.shares = std::move(content.value.shares);
+    clip.places = std::move(content.value.places);
     return clip;
 }
 
@@ -285,7 +285,7 @@ Result<ContactRecording> loadContact(const RecordingFile& file) {
         for (const float peak = peakOf(samples); float& x : samples) x /= peak;
     if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
     const auto gain = static_cast<float>(
-        std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));
+        std::sqrt(modeEnergy(frequencyHz, file.decayPerSecond, rateHz) / computeEnergy(samples, rateHz)));
     for (float& x : samples) x *= gain;
     return contact;
 }

@@ -34,16 +34,16 @@ public:
         return position_ = std::clamp<sf_count_t>(from + offset, 0, length());
     }
     sf_count_t tell() const noexcept { return position_; }
-    sf_count_t read(char* to, sf_count_t count) {
+    sf_count_t read(char* target, sf_count_t count) {
         count = std::min(count, length() - position_);
         bytesLeft_ -= count;
         if (count <= 0 || bytesLeft_ < 0) return 0;
         const auto inHead = std::clamp<sf_count_t>(std::ssize(sound_.head) - position_, 0, count);
-        if (inHead > 0) std::memcpy(to, sound_.head.data() + position_, static_cast<std::size_t>(inHead));
+        if (inHead > 0) std::memcpy(target, sound_.head.data() + position_, static_cast<std::size_t>(inHead));
         position_ += inHead;
         if (inHead == count) return count;
         std::fseek(&file_, static_cast<long>(sound_.begin + position_ - std::ssize(sound_.head)), SEEK_SET);
-        const auto fetched = std::fread(to + inHead, 1, static_cast<std::size_t>(count - inHead), &file_);
+        const auto fetched = std::fread(target + inHead, 1, static_cast<std::size_t>(count - inHead), &file_);
         position_ += static_cast<sf_count_t>(fetched);
         return inHead + static_cast<sf_count_t>(fetched);
     }
@@ -58,7 +58,7 @@ private:
 LimitedFile& limitedFile(void* user) { return *static_cast<LimitedFile*>(user); }
 
 struct CloseSound {
-    void operator()(SNDFILE* open) const noexcept { sf_close(open); }
+    void operator()(SNDFILE* file) const noexcept { sf_close(file); }
 };
 
 /// One pass over the samples.
@@ -77,8 +77,8 @@ public:
         SF_VIRTUAL_IO io{
             [](void* user) { return limitedFile(user).length(); },
             [](sf_count_t offset, int whence, void* user) { return limitedFile(user).seek(offset, whence); },
-            [](void* to, sf_count_t count, void* user) {
-                return limitedFile(user).read(static_cast<char*>(to), count);
+            [](void* target, sf_count_t count, void* user) {
+                return limitedFile(user).read(static_cast<char*>(target), count);
             },
             [](const void*, sf_count_t, void*) { return sf_count_t{0}; },
             [](void* user) { return limitedFile(user).tell(); }};
@@ -133,8 +133,9 @@ std::string scanSamples(std::FILE& file, const SoundHeader& sound, std::int64_t 
                         SoundFormat& shape, float& gain) {
     SoundPass pass{file, sound};
     if (!pass.error().empty()) return pass.error();
-    const float maxLow = std::ldexp(1.0f, sound.bits - sound.room), steps = std::ldexp(1.0f, sound.bits - 1);
-    bool fitsLow = sound.bits < sound.room, usesLowerBits = false;
+    const float maxLow = std::ldexp(1.0f, sound.bits - sound.containerBits),
+                steps = std::ldexp(1.0f, sound.bits - 1);
+    bool fitsLow = sound.bits < sound.containerBits, usesLowerBits = false;
     std::int64_t frames = 0;
     while (frames <= maxSeconds * shape.sampleRateHz) {
         const auto count = pass.next(4096);
@@ -158,21 +159,21 @@ std::string decodeAll(SoundPass& pass, const SoundFormat& shape, SoundReceiver& 
     const auto channels = static_cast<std::size_t>(shape.channels);
     const std::string claimed = std::to_string(shape.frames) + " samples in each channel, as its header says";
     std::vector<std::vector<float>> block(channels);
-    std::vector<const float*> lanes(channels);
+    std::vector<const float*> channelData(channels);
     for (std::int64_t done = 0, count = 0; done < shape.frames; done += count) {
         count = pass.next(shape.frames - done);
         if (count <= 0 || pass.isDamaged()) return damageError(claimed, done);
         for (std::size_t j = 0; j < channels; ++j) {
             block[j].resize(static_cast<std::size_t>(count));
             for (std::size_t i = 0; i < block[j].size(); ++i) block[j][i] = pass.samples()[i * channels + j];
-            lanes[j] = block[j].data();
+            channelData[j] = block[j].data();
             const auto invalid = std::ranges::find_if(block[j], [](float x) { return !std::isfinite(x); });
             if (invalid != block[j].end())
                 return nonFiniteError(*invalid, static_cast<std::size_t>(done + (invalid - block[j].begin())),
                                       static_cast<double>(shape.sampleRateHz)) +
                        " in channel " + std::to_string(j + 1);
         }
-        if (auto error = receiver.receive(lanes.data(), static_cast<int>(count)); !error.empty())
+        if (auto error = receiver.receive(channelData.data(), static_cast<int>(count)); !error.empty())
             return error;
     }
     return pass.next(1) > 0 && !pass.isDamaged() ? "expected " + claimed + ", found more" : "";
@@ -180,7 +181,7 @@ std::string decodeAll(SoundPass& pass, const SoundFormat& shape, SoundReceiver& 
 
 } // namespace
 
-Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path) {
+Result<SampledSound> clipToSound(const Clip& clip, const std::filesystem::path& path) {
     const SoundFormat shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()),
                             static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
     if (auto error = soundError(shape); !error.empty()) return Failure{path.string() + ": " + error};
@@ -188,11 +189,11 @@ Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path
 }
 
 Result<SampledSound> readRecording(const std::filesystem::path& path) {
-    const auto file = openRegular(path, limits::maxRecordingFileBytes);
+    const auto file = openRegularFile(path, limits::maxRecordingFileBytes);
     if (!file) return Failure{file.error};
-    if (const auto format = clipFormatOf(path.string())) {
+    if (const auto format = findClipFormat(path.string())) {
         const auto clip = loadClip(path, *format);
-        return clip ? soundOf(clip.value, path) : Failure{clip.error};
+        return clip ? clipToSound(clip.value, path) : Failure{clip.error};
     }
     SoundBuffer buffer;
     const auto error = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
@@ -209,7 +210,7 @@ std::string removeSlowPart(SampledSound& sound, const std::filesystem::path& pat
 }
 
 std::string streamRecording(const std::filesystem::path& path, SoundReceiver& receiver) {
-    const auto file = openRegular(path, limits::maxMusicFileBytes);
+    const auto file = openRegularFile(path, limits::maxMusicFileBytes);
     if (!file) return file.error;
     const auto error = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
                                    limits::maxMusicSeconds, receiver);

@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 6> soundFileExtensions{".wav",  ".
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 
 /// Samples of a clip that was read from that file. Any thread.
-Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path);
+Result<SampledSound> clipToSound(const Clip& clip, const std::filesystem::path& path);
 
 /// Removes content below 5 Hz from a recording for an actuator (Measure/HitExcerpt.h). Returns a note that
 /// names the file, or empty. `fullScale`: the sample value that is played as full scale. Any thread but R.
@@ -36,14 +36,14 @@ std::string streamRecording(const std::filesystem::path& path, SoundReceiver& re
 
 /// The part of a file that libsndfile is to read, and how.
 struct SoundHeader {
-    int format = 0;            ///< of libsndfile, where the part is bare samples; 0: a file of its own
-    std::string head;          ///< bytes that replace the file's own before the part
-    std::int64_t begin = 0;    ///< first byte of the part
-    std::int64_t bytes = 0;    ///< its length
-    SoundFormat shape{};       ///< as the header says; 0 frames: libsndfile counts them
-    bool needsScan = false;    ///< a first pass finds the number or alignment of the samples
-    int bits = 0, room = 0;    ///< bits of a sample of WAVE, and of its container
-    bool isLowAligned = false; ///< assume the lower bits if the samples do not show the alignment
+    int format = 0;                  ///< of libsndfile, where the part is bare samples; 0: a file of its own
+    std::string head;                ///< bytes that replace the file's own before the part
+    std::int64_t begin = 0;          ///< first byte of the part
+    std::int64_t bytes = 0;          ///< its length
+    SoundFormat shape{};             ///< as the header says; 0 frames: libsndfile counts them
+    bool needsScan = false;          ///< a first pass finds the number or alignment of the samples
+    int bits = 0, containerBits = 0; ///< bits of a sample of WAVE, and of its container
+    bool isLowAligned = false;       ///< assume the lower bits if the samples do not show the alignment
 };
 
 /// Reads the header of a file of `bytes` bytes. An error, without the file's name, for another kind of file,

@@ -67,7 +67,7 @@ std::string Rig::connectSinks() {
     return {};
 }
 
-std::string Rig::openDevice(const AudioOutputSettings& wanted) { return deviceError_ = output_.open(wanted); }
+std::string Rig::openDevice(const AudioOutputSettings& output) { return deviceError_ = output_.open(output); }
 
 std::string Rig::beginRecording() {
     if (settings_.recordPath.empty()) return {};

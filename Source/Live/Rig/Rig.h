@@ -87,7 +87,7 @@ public:
     std::string open();
     /// The first two steps alone, for programs whose user chooses the device. Empty, or the reason.
     std::string connectSinks();
-    std::string openDevice(const AudioOutputSettings& wanted);
+    std::string openDevice(const AudioOutputSettings& output);
 
     /// Starts to step the world; the sinks follow the device from now on.
     void start();

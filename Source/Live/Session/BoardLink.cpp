@@ -15,11 +15,11 @@ constexpr std::int64_t helloIntervalNs = 250 * msNs, telemetryIntervalNs = secon
 // gains are repeated after this, then at doubled intervals, so that a lost mute is late by milliseconds only
 constexpr std::int64_t firstGainsRepeatNs = 8 * msNs;
 constexpr std::int64_t answerTimeOutNs = 3 * secondNs / 2; // without an answer the line is opened again
-constexpr std::int64_t maxAgeNs = 50 * msNs;               // an event this long after its onset is not sent
+constexpr std::int64_t maxLatenessNs = 50 * msNs;          // an event this long after its onset is not sent
 // limit for data in the system's buffers: events that are not written yet can still be dropped
 constexpr std::int64_t maxLineAheadNs = 4 * msNs;
-constexpr double marginMs = 4.0 + 3.0 + 2.1;   // maxLineAheadNs, this thread's sleeps, one event on the line
-constexpr std::int64_t maxAnswerNs = secondNs; // a later answer is ignored
+constexpr double marginMs = 4.0 + 3.0 + 2.1; // maxLineAheadNs, this thread's sleeps, one event on the line
+constexpr std::int64_t maxAnswerDelayNs = secondNs; // a later answer is ignored
 // a larger jump of the board's clock means that it has restarted
 constexpr double minRestartJumpFrames = limits::board::sampleRateHz;
 constexpr int maxLongFormCount = 4; // with more pending events the compact form is sent
@@ -49,7 +49,7 @@ std::uint32_t wrappedFrame(double frame) {
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame)));
 }
 
-constexpr std::int64_t lineNs(std::size_t bytes) {
+constexpr std::int64_t lineTimeNs(std::size_t bytes) {
     return static_cast<std::int64_t>(bytes) * 10 * secondNs / wire::lineBitsPerSecond;
 }
 
@@ -98,10 +98,10 @@ void BoardLink::setGains(const std::array<double, limits::board::channels>& gain
     for (std::size_t j = 0; j < gains.size(); ++j)
         message.gains[j] = static_cast<std::int16_t>(
             std::clamp(std::nearbyint(gains[j] * limits::board::amplitudeUnit), -32768.0, 32767.0));
-    changeOrders([&](Orders& o) { o.gains = message; });
+    addCommand([&](Commands& commands) { commands.gains = message; });
 }
 
-void BoardLink::follow(std::function<void()> feed) {
+void BoardLink::setFeed(std::function<void()> feed) {
     const std::scoped_lock lock{feedMutex_};
     feed_ = std::move(feed);
 }
@@ -119,7 +119,7 @@ std::string BoardLink::awaitReady(const std::function<bool()>& keepGoing) const 
 
 BoardLinkStatus BoardLink::status() const {
     const std::scoped_lock lock{mutex_};
-    return published_;
+    return publishedStatus_;
 }
 
 void BoardLink::run() {
@@ -131,7 +131,7 @@ void BoardLink::run() {
         if (line_ && status_.state == State::greeting)
             greet();
         else if (line_) {
-            executeOrders();
+            executeCommands();
             if (line_) sendPeriodicMessages();
         }
         {
@@ -215,7 +215,7 @@ void BoardLink::handleHello(const wire::HelloReply& board) {
 // Adds the pong to the clock, unless its ping is unknown or was answered already.
 void BoardLink::handlePong(const wire::Pong& pong) {
     const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
-    if (sentNs == 0 || lastReceivedNs_ - sentNs > maxAnswerNs) return;
+    if (sentNs == 0 || lastReceivedNs_ - sentNs > maxAnswerDelayNs) return;
     const double frames = clock_.unwrappedFrame(pong.frame, pong.fraction);
     if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(lastReceivedNs_)) > minRestartJumpFrames)
         return disconnect(status_.port + ": the board has started anew");
@@ -248,21 +248,21 @@ void BoardLink::sendPeriodicMessages() {
     }
 }
 
-void BoardLink::executeOrders() {
-    Orders orders;
+void BoardLink::executeCommands() {
+    Commands commands;
     {
         const std::scoped_lock lock{mutex_};
-        std::swap(orders, orders_);
+        std::swap(commands, commands_);
     }
-    if (orders.stopAll) {
+    if (commands.stopAll) {
         backlog_.clear();
         for (BoardStrike waiting; strikes_.pop(waiting);) {
         }
         segmentEnds_.clear();
         if (line_) send(wire::StopAll{});
     }
-    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsRepeatNs_ = firstGainsRepeatNs;
-    if (orders.selfTest && line_) {
+    if (commands.gains) gains_ = commands.gains, nextGainsNs_ = 0, gainsRepeatNs_ = firstGainsRepeatNs;
+    if (commands.selfTest && line_) {
         status_.selfTest.reset();
         send(wire::SelfTest{});
     }
@@ -279,11 +279,11 @@ bool BoardLink::canSendSegment(std::int64_t dueNs) {
     const std::size_t reserved = dueNs - now > earlySegmentNs ? 2 : 0; // for tones that begin meanwhile
     if (segmentEnds_.size() + reserved >= limits::board::maxSegments) return false;
     const std::scoped_lock lock{mutex_};
-    return !orders_.stopAll; // the pending stop would delete it at once
+    return !commands_.stopAll; // the pending stop would delete it at once
 }
 
 std::int64_t BoardLink::segmentReadyNs() const {
-    return std::max(nowNs(), lineFreeNs_) + lineNs(segmentBytes) +
+    return std::max(nowNs(), lineFreeNs_) + lineTimeNs(segmentBytes) +
            static_cast<std::int64_t>(1e6 * transitMs());
 }
 
@@ -305,20 +305,20 @@ void BoardLink::sendStrikes() {
             ++status_.refused;
     }
     const std::int64_t now = nowNs();
-    while (!backlog_.empty() && backlog_.first().onsetNs < now - maxAgeNs) {
+    while (!backlog_.empty() && backlog_.first().onsetNs < now - maxLatenessNs) {
         backlog_.pop();
         ++status_.refused;
     }
     const bool isReady = line_ && status_.state == State::ready;
     if (isReady)
-        backlog_.dropLate({std::max(now, lineFreeNs_), lineNs(compactBytes),
+        backlog_.dropLate({std::max(now, lineFreeNs_), lineTimeNs(compactBytes),
                            static_cast<std::int64_t>(1e6 * (transitMs() + overheadMs))});
     while (line_ && isReady && !backlog_.empty() && isLineFree(now) &&
            backlog_.first().onsetNs < now + sendAheadMs * msNs) {
         wire::Strike strike{++sequence_, backlog_.first().event};
         strike.event.frame = wrappedFrame(clock_.frameAt(backlog_.first().onsetNs));
         if (backlog_.size() > maxLongFormCount && wire::fitsCompact(strike.event))
-            send(wire::compact(strike));
+            send(wire::toCompact(strike));
         else
             send(strike);
         backlog_.pop();
@@ -336,14 +336,14 @@ void BoardLink::publish() {
     status_.thinned = backlog_.thinned() + strikes_.overflows();
     status_.badFrames = decoder_.badFrames();
     const std::scoped_lock lock{mutex_};
-    published_ = status_;
+    publishedStatus_ = status_;
 }
 
 template <class Message>
 void BoardLink::send(const Message& message) {
     std::array<std::uint8_t, wire::maxFrame> frame;
     const std::size_t size = wire::encode(message, frame);
-    lineFreeNs_ = std::max(lineFreeNs_, nowNs()) + lineNs(size);
+    lineFreeNs_ = std::max(lineFreeNs_, nowNs()) + lineTimeNs(size);
     if (!line_->write({frame.data(), size})) disconnect(status_.port + ": the line is gone");
 }
 

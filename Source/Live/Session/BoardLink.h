@@ -114,13 +114,13 @@ public:
     /// Sets the function that the link thread calls about every millisecond; empty: none. Only it may push
     /// events, give commands and send segments, and it must be quick. When this returns, the link thread has
     /// left the previous function. M.
-    void follow(std::function<void()> feed);
+    void setFeed(std::function<void()> feed);
 
     void stopAll() {
-        changeOrders([](Orders& o) { o.stopAll = true; });
+        addCommand([](Commands& commands) { commands.stopAll = true; });
     }
     void requestSelfTest() {
-        changeOrders([](Orders& o) { o.selfTest = true; });
+        addCommand([](Commands& commands) { commands.selfTest = true; });
     }
     /// Negative gains invert the polarity; -8 to 8. Sent repeatedly, at first at short intervals, because the
     /// line may lose them and the board may be switched off.
@@ -129,19 +129,19 @@ public:
     BoardLinkStatus status() const;
     bool hasConnected() const { ///< whether a board has ever answered
         const std::scoped_lock lock{mutex_};
-        return published_.connections > 0;
+        return publishedStatus_.connections > 0;
     }
 
 private:
     using State = BoardLinkStatus::State;
-    struct Orders {
+    struct Commands {
         bool stopAll = false, selfTest = false;
         std::optional<wire::Gains> gains;
     };
     template <class Change>
-    void changeOrders(Change change) {
+    void addCommand(Change change) {
         const std::scoped_lock lock{mutex_};
-        change(orders_);
+        change(commands_);
     }
     void run();
     void search();
@@ -152,7 +152,7 @@ private:
     void handlePong(const wire::Pong& pong);
     void greet();                // repeats Hello until the board answers
     void sendPeriodicMessages(); // pings, requests for telemetry, and gains, when due
-    void executeOrders();
+    void executeCommands();
     void sendStrikes();
     void publish();
     double transitMs() const; // longest time from sending to playing
@@ -164,9 +164,9 @@ private:
     EventQueue<BoardStrike, 1024> strikes_;
     std::mutex feedMutex_; // guards feed_; locked before mutex_
     std::function<void()> feed_;
-    mutable std::mutex mutex_; // guards orders_ and published_
-    Orders orders_;
-    BoardLinkStatus published_;
+    mutable std::mutex mutex_; // guards commands_ and publishedStatus_
+    Commands commands_;
+    BoardLinkStatus publishedStatus_;
     std::atomic<bool> isStopping_{false};
 
     // The following members belong to the link thread.

@@ -8,15 +8,16 @@ namespace physvib {
 namespace {
 
 constexpr std::int64_t oneSecondNs = 1'000'000'000;
-constexpr std::int64_t maxDelayNs = 40'000'000; // the length of a segment: one this late has passed entirely
-constexpr std::int64_t hurryMarginNs = 2'000'000; // with less time, the segment is made longer
+constexpr std::int64_t maxStepLatenessNs = 40'000'000; // the length of a segment: one this late has passed
+                                                       // entirely
+constexpr std::int64_t hurryMarginNs = 2'000'000;      // with less time, the segment is made longer
 
 using State = BoardLinkStatus::State;
 constexpr std::int64_t telemetryWaitNs = 1'500'000'000; // telemetry is sent once a second
 
 std::string count(std::uint64_t n) { return std::to_string(n); }
 
-std::string linkText(const BoardLinkStatus& s) {
+std::string linkSummary(const BoardLinkStatus& s) {
     if (s.state == State::ready)
         return s.port + ": ready, needs " + fixedNumber(s.outputLatencyMs, 0) + " ms, " + count(s.sent) +
                " sent, " + count(s.thinned) + " thinned";
@@ -24,27 +25,29 @@ std::string linkText(const BoardLinkStatus& s) {
     return s.state == State::searching ? "looking for a board" : s.port + ": connecting";
 }
 
-std::vector<SinkState::Detail> detailsOf(const BoardLinkStatus& s) {
+std::vector<SinkState::Detail> makeDetails(const BoardLinkStatus& s) {
     const auto& t = s.telemetry;
     if (s.state != State::ready) return {{"Board", s.error.empty() ? "looking for it" : s.error, true}};
-    std::vector<SinkState::Detail> facts{
+    std::vector<SinkState::Detail> details{
         {"Board", "ready, its clock " + fixedNumber(s.driftPpm, 0) + " ppm off"},
         {"Link", count(s.sent) + " sent, " + count(s.thinned) + " thinned, " + count(s.refused) + " refused",
          s.thinned + s.refused > 0}};
     if (s.segments > 0)
-        facts.push_back({"What moves",
-                         count(s.segments) + " segments sent, " + count(s.coarseSegments) + " of them coarse",
-                         s.coarseSegments > 0});
-    facts.push_back(
+        details.push_back(
+            {"What moves",
+             count(s.segments) + " segments sent, " + count(s.coarseSegments) + " of them coarse",
+             s.coarseSegments > 0});
+    details.push_back(
         {"On board",
          count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
          t.late + t.dropped + t.lost > 0});
-    if (t.guarded > 0) facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
-    return facts;
+    if (t.guarded > 0)
+        details.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
+    return details;
 }
 
 // With anyBoard the link tries one port after the other, so the errors of single ports are not shown.
-std::string errorOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+std::string describeError(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
     if (s.state == State::ready) {
         if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
         return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
@@ -77,11 +80,11 @@ std::string BoardOutput::awaitReady(const std::function<bool()>& keepGoing) {
 
 void BoardOutput::follow(OutputClock* device) {
     if (device == device_) return;
-    link_.follow({});
+    link_.setFeed({});
     device_ = device;
     if (device == nullptr) return link_.stopAll();
     setGains();
-    link_.follow([this] { feed(); });
+    link_.setFeed([this] { feed(); });
 }
 
 void BoardOutput::onCollision(const CollisionEvent& event) noexcept {
@@ -90,7 +93,7 @@ void BoardOutput::onCollision(const CollisionEvent& event) noexcept {
 }
 
 SinkState BoardOutput::state() const {
-    SinkState state = sinkStateOf(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds());
+    SinkState state = makeSinkState(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds());
     state.lost += droppedInQueues();
     return state;
 }
@@ -175,7 +178,7 @@ void BoardOutput::sendSegments() {
         const std::int64_t due = clock_.steadyAt(first->nextNs());
         if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.canSendSegment(due)) sendSegment(*first);
         // the line is gone or busy
-        else if (due < now - maxDelayNs)
+        else if (due < now - maxStepLatenessNs)
             first->skip(), link_.refuseSegment();
         else
             return;
@@ -184,7 +187,7 @@ void BoardOutput::sendSegments() {
 
 void BoardOutput::sendSegment(BoardPath& path) {
     applyDueLayouts(path.nextNs());
-    for (const BoardPath& before : paths_) path.continueFrom(before);
+    for (const BoardPath& other : paths_) path.continueFrom(other);
     const auto frameAt = [&](std::int64_t sinceNs) {
         return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs));
     };
@@ -198,18 +201,18 @@ void BoardOutput::sendSegment(BoardPath& path) {
 }
 
 void BoardOutput::setGains() {
-    std::array<double, limits::board::channels> wanted{};
-    for (std::size_t j = 0; j < wanted.size(); ++j)
-        if (!device_->isSilent() && !isMuted_[j]) wanted[j] = device_->level() * gains_[j];
-    if (wanted == sentGains_) return;
-    sentGains_ = wanted;
-    link_.setGains(wanted);
+    std::array<double, limits::board::channels> channelGains{};
+    for (std::size_t j = 0; j < channelGains.size(); ++j)
+        if (!device_->isSilent() && !isMuted_[j]) channelGains[j] = device_->level() * gains_[j];
+    if (channelGains == sentGains_) return;
+    sentGains_ = channelGains;
+    link_.setGains(channelGains);
 }
 
 void BoardOutput::pushStrike(const CollisionEvent& event) {
     if (!isPlayable(event)) return; // the renderer counts it
     applyDueLayouts(event.timeNs);
-    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event))});
+    link_.push({clock_.steadyAt(event.timeNs), toBoardEvent(event, gainsAt(event))});
 }
 
 void BoardOutput::applyDueLayouts(std::int64_t timeNs) {
@@ -224,15 +227,10 @@ PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event) const noexcep
     return {gains[0], gains[1], gains[2], gains[3]};
 }
 
-SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
-    SinkState state{"board",
-                    s.state == State::ready,
-                    limits::board::channels,
-                    s.sent,
-                    s.thinned + s.refused,
-                    errorOf(s, port, latencySeconds),
-                    linkText(s),
-                    detailsOf(s)};
+SinkState makeSinkState(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+    SinkState state{"board",        s.state == State::ready, limits::board::channels,
+                    s.sent,         s.thinned + s.refused,   describeError(s, port, latencySeconds),
+                    linkSummary(s), makeDetails(s)};
     state.playsClips = false;
     return state;
 }

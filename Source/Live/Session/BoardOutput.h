@@ -90,6 +90,6 @@ private:
 
 /// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt, for
 /// display. Any thread.
-SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
+SinkState makeSinkState(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
 
 } // namespace physvib

@@ -9,30 +9,30 @@ namespace physvib {
 namespace {
 
 // A panner between left and right with constant power at every place.
-PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
-    const ActuatorLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
-    return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
+PhantomPanner stereoPanner(double fieldWidthMetres, double fieldHeightMetres) noexcept {
+    const ActuatorLayout leftRight{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
+    return {leftRight, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
 }
 
 // Settings of the renderer. With one channel the place does not matter.
-RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
+RendererSettings rendererSettings(int sampleRateHz, int channels, const PhantomPanner& field) {
     const ActuatorLayout single{1.0, 1.0, 1, {}};
     return {.sampleRateHz = sampleRateHz,
-            .panner = ears > 1 ? betweenEars(field.fieldWidthMetres(), field.fieldHeightMetres())
-                               : PhantomPanner{single, PanningLaw::linear, 1.0, 1.0, 1.0}};
+            .panner = channels > 1 ? stereoPanner(field.fieldWidthMetres(), field.fieldHeightMetres())
+                                   : PhantomPanner{single, PanningLaw::linear, 1.0, 1.0, 1.0}};
 }
 
 // The controls that also act on the audio: stops, and with two channels changes of the field.
-std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears,
-                                      std::deque<PhantomPanner>& panners) {
+std::vector<RenderControl> audioControls(std::vector<RenderControl> actuators, int channels,
+                                         std::deque<PhantomPanner>& panners) {
     using enum RenderControl::Kind;
-    std::erase_if(actuators, [ears](const RenderControl& control) {
-        return control.kind != stopAll && !(control.kind == panner && ears > 1);
+    std::erase_if(actuators, [channels](const RenderControl& control) {
+        return control.kind != stopAll && !(control.kind == panner && channels > 1);
     });
     for (RenderControl& control : actuators)
         if (control.kind == panner)
             control.panner = &panners.emplace_back(
-                betweenEars(control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()));
+                stereoPanner(control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()));
     return actuators;
 }
 
@@ -48,7 +48,7 @@ struct ContactAudio::Source {
         if (change.fieldWidthMetres > 0.0) {
             control.kind = RenderControl::Kind::panner;
             control.panner =
-                audio.fields_.store(betweenEars(change.fieldWidthMetres, change.fieldHeightMetres));
+                audio.fields_.store(stereoPanner(change.fieldWidthMetres, change.fieldHeightMetres));
         }
         return true;
     }
@@ -56,7 +56,7 @@ struct ContactAudio::Source {
 };
 
 void ContactAudio::prepare(int sampleRateHz) {
-    if (!renderer_->prepare(settingsAt(sampleRateHz, ears_, field_))) throw std::bad_alloc{};
+    if (!renderer_->prepare(rendererSettings(sampleRateHz, channels_, field_))) throw std::bad_alloc{};
     setContacts(sampleRateHz);
     for (CollisionEvent unplayed; events_.pop(unplayed);) {
     }
@@ -92,13 +92,13 @@ RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<
                                 const ContactAudioRender& settings, const BlockConsumer& consume) {
     std::erase_if(events, [](const CollisionEvent& event) { return isClip(event.sound); });
     std::deque<PhantomPanner> panners;
-    const auto changes = controlsOf(std::move(controls), settings.ears, panners);
+    const auto changes = audioControls(std::move(controls), settings.channels, panners);
     const auto gain = static_cast<float>(fromDecibels(settings.levelDb));
-    std::vector<std::vector<float>> scaled(static_cast<std::size_t>(settings.ears));
+    std::vector<std::vector<float>> scaled(static_cast<std::size_t>(settings.channels));
     std::vector<const float*> scaledChannels(scaled.size());
     return renderOffline(events,
-                         {settingsAt(settings.sampleRateHz, settings.ears, settings.field), settings.frames,
-                          settings.blockFrames, changes, settings.recordings},
+                         {rendererSettings(settings.sampleRateHz, settings.channels, settings.field),
+                          settings.frames, settings.blockFrames, changes, settings.recordings},
                          [&](const float* const* channels, int frames) {
                              for (std::size_t c = 0; c < scaled.size(); ++c) {
                                  scaled[c].assign(channels[c], channels[c] + frames);

@@ -22,13 +22,13 @@ namespace physvib {
 class ContactAudio {
 public:
     /// With two channels, impacts are panned left to right by their x in `field`; one channel ignores it.
-    explicit ContactAudio(std::vector<ContactRecording> recordings, int ears = 1,
+    explicit ContactAudio(std::vector<ContactRecording> recordings, int channels = 1,
                           const PhantomPanner& field = {})
         : recordings_{std::move(recordings)}
         , field_{field}
-        , ears_{ears} {}
+        , channels_{channels} {}
 
-    int ears() const noexcept { return ears_; } ///< Any thread.
+    int channels() const noexcept { return channels_; } ///< Any thread.
 
     /// prepare() starts with silence at frame 0; moveTo() continues at another rate and frame, as
     /// HapticRenderer::moveTo. Message thread (M), not while rendering.
@@ -39,7 +39,7 @@ public:
     void mirror(const CollisionEvent& event) noexcept { events_.push(event); }
     void mirror(const RenderControl& control) noexcept {
         if (control.kind == RenderControl::Kind::stopAll) changes_.push({control.timeNs});
-        if (control.kind == RenderControl::Kind::panner && ears_ > 1)
+        if (control.kind == RenderControl::Kind::panner && channels_ > 1)
             changes_.push(
                 {control.timeNs, control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()});
     }
@@ -68,7 +68,7 @@ private:
     PannerPool<32> fields_; // panners of queued controls; further changes wait in changes_
     std::vector<ContactRecording> recordings_;
     PhantomPanner field_;
-    int ears_;
+    int channels_;
     ContactSounds contacts_;
     std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
 };
@@ -78,7 +78,7 @@ struct ContactAudioRender {
     int sampleRateHz = 48000;
     std::int64_t frames = 0;
     int blockFrames = 1024;
-    int ears = 1;
+    int channels = 1;
     PhantomPanner field{}; ///< at the start, with two channels
     double levelDb = 0.0;  ///< of an impact at full scale
     RecordedContacts recordings{};
@@ -94,7 +94,7 @@ RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<
 class RenderedChannels {
 public:
     /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
-    int contactAudioChannels() const noexcept { return contactAudio_ ? contactAudio_->ears() : 0; }
+    int contactAudioChannels() const noexcept { return contactAudio_ ? contactAudio_->channels() : 0; }
 
     /// Trigger output on the last channel: a pulse per onset, without gains, ceilings and delays. Null: none.
     const OnsetMarks* marks() const noexcept { return marks_.get(); }
@@ -115,15 +115,15 @@ private:
 
     explicit RenderedChannels(const SessionSetup& setup)
         : actuators_{setup.channels}
-        , contactAudio_{setup.contactSound
-                            ? std::make_unique<ContactAudio>(*setup.contactSound, setup.ears, setup.panner)
-                            : nullptr}
+        , contactAudio_{setup.contactSound ? std::make_unique<ContactAudio>(
+                                                 *setup.contactSound, setup.contactChannels, setup.panner)
+                                           : nullptr}
         , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr} {
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
 
     /// Updates mutedChannels() for a mute or gain. One thread at a time, as raiseCeiling().
-    void noteMute(const RenderControl& control) noexcept {
+    void updateMutes(const RenderControl& control) noexcept {
         lastChanges_.apply(control);
         mutedBits_.store(lastChanges_.mutedChannels(), std::memory_order_relaxed);
     }

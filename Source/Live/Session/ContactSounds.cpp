@@ -8,10 +8,10 @@ namespace physvib {
 namespace {
 
 /// Resamples by `ratio`; empty if there is no memory.
-std::vector<float> converted(const std::vector<float>& in, double ratio) {
+std::vector<float> resampleByRatio(const std::vector<float>& in, double ratio) {
     constexpr double maxRatio = 256.0; // limit of the converter per pass; a recording may have 100 Hz
-    if (ratio > maxRatio) return converted(converted(in, maxRatio), ratio / maxRatio);
-    if (1.0 / ratio > maxRatio) return converted(converted(in, 1.0 / maxRatio), ratio * maxRatio);
+    if (ratio > maxRatio) return resampleByRatio(resampleByRatio(in, maxRatio), ratio / maxRatio);
+    if (1.0 / ratio > maxRatio) return resampleByRatio(resampleByRatio(in, 1.0 / maxRatio), ratio * maxRatio);
     std::vector<float> out(
         std::max<std::size_t>(1, static_cast<std::size_t>(ratio * static_cast<double>(in.size()))));
     SRC_DATA data{};
@@ -24,23 +24,23 @@ std::vector<float> converted(const std::vector<float>& in, double ratio) {
 }
 
 /// The recording at that rate, with the same peak.
-std::vector<float> resampled(const ContactRecording& recording, int rateHz) {
+std::vector<float> resampleToRate(const ContactRecording& recording, int rateHz) {
     if (recording.sampleRateHz == rateHz) return recording.samples;
-    auto out = converted(recording.samples, static_cast<double>(rateHz) / recording.sampleRateHz);
-    if (const float before = peakOf(recording.samples), after = peakOf(out); after > 0.0f)
-        for (float& x : out) x *= before / after;
+    auto out = resampleByRatio(recording.samples, static_cast<double>(rateHz) / recording.sampleRateHz);
+    if (const float oldPeak = peakOf(recording.samples), newPeak = peakOf(out); newPeak > 0.0f)
+        for (float& x : out) x *= oldPeak / newPeak;
     return out;
 }
 
 } // namespace
 
-std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings) {
+std::vector<RecordingFile> recordingFiles(const std::vector<ContactRecording>& recordings) {
     std::vector<RecordingFile> files;
     for (const ContactRecording& recording : recordings) files.push_back(recording.file);
     return files;
 }
 
-std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings) {
+std::vector<std::string> recordingNotes(const std::vector<ContactRecording>& recordings) {
     std::vector<std::string> notes;
     for (const ContactRecording& recording : recordings)
         if (!recording.note.empty() && std::ranges::find(notes, recording.note) == notes.end())
@@ -49,7 +49,7 @@ std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings
 }
 
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
-    for (const auto& recording : recordings) samples_.push_back(resampled(recording, sampleRateHz));
+    for (const auto& recording : recordings) samples_.push_back(resampleToRate(recording, sampleRateHz));
     for (std::size_t i = 0; i < recordings.size(); ++i)
         contacts_.push_back({recordings[i].frequencyHz, samples_[i], recordings[i].file.sound()});
 }

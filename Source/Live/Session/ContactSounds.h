@@ -23,10 +23,10 @@ struct ContactRecording {
 };
 
 /// The files of recordings. Any thread.
-std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings);
+std::vector<RecordingFile> recordingFiles(const std::vector<ContactRecording>& recordings);
 
 /// Notes of recordings, without duplicates. Any thread.
-std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings);
+std::vector<std::string> recordingNotes(const std::vector<ContactRecording>& recordings);
 
 /// Recordings at one rate, and the list of them for a renderer. Both are valid as long as this object, which
 /// must not move meanwhile. Any thread but the render thread (R).
@@ -57,7 +57,7 @@ public:
     }
 
     /// The samples at that rate. The first call for a rate takes long. Valid as long as this object.
-    std::span<const float> atRate(int sampleRateHz) {
+    std::span<const float> resample(int sampleRateHz) {
         auto sound = std::ranges::find(sounds_, sampleRateHz, &ResampledClip::sampleRateHz);
         if (sound == sounds_.end())
             sound = sounds_.insert(sounds_.end(), ResampledClip{sampleRateHz, {{clip_}, sampleRateHz}});
@@ -89,13 +89,13 @@ public:
         const auto existing = std::ranges::find_if(sets_, [&](const Set& set) {
             return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
         });
-        if (existing != sets_.end()) return existing->played();
+        if (existing != sets_.end()) return existing->contactList();
         Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
         const auto sounds = set.sounds.contacts();
         set.contacts.assign(sounds.begin(), sounds.end());
         for (int k = 0; k < maxClips; ++k) set.contacts.push_back({clipFrequencyHz, {}, soundOfClip(k)});
-        for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
-        return set.played();
+        for (std::size_t k = 0; k < clips_.size(); ++k) setClip(set, k);
+        return set.contactList();
     }
 
     /// The rates of the stored lists.
@@ -112,7 +112,7 @@ public:
     /// which do not change, and reads this clip's samples only for an event that is sent after this call.
     void add(ClipSound clip) {
         clips_.push_back(std::move(clip));
-        for (Set& set : sets_) fill(set, clips_.size() - 1);
+        for (Set& set : sets_) setClip(set, clips_.size() - 1);
     }
 
 private:
@@ -121,11 +121,11 @@ private:
         int sampleRateHz;
         ContactSounds sounds; // at that rate
         std::vector<RecordedContact> contacts;
-        RecordedContacts played() const noexcept { return {contacts, recordings.empty()}; }
+        RecordedContacts contactList() const noexcept { return {contacts, recordings.empty()}; }
     };
 
-    void fill(Set& set, std::size_t number) {
-        set.contacts[set.recordings.size() + number].samples = clips_[number].atRate(set.sampleRateHz);
+    void setClip(Set& set, std::size_t number) {
+        set.contacts[set.recordings.size() + number].samples = clips_[number].resample(set.sampleRateHz);
     }
 
     std::deque<Set> sets_;

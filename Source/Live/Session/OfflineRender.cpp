@@ -43,14 +43,14 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
 
     ListSource source{events, settings.controls, settings.marks};
     std::vector<float> pulses(settings.marks != nullptr ? block : 0);
-    std::vector<const float*> withMarks(channels + 1, pulses.data());
+    std::vector<const float*> allChannels(channels + 1, pulses.data());
     if (settings.marks != nullptr) settings.marks->prepare(settings.renderer.sampleRateHz, 0);
     renderFromStart(*renderer, source, out.data(), static_cast<int>(channels), settings.frames,
-                    settings.blockFrames, [&](const float* const* at, int n) {
-                        if (settings.marks == nullptr) return consume(at, n);
-                        settings.marks->render(pulses.data(), n);
-                        std::copy_n(at, channels, withMarks.begin());
-                        return consume(withMarks.data(), n);
+                    settings.blockFrames, [&](const float* const* rendered, int frames) {
+                        if (settings.marks == nullptr) return consume(rendered, frames);
+                        settings.marks->render(pulses.data(), frames);
+                        std::copy_n(rendered, channels, allChannels.begin());
+                        return consume(allChannels.data(), frames);
                     });
     return renderer->status();
 }

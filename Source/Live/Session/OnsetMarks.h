@@ -29,17 +29,17 @@ public:
     static constexpr double pulseSeconds = 0.002, restSeconds = 0.00025, minIntervalSeconds = 0.0005;
 
     explicit OnsetMarks(MarkedOnsets which) noexcept
-        : marked_{which} {}
+        : markedOnsets_{which} {}
 
     /// Starts with the sample of `firstFrame`, which may be below 0, and without onsets. Message thread (M),
     /// not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) noexcept {
-        const auto framesOf = [=](double seconds) {
+        const auto toFrames = [=](double seconds) {
             return static_cast<std::int64_t>(std::ceil(seconds * sampleRateHz));
         };
-        pulseFrames_ = framesOf(pulseSeconds);
-        restFrames_ = framesOf(restSeconds);
-        minIntervalFrames_ = framesOf(minIntervalSeconds);
+        pulseFrames_ = toFrames(pulseSeconds);
+        restFrames_ = toFrames(restSeconds);
+        minIntervalFrames_ = toFrames(minIntervalSeconds);
         nextFrame_ = firstFrame;
         firstEdge_ = endEdge_ = 0;
         lastEdgeFrame_ = offFrame_ = INT64_MIN / 2;
@@ -73,11 +73,11 @@ public:
 
 private:
     bool isMarked(const CollisionEvent& event) const noexcept {
-        const bool isOfWorld = event.source.fixture >= 0;
+        const bool isFromWorld = event.source.fixture >= 0;
         if (event.course.toneAgeNs > 0) return false;
-        return marked_ == MarkedOnsets::all ||
-               (marked_ == MarkedOnsets::hits ? isOfWorld && event.source.kind == ContactKind::hit
-                                              : !isOfWorld);
+        return markedOnsets_ == MarkedOnsets::all ||
+               (markedOnsets_ == MarkedOnsets::hits ? isFromWorld && event.source.kind == ContactKind::hit
+                                                    : !isFromWorld);
     }
     std::int64_t nextEdge() const noexcept {
         return firstEdge_ == endEdge_ ? INT64_MAX : edges_[firstEdge_ % edges_.size()];
@@ -86,7 +86,7 @@ private:
         counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     }
 
-    const MarkedOnsets marked_;
+    const MarkedOnsets markedOnsets_;
     std::int64_t pulseFrames_ = 0, restFrames_ = 0, minIntervalFrames_ = 0, nextFrame_ = 0;
     std::array<std::int64_t, 4096> edges_{}; // a block of 8192 frames at 5 kHz has 2048 of them
     std::size_t firstEdge_ = 0, endEdge_ = 0;

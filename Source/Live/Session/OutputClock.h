@@ -23,8 +23,8 @@ namespace physvib {
 
 /// A time of the steady clock, in nanoseconds.
 inline std::int64_t
-steadyNs(std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now()) noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(at.time_since_epoch()).count();
+steadyNs(std::chrono::steady_clock::time_point time = std::chrono::steady_clock::now()) noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
 /// Detects and counts pauses of a device, and the events that they drop. Times are steadyNs().
@@ -34,14 +34,14 @@ public:
     static constexpr std::int64_t goneAfterNs = 2'000'000'000; ///< a device that pauses longer counts as gone
 
     /// The longest pause of a device that runs, in blocks of `blockNs`: three of them, and at least 100 ms.
-    static constexpr std::int64_t limitNs(std::int64_t blockNs) noexcept {
+    static constexpr std::int64_t maxPauseNs(std::int64_t blockNs) noexcept {
         return 3 * blockNs > 100'000'000 ? 3 * blockNs : 100'000'000;
     }
 
-    /// Call when a device starts. Pauses above `limitNs` count; `never`: none. The first device may take
+    /// Call when a device starts. Pauses above `maxPauseNs` count; `never`: none. The first device may take
     /// goneAfterNs until its first block. Message thread (M), while the render thread (R) does not run.
-    void begin(std::int64_t limitNs, std::int64_t nowNs) noexcept {
-        limitNs_.store(limitNs, std::memory_order_relaxed);
+    void begin(std::int64_t maxPauseNs, std::int64_t nowNs) noexcept {
+        maxPauseNs_.store(maxPauseNs, std::memory_order_relaxed);
         if (lastNs_.load(std::memory_order_relaxed) == never)
             lastNs_.store(nowNs + goneAfterNs, std::memory_order_release);
     }
@@ -68,12 +68,12 @@ public:
         return std::min(lastNs_.load(std::memory_order_acquire), never / 2);
     }
     /// Call when the device is closed and no other opened: an endless pause begins. M, while R does not run.
-    void end() noexcept { limitNs_.store(0, std::memory_order_relaxed); }
+    void end() noexcept { maxPauseNs_.store(0, std::memory_order_relaxed); }
 
     /// Whether the device pauses. False before the first begin(): the session has no device. Any thread.
     bool isPaused(std::int64_t nowNs) const noexcept {
         const std::int64_t last = lastNs_.load(std::memory_order_acquire),
-                           limit = limitNs_.load(std::memory_order_relaxed);
+                           limit = maxPauseNs_.load(std::memory_order_relaxed);
         return last != never && limit != never && nowNs - last > limit;
     }
 
@@ -97,7 +97,7 @@ public:
     static constexpr const char* droppedError = "no device runs: dropped";
 
 private:
-    std::atomic<std::int64_t> lastNs_{never}, limitNs_{never};
+    std::atomic<std::int64_t> lastNs_{never}, maxPauseNs_{never};
     std::atomic<std::int64_t> untilNs_{0};
     std::atomic<std::uint64_t> pauses_{0}, losses_{0}, dropped_{0};
 };
@@ -111,28 +111,28 @@ enum class MuteRequester : std::size_t { machine, standardInput, osc };
 /// thread, lock-free.
 class MuteRequests {
 public:
-    /// Requests silence; returns the number of the request: 1 for the first of `requester`.
-    std::uint64_t request(MuteRequester requester) noexcept { return of(requester).asked.fetch_add(1) + 1; }
+    /// Requests silence; returns the number of the request: 1 for the first of `input`.
+    std::uint64_t request(MuteRequester input) noexcept { return entry(input).requested.fetch_add(1) + 1; }
 
     /// Requests silence with a number that the input gave; repeating it changes nothing.
-    void request(MuteRequester requester, std::uint64_t number) noexcept {
-        raise(of(requester).asked, number);
+    void request(MuteRequester input, std::uint64_t number) noexcept {
+        raiseTo(entry(input).requested, number);
     }
 
-    /// How many times `requester` has requested silence.
-    std::uint64_t requestCount(MuteRequester requester) const noexcept { return of(requester).asked.load(); }
+    /// How many times `input` has requested silence.
+    std::uint64_t requestCount(MuteRequester input) const noexcept { return entry(input).requested.load(); }
 
-    /// Withdraws the requests of `requester` up to that number.
-    void withdraw(MuteRequester requester, std::uint64_t number) noexcept {
-        raise(of(requester).withdrawn, std::min(number, requestCount(requester)));
+    /// Withdraws the requests of `input` up to that number.
+    void withdraw(MuteRequester input, std::uint64_t number) noexcept {
+        raiseTo(entry(input).withdrawn, std::min(number, requestCount(input)));
     }
 
     /// Withdraws all requests of all inputs: only for the machine.
     void withdrawAll() noexcept {
-        for (Requests& all : requests_) raise(all.withdrawn, all.asked.load());
+        for (Requests& row : requests_) raiseTo(row.withdrawn, row.requested.load());
     }
 
-    bool isRequestedBy(MuteRequester requester) const noexcept { return of(requester).isPending(); }
+    bool isRequestedBy(MuteRequester input) const noexcept { return entry(input).isPending(); }
 
     /// Wait-free.
     bool isSilent() const noexcept { return std::ranges::any_of(requests_, &Requests::isPending); }
@@ -142,17 +142,17 @@ private:
     static_assert(Number::is_always_lock_free);
 
     struct Requests {
-        Number asked{0}, withdrawn{0};
+        Number requested{0}, withdrawn{0};
         bool isPending() const noexcept {
-            const std::uint64_t until = withdrawn.load(); // read first, so that it never exceeds `asked`
-            return asked.load() > until;
+            const std::uint64_t ended = withdrawn.load(); // read first, so that it never exceeds `requested`
+            return requested.load() > ended;
         }
     };
-    Requests& of(MuteRequester requester) noexcept { return requests_[static_cast<std::size_t>(requester)]; }
-    const Requests& of(MuteRequester requester) const noexcept {
-        return requests_[static_cast<std::size_t>(requester)];
+    Requests& entry(MuteRequester input) noexcept { return requests_[static_cast<std::size_t>(input)]; }
+    const Requests& entry(MuteRequester input) const noexcept {
+        return requests_[static_cast<std::size_t>(input)];
     }
-    static void raise(Number& number, std::uint64_t bound) noexcept {
+    static void raiseTo(Number& number, std::uint64_t bound) noexcept {
         for (std::uint64_t now = number.load(); now < bound && !number.compare_exchange_weak(now, bound);) {
         }
     }
@@ -177,11 +177,11 @@ public:
     /// The moment of the newest block; {} before the first. Any thread but the render thread (R).
     OutputMoment latestMoment() const noexcept {
         for (;;) {
-            const auto before = writes_.load(std::memory_order_acquire);
+            const auto count = writes_.load(std::memory_order_acquire);
             const OutputMoment moment{
                 sessionNs_.load(std::memory_order_acquire), steadyNs_.load(std::memory_order_acquire),
                 lagNs_.load(std::memory_order_acquire), sampleRateHz_.load(std::memory_order_acquire)};
-            if (before % 2 == 0 && writes_.load(std::memory_order_relaxed) == before) return moment;
+            if (count % 2 == 0 && writes_.load(std::memory_order_relaxed) == count) return moment;
         }
     }
 
@@ -208,13 +208,13 @@ protected:
 
     /// Publishes the moment of a block for latestMoment(). R, wait-free.
     void publish(const OutputMoment& moment) noexcept {
-        const auto before = writes_.load(std::memory_order_relaxed);
-        writes_.store(before + 1, std::memory_order_relaxed);
+        const auto count = writes_.load(std::memory_order_relaxed);
+        writes_.store(count + 1, std::memory_order_relaxed);
         sessionNs_.store(moment.sessionNs, std::memory_order_release);
         steadyNs_.store(moment.steadyNs, std::memory_order_release);
         lagNs_.store(moment.lagNs, std::memory_order_release);
         sampleRateHz_.store(moment.sampleRateHz, std::memory_order_release);
-        writes_.store(before + 2, std::memory_order_release);
+        writes_.store(count + 2, std::memory_order_release);
     }
 
 private:

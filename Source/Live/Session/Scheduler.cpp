@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 /// Number of events that are felt once each. Changes of state, of which only the last one counts, have none.
-std::size_t eventsOf(const Input& input) noexcept {
+std::size_t countEvents(const Input& input) noexcept {
     if (const auto* strikes = std::get_if<Strikes>(&input.what)) return strikes->events.size();
     const auto* action = std::get_if<Action>(&input.what);
     return action != nullptr && std::holds_alternative<ImpulseAction>(*action) ? 1 : 0;
@@ -40,7 +40,7 @@ void Scheduler::prepare() {
     followedSceneNs_ = -1;
     followedGains_.fill(std::numeric_limits<float>::quiet_NaN());
     if (!isLogged_) return;
-    if (!activeSet_.empty()) log_.recordings.push_back({0, filesOf(activeSet_)});
+    if (!activeSet_.empty()) log_.recordings.push_back({0, recordingFiles(activeSet_)});
     log_.clips = clips_;
 }
 
@@ -50,7 +50,7 @@ Result<std::int64_t> Scheduler::submit(Input input) {
         std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
     if (!mayWait && input.timeNs != Input::now)
         return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
-    if (const std::size_t events = eventsOf(input); events > 0 && pulse_.dropIfPaused(events))
+    if (const std::size_t events = countEvents(input); events > 0 && pulse_.dropIfPaused(events))
         return Failure{DevicePulse::droppedError};
     return std::visit([&](auto& what) { return submit(what, input.timeNs); }, input.what);
 }
@@ -83,7 +83,7 @@ bool Scheduler::post(RenderControl& control) {
     if (!controls_.push(control)) return false;
     lastControlNs_ = control.timeNs;
     sinks_.onControl(control);
-    channels_.noteMute(control);
+    channels_.updateMutes(control);
     if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
     if (control.panner != nullptr) panner_ = *control.panner;
     if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&
@@ -105,7 +105,7 @@ Result<std::int64_t> Scheduler::submit(PlayedRecordings& requested, std::int64_t
     control.recordings = recordings_.contacts(time_.law().sampleRateHz, requested.recordings);
     if (!controls_.push(control)) return Failure{"too many controls at once"};
     activeSet_ = std::move(requested.recordings);
-    if (isLogged_) log_.recordings.push_back({control.timeNs, filesOf(activeSet_)});
+    if (isLogged_) log_.recordings.push_back({control.timeNs, recordingFiles(activeSet_)});
     return control.timeNs;
 }
 
@@ -204,7 +204,7 @@ bool Scheduler::hasRoomFor(std::span<const ClipSound> channels) const {
 std::optional<int> Scheduler::addClip(std::span<const ContactRecording> channels) {
     std::vector<ClipSound> sounds(channels.begin(), channels.end());
     for (std::vector<int> rates;;) {
-        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.atRate(rate); });
+        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.resample(rate); });
         const std::lock_guard lock{mutex_};
         const auto isFirst = [&](const ClipFile& clip) {
             return clip.channel == 0 && clip.file.path == channels[0].file.path &&
@@ -218,8 +218,8 @@ std::optional<int> Scheduler::addClip(std::span<const ContactRecording> channels
         for (ClipSound& sound : sounds) recordings_.add(std::move(sound));
         const auto first = static_cast<int>(clips_.size());
         for (int j = 0; j < std::ssize(channels); ++j) {
-            const auto& added = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
-            if (isLogged_) log_.clips.push_back(added);
+            const auto& clip = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
+            if (isLogged_) log_.clips.push_back(clip);
         }
         return first;
     }
@@ -235,9 +235,9 @@ std::int64_t Scheduler::readLog(SessionLog& log) {
     const std::int64_t now = time_.nowNs();
     if (!isLogged_) return now;
     postDueStops(now);
-    const auto move = [](auto& from, auto& to) {
-        std::ranges::move(from, std::back_inserter(to));
-        from.clear();
+    const auto move = [](auto& source, auto& target) {
+        std::ranges::move(source, std::back_inserter(target));
+        source.clear();
     };
     move(log_.panners, log.panners);
     move(log_.channels, log.channels);

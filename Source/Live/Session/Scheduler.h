@@ -46,7 +46,7 @@ class SampleSource {
 public:
     /// The renderer's frames from `frame` on (session time in frames), at most limits::tileFrames. One
     /// pointer per channel of the session; null: silence. Valid until the next call. R, wait-free.
-    virtual const float* const* at(std::int64_t frame, int frames) noexcept = 0;
+    virtual const float* const* samplesFrom(std::int64_t frame, int frames) noexcept = 0;
 
 protected:
     ~SampleSource() = default;

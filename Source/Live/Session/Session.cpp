@@ -34,7 +34,7 @@ struct Session::Source {
         session.channels_.markOnset(event, frame);
     }
     const float* const* added(std::int64_t frame, int frames) noexcept {
-        return session.callback_.samples_ ? session.callback_.samples_->at(frame, frames) : nullptr;
+        return session.callback_.samples_ ? session.callback_.samples_->samplesFrom(frame, frames) : nullptr;
     }
 };
 
@@ -60,7 +60,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
         throw std::bad_alloc{}; // instead of silence without an error
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
-    const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
+    const ClockLaw law = makeClockLaw(sampleRateHz, maxBlockFrames);
     // the renderer starts with the first block in which something can be felt
     setTime(law, setup_.direct == Direct::fromStart ? law.outputLatencyFrames() - law.limiterFrames : 0);
     world_.prepare();
@@ -69,7 +69,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     minMarginFrames_ = noMargin;
 }
 
-ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
+ClockLaw Session::makeClockLaw(int sampleRateHz, int maxBlockFrames) const {
     return {sampleRateHz,
             setup_.hasWorld ? maxBlockFrames : 0,
             setup_.hasWorld ? setup_.stepsPerSecond : 0,
@@ -82,7 +82,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const std::scoped_lock lock{scheduler_.mutex_, world_.mutex_};
     const FrameClock clock{sampleRateHz};
     world_.resume(clock);
-    setTime(lawAt(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
+    setTime(makeClockLaw(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
     const auto rendered = std::max<std::int64_t>(0, time_.framesRendered() - time_.outputLatencyFrames() +
                                                         time_.law().limiterFrames);
     if (!renderer_->moveTo(sampleRateHz, rendered)) throw std::bad_alloc{};
@@ -101,10 +101,10 @@ void Session::endPause(std::int64_t nowNs) noexcept {
     const std::int64_t presentNs = time_.nowNs();
     const bool wasGone = pulse_.endPause(nowNs, presentNs);
     // Sounding modes continue, since a held note is state.
-    const WaitingEvents late{wasGone ? INT64_MAX : presentNs, setup_.areEventsOfCaller()};
+    const WaitingEvents lateEvents{wasGone ? INT64_MAX : presentNs, setup_.hasCallerEvents()};
     Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, presentNs};
-    pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, late)));
-    channels_.discard(late);
+    pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, lateEvents)));
+    channels_.discard(lateEvents);
 }
 
 void Session::lengthenLatency(int frames) noexcept {

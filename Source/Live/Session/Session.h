@@ -124,7 +124,7 @@ public:
 
 private:
     struct Source;
-    ClockLaw lawAt(int sampleRateHz, int maxBlockFrames) const;
+    ClockLaw makeClockLaw(int sampleRateHz, int maxBlockFrames) const;
     void setTime(const ClockLaw& law, std::int64_t frames) {
         time_.set(law, setup_.direct != Direct::no, setup_.direct == Direct::fromStart, frames);
     }

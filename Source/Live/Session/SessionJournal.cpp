@@ -6,7 +6,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds writePeriod{500}; // half of the second that a killed process may lose
+constexpr std::chrono::milliseconds writeInterval{500}; // half of the second that a killed process may lose
 
 SavedSession sessionHead(const SessionSetup& setup) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,
@@ -27,7 +27,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
     , columns_{columnsFor(setup)}
-    , lines_{sessionHead(setup), std::filesystem::absolute(path_).parent_path()} {
+    , journalLines_{sessionHead(setup), std::filesystem::absolute(path_).parent_path()} {
     createFiles(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;
     write({});
@@ -43,7 +43,7 @@ SessionJournal::~SessionJournal() {
 // Creates both files before it replaces an old one.
 void SessionJournal::createFiles(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
-    session.write(lines_.head());
+    session.write(journalLines_.head());
     events.write(eventsCsvHead(provenance, field, columns_));
     for (AtomicFile* file : {&session, &events})
         if (error_.empty()) error_ = file->error();
@@ -59,7 +59,7 @@ void SessionJournal::createFiles(FieldSize field, const Provenance& provenance) 
 
 void SessionJournal::onPlayed(const PlayedEvent& played, int) {
     const std::lock_guard lock{mutex_};
-    played_.push_back(played.event);
+    playedEvents_.push_back(played.event);
 }
 
 std::string SessionJournal::currentError() const {
@@ -69,7 +69,7 @@ std::string SessionJournal::currentError() const {
 
 void SessionJournal::run() {
     std::unique_lock lock{mutex_};
-    while (!endSignal_.wait_for(lock, writePeriod, [this] { return isEnding_; })) {
+    while (!endSignal_.wait_for(lock, writeInterval, [this] { return isEnding_; })) {
         lock.unlock();
         write({});
         lock.lock();
@@ -77,21 +77,21 @@ void SessionJournal::run() {
 }
 
 void SessionJournal::write(std::optional<std::int64_t> endNs) {
-    std::vector<CollisionEvent> played;
+    std::vector<CollisionEvent> playedEvents;
     {
         const std::lock_guard lock{mutex_};
-        played.swap(played_);
+        playedEvents.swap(playedEvents_);
     }
     const std::int64_t completeNs = session_.readLog(log_);
     for (const SceneRun& run : log_.runs)
-        if (run.scene) names_.addScene(*run.scene);
-    file_.append(lines_.nextLines(log_, endNs.value_or(completeNs)));
+        if (run.scene) soundNames_.addScene(*run.scene);
+    file_.append(journalLines_.nextLines(log_, endNs.value_or(completeNs)));
     std::string rows;
-    for (CollisionEvent event : played) {
+    for (CollisionEvent event : playedEvents) {
         if (rowCount_++ >= limits::maxEventRows) break;
         // a late event was played after others, but rows must be in time order
         event.timeNs = lastRowNs_ = std::max(lastRowNs_, event.timeNs);
-        appendEventRow(rows, event, columns_, names_);
+        appendEventRow(rows, event, columns_, soundNames_);
     }
     events_.append(rows);
     publishError();
@@ -104,9 +104,9 @@ void SessionJournal::publishError() {
     const bool isDelayed = !line.empty();
     if (line.empty() && wasDelayed_) line = path_.string() + ": can be written again, and nothing is missing";
     wasDelayed_ = isDelayed;
-    if (line.empty() && !lines_.limitError().empty())
-        line = path_.string() + ": is full (" + lines_.limitError() + "): the session is kept up to " +
-               std::to_string(lines_.completeNs() / 1'000'000'000) + " s, and plays on";
+    if (line.empty() && !journalLines_.limitError().empty())
+        line = path_.string() + ": is full (" + journalLines_.limitError() + "): the session is kept up to " +
+               std::to_string(journalLines_.completeNs() / 1'000'000'000) + " s, and plays on";
     if (line.empty() && rowCount_ > limits::maxEventRows)
         line = eventsPath_.string() + ": is full (" + std::to_string(limits::maxEventRows) +
                " rows), and the session plays on";
@@ -160,17 +160,17 @@ bool GrowingFile::sync() {
 
 void GrowingFile::append(std::string_view lines) {
     if (isFull_) return;
-    if (pending_.size() + lines.size() > maxPendingBytes) {
+    if (pendingLines_.size() + lines.size() > maxPendingBytes) {
         isFull_ = true;
-        pending_ = {};
+        pendingLines_ = {};
         error_ += "; too much would have to wait, so it ends here";
         return;
     }
-    pending_ += lines;
+    pendingLines_ += lines;
     file_.clearError();
-    if (!file_.append(pending_)) return fail(file_.reason());
-    bytes_ += static_cast<std::int64_t>(pending_.size());
-    pending_.clear();
+    if (!file_.append(pendingLines_)) return fail(file_.reason());
+    bytes_ += static_cast<std::int64_t>(pendingLines_.size());
+    pendingLines_.clear();
     error_.clear();
 }
 

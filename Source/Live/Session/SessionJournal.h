@@ -49,7 +49,7 @@ private:
 
     std::filesystem::path path_;
     SystemFile file_;
-    std::string pending_, error_;
+    std::string pendingLines_, error_;
     std::int64_t bytes_ = 0; // of the file after the last append()
     bool isFull_ = false;
 };
@@ -101,18 +101,18 @@ private:
     std::optional<AtomicFile> finalFile_; // the final session file; keeps the name from other writers
 
     // Used by the journal's thread; by M after that has ended.
-    JournalLines lines_;
+    JournalLines journalLines_;
     SessionLog log_;
     GrowingFile file_, events_;
     std::int64_t lastRowNs_ = 0;
     std::size_t rowCount_ = 0;
-    SoundNames names_;
+    SoundNames soundNames_;
     bool wasDelayed_ = false;
 
     mutable std::mutex mutex_; // guards the following members
     std::condition_variable endSignal_;
     bool isEnding_ = false;
-    std::vector<CollisionEvent> played_;
+    std::vector<CollisionEvent> playedEvents_;
     std::string currentError_;
 
     std::thread thread_;

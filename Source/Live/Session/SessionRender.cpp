@@ -25,7 +25,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                   }).events;
     if (!keepGoing) return false;
     EventShaper{session.shaping}.shape(events);
-    const auto controls = recordings.mergedWith(controlsOf(session.log, true, session.channels));
+    const auto controls = recordings.mergedWith(logControls(session.log, true, session.channels));
     const std::int64_t frames = std::llround(extent.seconds * extent.sampleRateHz);
     std::int64_t done = 0;
     const RendererSettings renderer{.sampleRateHz = extent.sampleRateHz,
@@ -44,10 +44,10 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
     return keepGoing;
 }
 
-std::vector<std::string> notesOf(const LoadedRecordings& loaded) {
-    std::vector<std::string> notes = notesOf(loaded.clips);
+std::vector<std::string> recordingNotes(const LoadedRecordings& loaded) {
+    std::vector<std::string> notes = recordingNotes(loaded.clips);
     for (const auto& set : loaded.sets)
-        for (std::string& note : notesOf(set))
+        for (std::string& note : recordingNotes(set))
             if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
     return notes;
 }
@@ -80,12 +80,12 @@ double peakOf(const std::vector<float>& samples) {
 /// Scales samples in g to shares of each actuator's full scale, or returns an error if they exceed it.
 Result<StimulusSound> scaledToFullScale(StimulusSound sound, const LayoutDescription& layout) {
     for (std::size_t j = 0; j < sound.channels.size(); ++j) {
-        const auto& enchanter = layout.actuators[j];
+        const auto& actuator = layout.actuators[j];
         const double peakG = peakOf(sound.channels[j]);
-        if (!std::isfinite(peakG) || peakG > enchanter.fullScaleG * (1.0 + fullScaleSlack))
-            return Failure{"actuator " + enchanter.label + ": expected at most its full scale of " +
-                           numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g"};
-        for (float& s : sound.channels[j]) s = static_cast<float>(s / enchanter.fullScaleG);
+        if (!std::isfinite(peakG) || peakG > actuator.fullScaleG * (1.0 + fullScaleSlack))
+            return Failure{"actuator " + actuator.label + ": expected at most its full scale of " +
+                           numberText(actuator.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g"};
+        for (float& s : sound.channels[j]) s = static_cast<float>(s / actuator.fullScaleG);
     }
     return sound;
 }

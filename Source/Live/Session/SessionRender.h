@@ -28,7 +28,7 @@ struct LoadedRecordings {
 };
 
 /// Notes of all recordings and clips, without duplicates. Any thread.
-std::vector<std::string> notesOf(const LoadedRecordings& loaded);
+std::vector<std::string> recordingNotes(const LoadedRecordings& loaded);
 
 /// The recordings at one sample rate, and the controls that change between them. Must outlive the render.
 /// Message thread (M) only.

@@ -68,7 +68,7 @@ struct SessionSetup {
     /// Audio of contacts on channels behind the actuators', by these recordings where there is one, else by
     /// modes; nullopt: none.
     std::optional<std::vector<ContactRecording>> contactSound{};
-    int ears = 1; ///< channels of the audio of contacts: 1, or 2 for left and right
+    int contactChannels = 1; ///< of the audio of contacts: 1, or 2 for left and right
     Direct direct = Direct::no;
     std::optional<MarkedOnsets> marks{}; ///< trigger output: pulses at onsets, on the last channel
     double longestGapSeconds = messageTimerGapSeconds;
@@ -77,7 +77,7 @@ struct SessionSetup {
     LayoutDescription layout{}; ///< of `panner`, for the log: name, labels, full scales; empty: not known
 
     /// Whether events that name fixtures come from a world of the caller, as the scene has no bodies.
-    bool areEventsOfCaller() const noexcept { return scene.bodies.empty(); }
+    bool hasCallerEvents() const noexcept { return scene.bodies.empty(); }
     RunSettings run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
 

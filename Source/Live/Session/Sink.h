@@ -28,14 +28,14 @@ struct RenderedBlock {
 struct SinkState {
     struct Detail {
         std::string name, value;
-        bool isWrong = false;
+        bool isError = false;
     };
     std::string name{};               ///< e.g. "board"; empty: nothing to display
     bool isReady = false;             ///< true: the sink can play events now
     int channels = 0;                 ///< number of actuators that it plays, from the first on; 0: all
     std::uint64_t sent = 0, lost = 0; ///< events
     std::string error{};              ///< one-line error; empty: none
-    std::string where{};              ///< one line: port or device, or how far connecting has got
+    std::string label{};              ///< one line: port or device, or how far connecting has got
     std::vector<Detail> details{};
     bool playsClips = true; ///< plays clips and recordings
 };

@@ -20,9 +20,9 @@ namespace physvib {
 void raiseThreadPriority(bool isAudio) noexcept {
     // half of the range, as other programs that play sound: below the threads of audio servers
     const int lowest = sched_get_priority_min(SCHED_RR), highest = sched_get_priority_max(SCHED_RR);
-    sched_param wanted{};
-    wanted.sched_priority = (lowest + highest) / 2 - (isAudio ? 0 : 1);
-    pthread_setschedparam(pthread_self(), SCHED_RR, &wanted); // fails without the privilege
+    sched_param parameters{};
+    parameters.sched_priority = (lowest + highest) / 2 - (isAudio ? 0 : 1);
+    pthread_setschedparam(pthread_self(), SCHED_RR, &parameters); // fails without the privilege
 }
 
 bool needsOneThreadPerDriver() noexcept { return false; }
@@ -60,8 +60,8 @@ private:
 } // namespace
 
 bool isPseudoTerminal(const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(path, none).string().starts_with("/dev/pts/");
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(path, ignored).string().starts_with("/dev/pts/");
 }
 
 std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::string& error) {

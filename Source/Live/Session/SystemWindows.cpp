@@ -16,12 +16,12 @@ void raiseThreadPriority(bool isAudio) noexcept {
 bool needsOneThreadPerDriver() noexcept { return true; }
 
 double threadCpuSeconds() noexcept {
-    const auto secondsOf = [](const FILETIME& time) {
+    const auto toSeconds = [](const FILETIME& time) {
         return 1e-7 * (4294967296.0 * time.dwHighDateTime + time.dwLowDateTime);
     };
-    FILETIME begun{}, ended{}, inKernel{}, inUser{};
-    GetThreadTimes(GetCurrentThread(), &begun, &ended, &inKernel, &inUser);
-    return secondsOf(inKernel) + secondsOf(inUser);
+    FILETIME creationTime{}, exitTime{}, kernelTime{}, userTime{};
+    GetThreadTimes(GetCurrentThread(), &creationTime, &exitTime, &kernelTime, &userTime);
+    return toSeconds(kernelTime) + toSeconds(userTime);
 }
 
 int currentProcessId() noexcept { return static_cast<int>(GetCurrentProcessId()); }

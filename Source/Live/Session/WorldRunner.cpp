@@ -8,20 +8,20 @@
 namespace physvib {
 namespace {
 
-constexpr int maxPoseTries = 8; // a millisecond apart; most steps are shorter, and a display can wait
+constexpr int maxLockTries = 8; // a millisecond apart; most steps are shorter, and a display can wait
 
-// moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `from` may be the
-// last one of `to` with a new length; then both begin at the same world time.
-void moveRun(SceneRun& to, SceneRun& from) {
-    std::ranges::move(from.inputs, std::back_inserter(to.inputs));
-    from.inputs.clear();
-    for (const WorldStall& stall : from.stalls) {
-        if (!to.stalls.empty() && to.stalls.back().worldNs == stall.worldNs)
-            to.stalls.back() = stall;
+// moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `source` may be
+// the last one of `target` with a new length; then both begin at the same world time.
+void moveRun(SceneRun& target, SceneRun& source) {
+    std::ranges::move(source.inputs, std::back_inserter(target.inputs));
+    source.inputs.clear();
+    for (const WorldStall& stall : source.stalls) {
+        if (!target.stalls.empty() && target.stalls.back().worldNs == stall.worldNs)
+            target.stalls.back() = stall;
         else
-            to.stalls.push_back(stall);
+            target.stalls.push_back(stall);
     }
-    to.worldEndNs = from.worldEndNs;
+    target.worldEndNs = source.worldEndNs;
 }
 
 } // namespace
@@ -60,17 +60,17 @@ void WorldRunner::prepare() {
     world_.reset(time_.nowNs());
     unqueued_.clear();
     firstUnqueued_ = 0;
-    waiting_ = {};
+    scheduled_ = {};
     startedEvents_.clear();
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {
     }
     steppedNs_ = time_.nowNs();
-    publishScene();
+    publishSceneTime();
     stalledNs_ = 0;
     slowness_ = 1;
     requestedSteps_ = 0;
     isOffline_ = false;
-    isDriven_ = !setup_.hasWorld;
+    hasStepped_ = !setup_.hasWorld;
     drops_ = world_.drops();
     publishPoses();
 }
@@ -86,7 +86,7 @@ int WorldRunner::advance(const StepWatch& keepGoing) {
     // steps the world itself, is never taken for a stall
     const std::int64_t now = time_.nowNs();
     if (isOffline_.load(std::memory_order_acquire)) return 0;
-    isDriven_.store(true, std::memory_order_release);
+    hasStepped_.store(true, std::memory_order_release);
     startRequestedRun();
     const int steps = catchUp(now, keepGoing);
     if (publishesPoses_.load(std::memory_order_relaxed)) publishPoses();
@@ -125,10 +125,10 @@ void WorldRunner::stepWorld(std::int64_t untilNs) {
     if (isPaused()) return world_.addStall(untilNs - world_.timeNs());
     const int slowness = this->slowness();
     if (slowness == 0) requestedSteps_.fetch_sub(1, std::memory_order_relaxed);
-    const std::int64_t before = world_.timeNs();
+    const std::int64_t startNs = world_.timeNs();
     world_.step(unqueued_);
     drops_.store(world_.drops(), std::memory_order_relaxed);
-    if (slowness > 1) world_.addStall((slowness - 1) * (world_.timeNs() - before));
+    if (slowness > 1) world_.addStall((slowness - 1) * (world_.timeNs() - startNs));
 }
 
 // Starts a new scene run if one is requested; the request is cleared only after the start.
@@ -138,7 +138,7 @@ void WorldRunner::startRequestedRun() {
     if (frame < 0 && !isStateNew_) return;
     world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
     isStateNew_ = false;
-    publishScene();
+    publishSceneTime();
     publishPoses();
 }
 
@@ -150,12 +150,12 @@ bool WorldRunner::queueEvents() {
     if (firstUnqueued_ < unqueued_.size()) return false;
     unqueued_.clear();
     firstUnqueued_ = 0;
-    publishScene();
+    publishSceneTime();
     steppedNs_.store(world_.timeNs(), std::memory_order_release);
     return true;
 }
 
-void WorldRunner::publishScene() noexcept {
+void WorldRunner::publishSceneTime() noexcept {
     sceneNs_.store(world_.sceneNs(), std::memory_order_relaxed);
     runNumber_.store(world_.runCount(), std::memory_order_relaxed);
 }
@@ -163,16 +163,16 @@ void WorldRunner::publishScene() noexcept {
 // Drops the strikes that waited while the device paused, once it is back. A thread that has read a session
 // time after the pause, and then calls this, sees the pause too.
 void WorldRunner::dropScheduled() {
-    const DevicePulse::PauseHistory current = pulse_.history(), before = std::exchange(seenPauses_, current);
-    if (current.pauses == before.pauses) return;
-    const WaitingEvents late{current.losses != before.losses ? INT64_MAX : current.untilNs,
-                             setup_.areEventsOfCaller()};
+    const DevicePulse::PauseHistory current = pulse_.history(), last = std::exchange(seenPauses_, current);
+    if (current.pauses == last.pauses) return;
+    const WaitingEvents lateEvents{current.losses != last.losses ? INT64_MAX : current.untilNs,
+                                   setup_.hasCallerEvents()};
     const auto first = unqueued_.begin() + static_cast<std::ptrdiff_t>(firstUnqueued_);
     const auto dropped = std::remove_if(first, unqueued_.end(), [=](const CollisionEvent& event) {
-        return late.contain(event, event.timeNs);
+        return lateEvents.contain(event, event.timeNs);
     });
     std::vector<CollisionEvent> due;
-    waiting_.moveDue(late.untilNs, due);
+    scheduled_.moveDue(lateEvents.untilNs, due);
     pulse_.drop(due.size() + static_cast<std::size_t>(unqueued_.end() - dropped));
     unqueued_.erase(dropped, unqueued_.end());
 }
@@ -180,7 +180,7 @@ void WorldRunner::dropScheduled() {
 void WorldRunner::moveDueEvents(std::int64_t untilNs) {
     dropScheduled();
     std::vector<CollisionEvent> due;
-    waiting_.moveDue(untilNs, due);
+    scheduled_.moveDue(untilNs, due);
     std::ranges::transform(due, std::back_inserter(unqueued_), setup_.shaping);
     if (setup_.log != LogUse::none) std::ranges::move(due, std::back_inserter(startedEvents_));
 }
@@ -188,8 +188,8 @@ void WorldRunner::moveDueEvents(std::int64_t untilNs) {
 bool WorldRunner::beginBlock(RenderMode mode) noexcept {
     const bool isOffline = mode == RenderMode::offline;
     isOffline_.store(isOffline, std::memory_order_release);
-    if (isOffline) isDriven_.store(true, std::memory_order_release);
-    return isDriven_.load(std::memory_order_acquire);
+    if (isOffline) hasStepped_.store(true, std::memory_order_release);
+    return hasStepped_.load(std::memory_order_acquire);
 }
 
 void WorldRunner::beginOffline(std::int64_t endNs) {
@@ -234,7 +234,7 @@ void WorldRunner::strike(std::span<const CollisionEvent> events) {
 bool WorldRunner::schedule(std::span<const CollisionEvent> events) {
     const std::lock_guard lock{mutex_};
     dropScheduled();
-    if (!waiting_.add(events)) return false;
+    if (!scheduled_.add(events)) return false;
     moveDueEvents(time_.nowNs());
     queueEvents();
     return true;
@@ -244,7 +244,7 @@ void WorldRunner::cancelScheduled(std::int64_t fromNs, std::int64_t nowNs) {
     const std::lock_guard lock{mutex_};
     moveDueEvents(nowNs);
     queueEvents();
-    waiting_.cancelFrom(fromNs);
+    scheduled_.cancelFrom(fromNs);
 }
 
 std::int64_t WorldRunner::moveLog(SessionLog& log) {
@@ -258,7 +258,7 @@ std::int64_t WorldRunner::moveLog(SessionLog& log) {
 SessionSize WorldRunner::size() const {
     const std::lock_guard lock{mutex_};
     SessionSize size = world_.size();
-    size.strikes = waiting_.size();
+    size.strikes = scheduled_.size();
     return size;
 }
 
@@ -271,7 +271,7 @@ void WorldRunner::publishPoses() const {
 // If a step lasts too long for a display, it gets the poses of the last complete step.
 std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
     std::unique_lock lock{mutex_, std::try_to_lock};
-    for (int k = 0; !lock && k < maxPoseTries && !publishesPoses_.load(std::memory_order_relaxed); ++k) {
+    for (int k = 0; !lock && k < maxLockTries && !publishesPoses_.load(std::memory_order_relaxed); ++k) {
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
         (void)lock.try_lock();
     }
@@ -303,21 +303,21 @@ void SessionWorld::start(std::int64_t sessionNs, std::shared_ptr<const Scene> sc
 void SessionWorld::reset(std::int64_t sessionNs) {
     const SceneRun last = std::move(currentRun_);
     endedRuns_.clear();
-    hasStart_ = false;
+    isStartRead_ = false;
     runCount_ = 0;
     world_.reset();
     dropsBefore_ = 0;
-    shaper_.forget();
+    shaper_.reset();
     start(sessionNs, last.scene, last.seed);
 }
 
 void SessionWorld::step(std::vector<CollisionEvent>& events) {
-    const std::size_t before = events.size();
+    const std::size_t oldSize = events.size();
     world_->step(events);
     world_->dropExecutedInputs();
     ++steps_;
-    for (std::size_t i = before; i < events.size(); ++i) events[i].timeNs += originNs_;
-    shaper_.shape(events, before);
+    for (std::size_t i = oldSize; i < events.size(); ++i) events[i].timeNs += originNs_;
+    shaper_.shape(events, oldSize);
 }
 
 void SessionWorld::addStall(std::int64_t lengthNs) {
@@ -364,13 +364,13 @@ SessionSize SessionWorld::size() const noexcept {
 
 void SessionWorld::moveLog(std::vector<SceneRun>& log) {
     currentRun_.worldEndNs = world_->timeNs();
-    const auto append = [&](SceneRun& from) {
-        if (!std::exchange(hasStart_, true)) log.push_back({from.startNs, 0, from.seed, from.scene, {}, {}});
-        moveRun(log.back(), from);
+    const auto append = [&](SceneRun& run) {
+        if (!std::exchange(isStartRead_, true)) log.push_back({run.startNs, 0, run.seed, run.scene, {}, {}});
+        moveRun(log.back(), run);
     };
     for (SceneRun& ended : endedRuns_) {
         append(ended);
-        hasStart_ = false;
+        isStartRead_ = false;
     }
     endedRuns_.clear();
     append(currentRun_);

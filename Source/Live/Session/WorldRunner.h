@@ -78,7 +78,7 @@ private:
     bool isLogged_;
     std::vector<SceneRun> endedRuns_; // runs that are not completely read
     SceneRun currentRun_;             // its last stall stays after reading, because it may grow
-    bool hasStart_ = false;           // the reader has got the start of the oldest run
+    bool isStartRead_ = false;        // the reader has got the start of the oldest run
     std::size_t runCount_ = 0;
     std::unique_ptr<Simulation> world_;
     std::int64_t originNs_ = 0;                 // session time - world time
@@ -211,7 +211,7 @@ private:
     void beginOffline(std::int64_t endNs);
     void stepWorld(std::int64_t untilNs);
     void startRequestedRun();
-    void publishScene() noexcept;
+    void publishSceneTime() noexcept;
     void dropScheduled();
     void moveDueEvents(std::int64_t untilNs);
     bool queueEvents();
@@ -229,14 +229,14 @@ private:
     std::atomic<std::size_t> runNumber_{0};
     std::atomic<std::int64_t> stalledNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
     std::atomic<int> slowness_{1}, requestedSteps_{0};
-    std::atomic<bool> isOffline_{false}, isDriven_{false}; // isDriven_: D or R has stepped it
+    std::atomic<bool> isOffline_{false}, hasStepped_{false}; // hasStepped_: D or R has stepped it
     std::atomic<std::uint64_t> drops_{0};
 
     mutable std::mutex mutex_; // guards the following members
     SessionWorld world_;
     std::vector<CollisionEvent> unqueued_; // events that did not fit the queue yet, from firstUnqueued_ on
     std::size_t firstUnqueued_ = 0;
-    ScheduledEvents waiting_;
+    ScheduledEvents scheduled_;
     DevicePulse::PauseHistory seenPauses_;      // the pauses whose events were dropped
     std::vector<CollisionEvent> startedEvents_; // scheduled events that have begun, for the log
 

@@ -17,11 +17,11 @@ using Size = int;
 constexpr int sendFlags = 0;
 
 inline void begin() noexcept {
-    static const int begun = [] {
+    static const int startResult = [] {
         WSADATA data;
         return WSAStartup(MAKEWORD(2, 2), &data);
     }();
-    static_cast<void>(begun);
+    static_cast<void>(startResult);
 }
 
 inline void close(Handle socket) noexcept { closesocket(socket); }

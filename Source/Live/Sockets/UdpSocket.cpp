@@ -20,11 +20,11 @@ constexpr std::size_t maxPacketBytes = 65'536;
 
 Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int flags) {
     sockets::begin();
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_DGRAM;
-    wanted.ai_flags = flags | AI_NUMERICSERV;
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_DGRAM;
+    hints.ai_flags = flags | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
+    if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found))
         return Failure{inQuotes(host) + ": " + gai_strerror(error)};
     return std::shared_ptr<addrinfo>(found, freeaddrinfo);
 }
@@ -36,7 +36,7 @@ bool hasManyReceivers(const addrinfo& found) {
     return ntohl(reinterpret_cast<const sockaddr_in*>(found.ai_addr)->sin_addr.s_addr) >= 0xe0000000;
 }
 
-int portOf(const sockaddr_storage& address) {
+int readPort(const sockaddr_storage& address) {
     const auto port = address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
                                                     : reinterpret_cast<const sockaddr_in&>(address).sin_port;
     return ntohs(port);
@@ -44,7 +44,7 @@ int portOf(const sockaddr_storage& address) {
 
 sockets::Handle native(std::intptr_t handle) noexcept { return static_cast<sockets::Handle>(handle); }
 
-std::intptr_t openFor(const addrinfo& address) noexcept {
+std::intptr_t openHandle(const addrinfo& address) noexcept {
     return static_cast<std::intptr_t>(sockets::open(address.ai_family));
 }
 
@@ -76,7 +76,7 @@ Result<UdpSocket> UdpSocket::listenAt(const std::string& address, int port) {
         if (!found) return Failure{found.error};
         if (hasManyReceivers(*found.value))
             return Failure{address + ": expected an address of this computer alone, or 0.0.0.0"};
-        UdpSocket udp{openFor(*found.value)};
+        UdpSocket udp{openHandle(*found.value)};
         if (udp.isOpen() &&
             sockets::bindExclusively(native(udp.handle_), found.value->ai_addr, lengthOf(*found.value))) {
             setsockopt(native(udp.handle_), SOL_SOCKET, SO_RCVBUF,
@@ -84,7 +84,7 @@ Result<UdpSocket> UdpSocket::listenAt(const std::string& address, int port) {
             sockaddr_storage bound{};
             socklen_t size = sizeof bound;
             getsockname(native(udp.handle_), reinterpret_cast<sockaddr*>(&bound), &size);
-            udp.port_ = portOf(bound);
+            udp.port_ = readPort(bound);
             udp.packet_.resize(maxPacketBytes);
             return udp;
         }
@@ -104,7 +104,7 @@ Result<UdpSocket> UdpSocket::connectTo(const std::string& receiver) {
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     const auto found = lookUp(host, *port, 0);
     if (!found) return Failure{found.error};
-    UdpSocket udp{openFor(*found.value)};
+    UdpSocket udp{openHandle(*found.value)};
     udp.packet_.resize(maxPacketBytes);
     if (!udp.isOpen() || connect(native(udp.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0)
         return Failure{receiver + ": " + sockets::lastError()};
@@ -145,10 +145,10 @@ std::string UdpSender::text() const {
 
 std::uint32_t UdpSocket::resetDroppedCount() noexcept { return dropped_ - std::exchange(seen_, dropped_); }
 
-bool UdpSocket::answer(std::span<const char> bytes, const UdpSender& to) noexcept {
-    const auto* address = reinterpret_cast<const sockaddr*>(to.address.data());
+bool UdpSocket::answer(std::span<const char> bytes, const UdpSender& receiver) noexcept {
+    const auto* address = reinterpret_cast<const sockaddr*>(receiver.address.data());
     return std::cmp_equal(sendto(native(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, address,
-                                 static_cast<socklen_t>(to.size)),
+                                 static_cast<socklen_t>(receiver.size)),
                           bytes.size());
 }
 

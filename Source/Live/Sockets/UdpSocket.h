@@ -49,7 +49,7 @@ public:
     /// Packets dropped by the system for lack of buffer space, since the last call.
     std::uint32_t resetDroppedCount() noexcept;
     /// answer() sends to a sender, send() to the connected receiver; false: not sent.
-    bool answer(std::span<const char> bytes, const UdpSender& to) noexcept;
+    bool answer(std::span<const char> bytes, const UdpSender& receiver) noexcept;
     bool send(std::span<const char> bytes) noexcept;
 
 private:

@@ -214,7 +214,7 @@ private:
 };
 
 /// Corners of a shape, or of a circle's bounding square.
-std::vector<Vector> cornersOf(const Shape& shape) {
+std::vector<Vector> shapeCorners(const Shape& shape) {
     if (const auto* circle = std::get_if<CircleShape>(&shape))
         return {{-circle->radiusMetres, -circle->radiusMetres}, {circle->radiusMetres, circle->radiusMetres}};
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
@@ -231,7 +231,7 @@ bool isLine(const BodyDescription& body) {
     });
 }
 
-double areaOf(const BodyDescription& body) {
+double bodyArea(const BodyDescription& body) {
     double area = 0.0;
     for (const FixtureDescription& fixture : body.fixtures) area += momentsOf(fixture.shape).areaSquareMetres;
     return area;
@@ -243,7 +243,7 @@ LocalBounds localBounds(const BodyDescription& body) {
     constexpr double unbounded = std::numeric_limits<double>::max();
     LocalBounds bounds{{unbounded, unbounded}, {-unbounded, -unbounded}};
     for (const FixtureDescription& fixture : body.fixtures)
-        for (const Vector& corner : cornersOf(fixture.shape)) {
+        for (const Vector& corner : shapeCorners(fixture.shape)) {
             const Vector turned = detail::rotated(
                 corner, std::holds_alternative<CircleShape>(fixture.shape) ? 0.0 : fixture.angleRadians);
             const Vector p{fixture.offsetMetres.x + turned.x, fixture.offsetMetres.y + turned.y};
@@ -262,13 +262,13 @@ BodyDescription scaledBody(BodyDescription body, double factorX, double factorY)
 }
 
 double densityOf(const Scene& scene, const BodyDescription& body) {
-    const double area = areaOf(body);
+    const double area = bodyArea(body);
     if (area <= 0.0) return 0.0;
     return massKg(body, scene) / area;
 }
 
 void setDensity(BodyDescription& body, double kgPerSquareMetre) {
-    const double mass = kgPerSquareMetre * areaOf(body);
+    const double mass = kgPerSquareMetre * bodyArea(body);
     body.massKg = mass > 0.0 ? std::clamp(mass, sceneLimits::minMassKg, sceneLimits::maxMassKg) : 0.0;
 }
 

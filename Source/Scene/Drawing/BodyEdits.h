@@ -73,7 +73,7 @@ Result<std::vector<Action>> joinActions(const SceneDrawing& drawing, JointKind k
                                         const Vector& to);
 
 /// The last hinge or wheel that joins the body, whether it has a motor or not; nullptr: none. Any thread.
-const JointDescription* motorOf(const Scene& scene, const std::string& body);
+const JointDescription* findMotor(const Scene& scene, const std::string& body);
 
 /// Speed and maximum torque of a motor.
 struct MotorDrive {
@@ -85,10 +85,10 @@ MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 /// Actions that replace a hinge or wheel by one with another drive. If its anchor has moved, its bodies start
 /// at their present places, at rest. Any thread.
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
-                                         const MotorDrive& drive, const CurrentPose& now);
+                                         const MotorDrive& drive, const CurrentPose& findPose);
 
 /// The last spring that joins the body; nullptr: none. Any thread.
-const JointDescription* springOf(const Scene& scene, const std::string& body);
+const JointDescription* findSpring(const Scene& scene, const std::string& body);
 double springHzOf(const JointDescription& spring); ///< zero for other joints
 
 /// Actions that replace a spring by one with another frequency, i.e. stiffness. Its bodies return to their
@@ -97,7 +97,7 @@ Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std
                                           double springHz);
 
 /// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
-Scene sceneNow(const Scene& drawn, const CurrentPose& now);
+Scene sceneNow(const Scene& drawn, const CurrentPose& findPose);
 
 /// The scene with its field, gravity, materials and names alone. Any thread.
 Scene sceneWithoutBodies(Scene scene);

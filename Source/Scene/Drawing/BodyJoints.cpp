@@ -42,10 +42,10 @@ Result<std::vector<Action>> joinActions(const SceneDrawing& drawing, JointKind k
             maxMassTimesLength = std::max(maxMassTimesLength, massKg(*body, drawing.drawn()) *
                                                                   lengthMetres(body->fixtures[0].shape));
         if (isSamePlace(place, placeOf(*body))) continue;
-        BodyDescription here = *body;
-        here.positionMetres = place.metres;
-        here.angleRadians = place.angleRadians;
-        actions.push_back(atRest(std::move(here)));
+        BodyDescription placedBody = *body;
+        placedBody.positionMetres = place.metres;
+        placedBody.angleRadians = place.angleRadians;
+        actions.push_back(atRest(std::move(placedBody)));
     }
     if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
     if (maxMassTimesLength <= 0.0) return Failure{"a joint: expected a body that moves"};
@@ -91,7 +91,7 @@ bool withMotor(auto& joint, const auto& use) {
 }
 
 /// The last joint of that kind that joins the body. Null: none.
-const JointDescription* lastJointOf(const Scene& scene, const std::string& body, const auto& isKind) {
+const JointDescription* findLastJoint(const Scene& scene, const std::string& body, const auto& isKind) {
     const auto found =
         std::find_if(scene.joints.rbegin(), scene.joints.rend(), [&](const JointDescription& joint) {
             return (joint.bodyA == body || joint.bodyB == body) && isKind(joint);
@@ -101,8 +101,8 @@ const JointDescription* lastJointOf(const Scene& scene, const std::string& body,
 
 } // namespace
 
-const JointDescription* motorOf(const Scene& scene, const std::string& body) {
-    return lastJointOf(scene, body, [](const auto& joint) { return withMotor(joint, [](const auto&) {}); });
+const JointDescription* findMotor(const Scene& scene, const std::string& body) {
+    return findLastJoint(scene, body, [](const auto& joint) { return withMotor(joint, [](const auto&) {}); });
 }
 
 MotorDrive driveOf(const JointDescription& motor) {
@@ -114,15 +114,15 @@ MotorDrive driveOf(const JointDescription& motor) {
 }
 
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
-                                         const MotorDrive& drive, const CurrentPose& now) {
+                                         const MotorDrive& drive, const CurrentPose& findPose) {
     const auto anchorOf = [](const JointDescription& description) {
         Vector anchor;
         withMotor(description, [&](const auto& kind) { anchor = kind.anchorMetres; });
         return anchor;
     };
-    Scene here = sceneNow(drawing.drawn(), now);
+    Scene presentScene = sceneNow(drawing.drawn(), findPose);
     const auto* drawn = findNamed(drawing.drawn().joints, joint);
-    auto* changed = findNamed(here.joints, joint);
+    auto* changed = findNamed(presentScene.joints, joint);
     if (!drawn || !withMotor(*changed, [&](auto& kind) {
             kind.motorRadiansPerSecond = drive.speedRadiansPerSecond;
             kind.maxTorqueNewtonMetres = drive.maxTorqueNewtonMetres;
@@ -132,7 +132,7 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
     constexpr double tolerance = 1e-6;
     const Vector before = anchorOf(*drawn), after = anchorOf(*changed);
     if (portable::hypot(after.x - before.x, after.y - before.y) > tolerance)
-        for (const BodyDescription& body : here.bodies)
+        for (const BodyDescription& body : presentScene.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == changed->bodyA || body.name == changed->bodyB))
                 actions.push_back(atRest(body));
@@ -145,8 +145,8 @@ double springHzOf(const JointDescription& spring) {
     return kind == nullptr || kind->isSlack ? 0.0 : kind->springHz;
 }
 
-const JointDescription* springOf(const Scene& scene, const std::string& body) {
-    return lastJointOf(scene, body, [](const auto& joint) { return springHzOf(joint) > 0.0; });
+const JointDescription* findSpring(const Scene& scene, const std::string& body) {
+    return findLastJoint(scene, body, [](const auto& joint) { return springHzOf(joint) > 0.0; });
 }
 
 Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std::string& joint,
@@ -164,16 +164,16 @@ Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std
     return actions;
 }
 
-Scene sceneNow(const Scene& drawn, const CurrentPose& now) {
+Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
     Scene scene = drawn;
     std::map<std::string, Motion> motions;
     for (BodyDescription& body : scene.bodies) {
-        const auto pose = now ? now(body.name) : std::nullopt;
+        const auto pose = findPose ? findPose(body.name) : std::nullopt;
         if (!pose) continue;
-        const BodyPlace here{{pose->xMetres, pose->yMetres}, pose->angleRadians};
-        motions.emplace(body.name, Motion{placeOf(body), here});
-        body.positionMetres = here.metres;
-        body.angleRadians = here.angleRadians;
+        const BodyPlace present{{pose->xMetres, pose->yMetres}, pose->angleRadians};
+        motions.emplace(body.name, Motion{placeOf(body), present});
+        body.positionMetres = present.metres;
+        body.angleRadians = present.angleRadians;
     }
     for (JointDescription& joint : scene.joints) {
         const auto a = motions.find(joint.bodyA), b = motions.find(joint.bodyB);

@@ -28,7 +28,7 @@ struct Surface {
 bool isFixed(const BodyDescription& body) { return body.type != BodyType::dynamicBody; }
 
 /// The different surfaces that the body can hit, or its own if it is alone. Fixed ones hit none.
-std::vector<Surface> surfacesOf(const Scene& scene, const BodyDescription& body) {
+std::vector<Surface> findSurfaces(const Scene& scene, const BodyDescription& body) {
     std::vector<Surface> surfaces;
     for (const BodyDescription& other : scene.bodies)
         if (other.name != body.name && !(isFixed(other) && isFixed(body)))
@@ -81,7 +81,7 @@ ContactCounts simulateImpact(const Scene& scene, BodyDescription body, const Sur
 } // namespace
 
 std::string silentBodyReason(const Scene& scene, const BodyDescription& body) {
-    const auto surfaces = surfacesOf(scene, body);
+    const auto surfaces = findSurfaces(scene, body);
     if (surfaces.empty()) return {}; // nothing in the scene can hit it yet
     ContactCounts counts;
     for (const Surface& surface : surfaces) {

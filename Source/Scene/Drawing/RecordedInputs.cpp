@@ -13,7 +13,7 @@ namespace {
 
 /// Name of the state that an action sets until the next action of its kind; a trimmed part starts with that
 /// state. Empty for actions without lasting state, such as pushes and grips.
-std::string stateNameOf(const Scene& scene, const Action& action) {
+std::string lastingStateName(const Scene& scene, const Action& action) {
     if (isAnyOf<GravityAction, TiltAction>(action)) return "gravity"; // either replaces the other
     if (isAnyOf<HoldAction>(action)) return "hold";
     if (const auto* motor = std::get_if<MotorAction>(&action)) return "motor " + motor->joint;
@@ -73,16 +73,16 @@ RecordedInputs trimmedInputs(const Scene& recordedScene, const RecordedInputs& r
                              const ScriptTrim& trim) {
     const double endSeconds = std::min(trim.toSeconds, recording.lengthSeconds);
     RecordedInputs part{{}, std::max(0.0, endSeconds - trim.fromSeconds)};
-    std::map<std::string, Action> before;
+    std::map<std::string, Action> lastStates;
     for (const LiveInput& input : recording.inputs) {
         if (input.timeSeconds > endSeconds) break;
         if (input.timeSeconds >= trim.fromSeconds)
             part.inputs.push_back({input.timeSeconds - trim.fromSeconds, input.action});
-        else if (const std::string state = stateNameOf(recordedScene, input.action); !state.empty())
-            before.insert_or_assign(state, input.action);
+        else if (const std::string state = lastingStateName(recordedScene, input.action); !state.empty())
+            lastStates.insert_or_assign(state, input.action);
     }
     std::vector<LiveInput> initialInputs;
-    for (auto& [state, action] : before) initialInputs.push_back({0.0, std::move(action)});
+    for (auto& [state, action] : lastStates) initialInputs.push_back({0.0, std::move(action)});
     part.inputs.insert(part.inputs.begin(), initialInputs.begin(), initialInputs.end());
     for (const std::string& body : bodiesGrippedAfter(part.inputs))
         part.inputs.push_back({part.lengthSeconds, GripAction{body, {}, {}}});

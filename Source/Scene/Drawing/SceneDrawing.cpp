@@ -52,7 +52,7 @@ void SceneDrawing::apply(std::span<const Action> actions) {
         if (isAnyOf<SpawnAction, ChangeAction, RemoveAction, JoinAction, UnjoinAction>(action))
             sceneWithAllBodies_.inputs.push_back({0.0, action});
         else if (isLasting(action))
-            describeEdit(sceneWithAllBodies_, action);
+            recordEdit(sceneWithAllBodies_, action);
 }
 
 const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept {
@@ -72,12 +72,12 @@ std::vector<std::string> SceneDrawing::unusedNames(const std::string& stem, std:
     return names;
 }
 
-std::vector<Action> SceneDrawing::undoActions(const Action& action, const CurrentPose& now) const {
+std::vector<Action> SceneDrawing::undoActions(const Action& action, const CurrentPose& findPose) const {
     if (const auto* removal = std::get_if<RemoveAction>(&action)) {
         const BodyDescription* const present = find(removal->body);
         if (present == nullptr) return {};
         ChangeAction undo{*present, false};
-        if (const auto pose = now ? now(removal->body) : std::nullopt) {
+        if (const auto pose = findPose ? findPose(removal->body) : std::nullopt) {
             undo.body.positionMetres = {pose->xMetres, pose->yMetres};
             undo.body.angleRadians = pose->angleRadians;
         }
@@ -91,11 +91,11 @@ std::vector<Action> SceneDrawing::undoActions(const Action& action, const Curren
     }
     if (const auto* join = std::get_if<JoinAction>(&action)) return {UnjoinAction{join->joint.name}};
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
-        const Scene here = sceneNow(drawn_, now);
-        const auto* joint = findNamed(here.joints, unjoin->joint);
+        const Scene presentScene = sceneNow(drawn_, findPose);
+        const auto* joint = findNamed(presentScene.joints, unjoin->joint);
         if (joint == nullptr) return {};
         std::vector<Action> undo; // bodies that have moved restart where they are now
-        for (const BodyDescription& body : here.bodies)
+        for (const BodyDescription& body : presentScene.bodies)
             if ((body.name == joint->bodyA || body.name == joint->bodyB) && body != *find(body.name))
                 undo.push_back(ChangeAction{body, false});
         undo.push_back(JoinAction{*joint});
@@ -121,7 +121,7 @@ std::vector<Action> SceneDrawing::undoActions(const Action& action, const Curren
     return {};
 }
 
-void SceneEdit::perform(bool isForward, const SceneDrawing& drawing, const CurrentPose& now,
+void SceneEdit::perform(bool isForward, const SceneDrawing& drawing, const CurrentPose& findPose,
                         const std::function<void(std::span<const Action>)>& execute) {
     const auto& actions = isForward ? actions_ : inverses_;
     std::vector<Action> inverses; // in reverse order
@@ -131,7 +131,7 @@ void SceneEdit::perform(bool isForward, const SceneDrawing& drawing, const Curre
         const auto group = remaining.first(independentActions(remaining));
         remaining = remaining.subspan(group.size());
         for (const Action& action : group) {
-            const auto undo = drawing.undoActions(action, removesJoints ? now : CurrentPose{});
+            const auto undo = drawing.undoActions(action, removesJoints ? findPose : CurrentPose{});
             inverses.insert(inverses.end(), undo.rbegin(), undo.rend());
         }
         execute(group);
@@ -160,12 +160,12 @@ Failure tooSmallFailure(const char* what) {
                    std::to_string(sceneLimits::minSizeMetres).substr(0, 4) + " m across"};
 }
 
-BodyDescription bodyOf(Shape shape, const Vector& position, BodyType type) {
+BodyDescription makeBody(Shape shape, const Vector& position, BodyType type) {
     return {{}, type, {{std::move(shape), {}}}, position, 0.0, {}};
 }
 
 /// Corners of the convex hull, counter-clockwise (Andrew's monotone chain); empty for less than three points.
-std::vector<Vector> hullOf(std::vector<Vector> points) {
+std::vector<Vector> convexHull(std::vector<Vector> points) {
     std::ranges::sort(
         points, [](const Vector& a, const Vector& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
     std::vector<Vector> hull;
@@ -204,7 +204,7 @@ void reduceCorners(std::vector<Vector>& hull, std::size_t maxCorners) {
     }
 }
 
-Vector centroidOf(const std::vector<Vector>& outline) {
+Vector computeCentroid(const std::vector<Vector>& outline) {
     Vector sum;
     double area = 0.0;
     for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
@@ -248,7 +248,7 @@ void appendCorners(const std::vector<Vector>& path, std::size_t first, std::size
 Result<BodyDescription> makeBall(const Vector& centre, const Vector& rim) {
     const double radius = distance(centre, rim);
     if (2.0 * radius < minWidthMetres) return tooSmallFailure("ball");
-    return bodyOf(CircleShape{radius}, centre, BodyType::dynamicBody);
+    return makeBody(CircleShape{radius}, centre, BodyType::dynamicBody);
 }
 
 Result<std::vector<BodyDescription>> makeRain(const Vector& corner, const Vector& opposite, int count) {
@@ -273,23 +273,23 @@ Result<std::vector<BodyDescription>> makeRain(const Vector& corner, const Vector
 Result<BodyDescription> makeBox(const Vector& corner, const Vector& opposite) {
     const double width = std::abs(opposite.x - corner.x), height = std::abs(opposite.y - corner.y);
     if (std::min(width, height) < minWidthMetres) return tooSmallFailure("box");
-    return bodyOf(BoxShape{width, height}, {0.5 * (corner.x + opposite.x), 0.5 * (corner.y + opposite.y)},
-                  BodyType::dynamicBody);
+    return makeBody(BoxShape{width, height}, {0.5 * (corner.x + opposite.x), 0.5 * (corner.y + opposite.y)},
+                    BodyType::dynamicBody);
 }
 
 Result<BodyDescription> makePolygon(const std::vector<Vector>& corners) {
-    auto hull = hullOf(corners);
+    auto hull = convexHull(corners);
     if (hull.size() < 3) return Failure{"polygon: expected at least 3 corners that are not in a line"};
     reduceCorners(hull, sceneLimits::maxPolygonVertices);
-    const Vector origin = centroidOf(hull);
-    return bodyOf(PolygonShape{relativeTo(hull, origin)}, origin, BodyType::dynamicBody);
+    const Vector origin = computeCentroid(hull);
+    return makeBody(PolygonShape{relativeTo(hull, origin)}, origin, BodyType::dynamicBody);
 }
 
 Result<BodyDescription> makeWall(const Vector& from, const Vector& to, double thicknessMetres) {
     const double length = distance(from, to);
     if (std::min(length, thicknessMetres) < sceneLimits::minSizeMetres) return tooSmallFailure("wall");
-    BodyDescription wall = bodyOf(BoxShape{length, thicknessMetres},
-                                  {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
+    BodyDescription wall = makeBody(BoxShape{length, thicknessMetres},
+                                    {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
     wall.angleRadians = portable::atan2(to.y - from.y, to.x - from.x);
     return wall;
 }
@@ -309,7 +309,7 @@ Result<BodyDescription> makeLine(const std::vector<Vector>& path, double toleran
     corners = relativeTo(corners, origin);
     // the chain also leads back, because it collides on one side only
     for (std::size_t i = corners.size() - 1; i-- > 0;) corners.push_back(corners[i]);
-    return bodyOf(ChainShape{corners, false}, origin, BodyType::staticBody);
+    return makeBody(ChainShape{corners, false}, origin, BodyType::staticBody);
 }
 
 bool startsAsSource(const BodyDescription& body) { return body.type == BodyType::dynamicBody; }

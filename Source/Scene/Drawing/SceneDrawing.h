@@ -39,7 +39,7 @@ public:
     void apply(const Action& action) { apply({&action, 1}); }
 
     /// The actions that undo `action`. A removed body returns to its present place.
-    std::vector<Action> undoActions(const Action& action, const CurrentPose& now) const;
+    std::vector<Action> undoActions(const Action& action, const CurrentPose& findPose) const;
 
     const BodyDescription* find(std::string_view body) const noexcept; ///< in drawn(); nullptr: none
     /// "ball 1", "ball 2"...: the first name that was never used.
@@ -59,7 +59,7 @@ public:
 
     /// Does (isForward) or undoes the edit: calls `execute` with groups of independent actions in order,
     /// after computing their inverses from `drawing`, which `execute` must update.
-    void perform(bool isForward, const SceneDrawing& drawing, const CurrentPose& now,
+    void perform(bool isForward, const SceneDrawing& drawing, const CurrentPose& findPose,
                  const std::function<void(std::span<const Action>)>& execute);
 
     const std::vector<Action>& actions() const noexcept { return actions_; }

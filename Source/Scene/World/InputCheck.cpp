@@ -15,7 +15,7 @@ namespace {
 constexpr auto isRemoveAction = isAnyOf<RemoveAction>;
 
 /// The name of the body that a spawn, change, remove, camera or material action refers to; others: empty.
-const std::string& bodyOf(const Action& action) {
+const std::string& bodyName(const Action& action) {
     static const std::string none;
     if (const BodyDescription* body = bodyAddedBy(action)) return body->name;
     if (const auto* removal = std::get_if<RemoveAction>(&action)) return removal->body;
@@ -32,7 +32,7 @@ bool affectsLaterInputs(const std::vector<LiveInput>& earlier, const Action& act
     if (!isSwitch && !isRemoveAction(action)) return false;
     for (auto input = earlier.rbegin(); input != earlier.rend(); ++input) {
         if (input->action == action) return false;
-        if (bodyAddedBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
+        if (bodyAddedBy(input->action) != nullptr && bodyName(input->action) == bodyName(action)) return true;
     }
     return isSwitch; // the scene's own bodies are never removed permanently
 }
@@ -41,7 +41,7 @@ bool affectsLaterInputs(const std::vector<LiveInput>& earlier, const Action& act
 
 InputCheck::InputCheck(const Scene& scene, std::size_t maxInputs)
     : scene_(scene)
-    , accepted_(scene.inputs.size())
+    , acceptedCount_(scene.inputs.size())
     , maxInputs_(maxInputs) {
     for (LiveInput& input : std::exchange(scene_.inputs, {})) addIfNeeded(std::move(input));
 }
@@ -51,16 +51,16 @@ InputCheck::InputCheck(const Scene& scene, std::size_t maxInputs)
 bool InputCheck::mergeInput(const Action& action) {
     auto& inputs = scene_.inputs;
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
-        const auto concernsIt = [&](const LiveInput& input) {
+        const auto isAffected = [&](const LiveInput& input) {
             const auto* join = std::get_if<JoinAction>(&input.action);
             return join != nullptr && join->joint.name == unjoin->joint;
         };
-        return std::erase_if(inputs, concernsIt) > 0;
+        return std::erase_if(inputs, isAffected) > 0;
     }
     const auto* change = std::get_if<ChangeAction>(&action);
     if (change == nullptr) return false;
     const auto last = std::find_if(inputs.rbegin(), inputs.rend(), [&](const LiveInput& input) {
-        return bodyOf(input.action) == change->body.name;
+        return bodyName(input.action) == change->body.name;
     });
     if (last == inputs.rend()) return false;
     const BodyDescription* const added = bodyAddedBy(last->action);
@@ -72,7 +72,7 @@ bool InputCheck::mergeInput(const Action& action) {
         return true;
     }
     const auto isSpawned = [&](const LiveInput& input) {
-        return isAnyOf<SpawnAction>(input.action) && bodyOf(input.action) == change->body.name;
+        return isAnyOf<SpawnAction>(input.action) && bodyName(input.action) == change->body.name;
     };
     if (!isRemoveAction(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
     // the spawn may have been dropped as one of the oldest
@@ -91,13 +91,13 @@ void InputCheck::dropOldestRemovals() {
     while (static_cast<std::size_t>(std::ranges::count_if(inputs, isRemoveAction, &LiveInput::action)) >
            maxRemembered) {
         const auto oldest = std::ranges::find_if(inputs, isRemoveAction, &LiveInput::action);
-        const std::string body = bodyOf(oldest->action);
-        const auto concernsIt = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
+        const std::string body = bodyName(oldest->action);
+        const auto isAffected = [&](const LiveInput& input) { return bodyName(input.action) == body; };
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) {
-            return isAnyOf<SpawnAction>(input.action) && concernsIt(input);
+            return isAnyOf<SpawnAction>(input.action) && isAffected(input);
         });
         // inputs from the next spawn on refer to another body of that name
-        inputs.erase(std::remove_if(inputs.begin(), next, concernsIt), next);
+        inputs.erase(std::remove_if(inputs.begin(), next, isAffected), next);
         if (const auto scripted = scriptedBodies(scene_); findNamed(scripted, body) == nullptr)
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);
@@ -107,7 +107,7 @@ void InputCheck::dropOldestRemovals() {
 }
 
 std::string InputCheck::accept(std::span<const Action> actions) {
-    if (actions.size() > maxInputs_ - accepted_)
+    if (actions.size() > maxInputs_ - acceptedCount_)
         return "expected at most " + std::to_string(maxInputs_) + " inputs";
     auto& inputs = scene_.inputs;
     const double lastSeconds = inputs.empty() ? 0.0 : inputs.back().timeSeconds;
@@ -121,7 +121,7 @@ std::string InputCheck::accept(std::span<const Action> actions) {
         if (const auto prefix = detail::itemPath("inputs", i) + "."; error.starts_with(prefix))
             return error.substr(prefix.size());
     if (!error.empty()) return error;
-    accepted_ += actions.size();
+    acceptedCount_ += actions.size();
     for (LiveInput& input : newInputs) addIfNeeded(std::move(input));
     return {};
 }

@@ -34,7 +34,7 @@ private:
     void dropOldestRemovals();
 
     Scene scene_; // includes the inputs that later ones are checked against
-    std::size_t accepted_, maxInputs_;
+    std::size_t acceptedCount_, maxInputs_;
 };
 
 } // namespace physvib

@@ -96,34 +96,34 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     def.angularDamping = static_cast<float>(body.angularDampingPerSecond);
     const double maxSpeed = 2.0 * largestSpeed(scene.fieldWidthMetres);
     def.bullet = minThicknessMetres(body) < maxSpeed * stepSeconds;
-    b2Body& created = *world.CreateBody(&def);
+    b2Body& worldBody = *world.CreateBody(&def);
     for (const FixtureDescription& fixture : body.fixtures) {
-        fixtures.push_back(created.CreateFixture(&ShapeBuilder(fixture).shape(), 0.0F));
+        fixtures.push_back(worldBody.CreateFixture(&ShapeBuilder(fixture).shape(), 0.0F));
         // A line has no skin, but Box2D's copy of a chain resets the radius.
         if (std::holds_alternative<ChainShape>(fixture.shape)) fixtures.back()->GetShape()->m_radius = 0.0F;
         setSurface(*fixtures.back(), fixture, scene.materials[static_cast<std::size_t>(fixture.material)]);
     }
-    setMass(created, body, scene);
-    return created;
+    setMass(worldBody, body, scene);
+    return worldBody;
 }
 
-void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start) {
-    created.SetEnabled(false); // ends its contacts
-    created.SetTransform(box2dVector(start.positionMetres), static_cast<float>(start.angleRadians));
-    created.SetLinearVelocity(box2dVector(start.velocityMetresPerSecond));
-    created.SetAngularVelocity(static_cast<float>(body.spinRadiansPerSecond));
-    created.SetEnabled(true);
-    created.SetAwake(true);
+void restartBody(b2Body& worldBody, const BodyDescription& body, const BodyStart& start) {
+    worldBody.SetEnabled(false); // ends its contacts
+    worldBody.SetTransform(box2dVector(start.positionMetres), static_cast<float>(start.angleRadians));
+    worldBody.SetLinearVelocity(box2dVector(start.velocityMetresPerSecond));
+    worldBody.SetAngularVelocity(static_cast<float>(body.spinRadiansPerSecond));
+    worldBody.SetEnabled(true);
+    worldBody.SetAwake(true);
 }
 
-void setMass(b2Body& created, const BodyDescription& body, const Scene& scene) {
+void setMass(b2Body& worldBody, const BodyDescription& body, const Scene& scene) {
     if (body.type != BodyType::dynamicBody) return;
     const BodyMoments moments = bodyMoments(body, scene);
     const Vector& c = moments.centreMetres;
     const double aboutOrigin = moments.inertiaKgSquareMetres + moments.massKg * (c.x * c.x + c.y * c.y);
     const b2MassData data{static_cast<float>(moments.massKg), box2dVector(c),
                           static_cast<float>(aboutOrigin)};
-    created.SetMassData(&data);
+    worldBody.SetMassData(&data);
 }
 
 void setSurface(b2Fixture& fixture, const FixtureDescription& description, const Material& material) {
@@ -152,7 +152,7 @@ Vector normalised(const Vector& axis) {
 
 struct JointBuilder {
     b2World& world;
-    const JointDescription& described;
+    const JointDescription& description;
     b2Body &a, &b;
 
     b2Joint& operator()(const RevoluteJoint& joint) const {
@@ -198,7 +198,7 @@ struct JointBuilder {
     }
 
     b2Joint& create(auto& def) const {
-        def.collideConnected = described.collide;
+        def.collideConnected = description.collide;
         return *world.CreateJoint(&def);
     }
     void setSpring(float& stiffness, float& damping, double frequencyHz, double ratio) const {
@@ -209,49 +209,49 @@ struct JointBuilder {
 };
 
 /// A definition with the joint's present values, but without its bodies.
-template <class Def, class Made>
-Def definitionOf(const Made& made) {
+template <class Def, class JointType>
+Def copyDefinition(const JointType& joint) {
     Def def;
-    def.localAnchorA = made.GetLocalAnchorA();
-    def.localAnchorB = made.GetLocalAnchorB();
-    def.collideConnected = made.GetCollideConnected();
-    if constexpr (requires { def.referenceAngle; }) def.referenceAngle = made.GetReferenceAngle();
-    if constexpr (requires { def.localAxisA; }) def.localAxisA = made.GetLocalAxisA();
+    def.localAnchorA = joint.GetLocalAnchorA();
+    def.localAnchorB = joint.GetLocalAnchorB();
+    def.collideConnected = joint.GetCollideConnected();
+    if constexpr (requires { def.referenceAngle; }) def.referenceAngle = joint.GetReferenceAngle();
+    if constexpr (requires { def.localAxisA; }) def.localAxisA = joint.GetLocalAxisA();
     if constexpr (requires { def.stiffness; }) {
-        def.stiffness = made.GetStiffness();
-        def.damping = made.GetDamping();
+        def.stiffness = joint.GetStiffness();
+        def.damping = joint.GetDamping();
     }
     if constexpr (requires { def.lowerTranslation; }) {
-        def.lowerTranslation = made.GetLowerLimit();
-        def.upperTranslation = made.GetUpperLimit();
+        def.lowerTranslation = joint.GetLowerLimit();
+        def.upperTranslation = joint.GetUpperLimit();
     }
     if constexpr (requires { def.lowerAngle; }) {
-        def.lowerAngle = made.GetLowerLimit();
-        def.upperAngle = made.GetUpperLimit();
+        def.lowerAngle = joint.GetLowerLimit();
+        def.upperAngle = joint.GetUpperLimit();
     }
     if constexpr (requires { def.enableMotor; }) {
-        def.enableLimit = made.IsLimitEnabled();
-        def.motorSpeed = made.GetMotorSpeed();
+        def.enableLimit = joint.IsLimitEnabled();
+        def.motorSpeed = joint.GetMotorSpeed();
         def.enableMotor = true;
     }
-    if constexpr (requires { def.maxMotorTorque; }) def.maxMotorTorque = made.GetMaxMotorTorque();
-    if constexpr (requires { def.maxMotorForce; }) def.maxMotorForce = made.GetMaxMotorForce();
+    if constexpr (requires { def.maxMotorTorque; }) def.maxMotorTorque = joint.GetMaxMotorTorque();
+    if constexpr (requires { def.maxMotorForce; }) def.maxMotorForce = joint.GetMaxMotorForce();
     if constexpr (requires { def.minLength; }) {
-        def.length = made.GetLength();
-        def.minLength = made.GetMinLength();
-        def.maxLength = made.GetMaxLength();
+        def.length = joint.GetLength();
+        def.minLength = joint.GetMinLength();
+        def.maxLength = joint.GetMaxLength();
     }
     return def;
 }
 
-template <class Made, class Def>
+template <class JointType, class Def>
 b2Joint& recreateJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
-    Def def = definitionOf<Def>(static_cast<const Made&>(joint));
+    Def def = copyDefinition<Def>(static_cast<const JointType&>(joint));
     def.bodyA = joint.GetBodyA() == &from ? &to : joint.GetBodyA();
     def.bodyB = joint.GetBodyB() == &from ? &to : joint.GetBodyB();
-    b2Joint* const made = world.CreateJoint(&def);
+    b2Joint* const newJoint = world.CreateJoint(&def);
     world.DestroyJoint(&joint);
-    return *made;
+    return *newJoint;
 }
 
 } // namespace
@@ -290,17 +290,17 @@ JointPose jointPose(const JointDescription& joint) {
 
 std::vector<JointPose> SceneWorld::jointPoses() const {
     std::vector<JointPose> poses;
-    for (const auto& [name, held] : joints_) {
-        b2Joint& made = *held.joint;
-        if (!made.IsEnabled()) continue;
-        const b2Vec2 a = made.GetAnchorA();
-        b2Vec2 b = made.GetAnchorB();
-        if (made.GetType() == e_prismaticJoint) {
-            const auto& slider = static_cast<const b2PrismaticJoint&>(made);
+    for (const auto& [name, worldJoint] : joints_) {
+        b2Joint& joint = *worldJoint.joint;
+        if (!joint.IsEnabled()) continue;
+        const b2Vec2 a = joint.GetAnchorA();
+        b2Vec2 b = joint.GetAnchorB();
+        if (joint.GetType() == e_prismaticJoint) {
+            const auto& slider = static_cast<const b2PrismaticJoint&>(joint);
             const float travel = slider.IsLimitEnabled() ? slider.GetUpperLimit() : 0.0F;
-            b = made.GetBodyA()->GetWorldPoint(slider.GetLocalAnchorA() + travel * slider.GetLocalAxisA());
+            b = joint.GetBodyA()->GetWorldPoint(slider.GetLocalAnchorA() + travel * slider.GetLocalAxisA());
         }
-        poses.push_back({held.described, {a.x, a.y}, {b.x, b.y}});
+        poses.push_back({worldJoint.description, {a.x, a.y}, {b.x, b.y}});
     }
     return poses;
 }

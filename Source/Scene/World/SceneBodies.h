@@ -44,10 +44,10 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
                    double stepSeconds, std::vector<b2Fixture*>& fixtures);
 
 /// Resets a body to its start and enables it.
-void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start);
+void restartBody(b2Body& worldBody, const BodyDescription& body, const BodyStart& start);
 
 /// Sets a dynamic body's mass from its description; others have none.
-void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
+void setMass(b2Body& worldBody, const BodyDescription& body, const Scene& scene);
 
 /// Sets friction and restitution of a fixture.
 void setSurface(b2Fixture& fixture, const FixtureDescription& description, const Material& material);

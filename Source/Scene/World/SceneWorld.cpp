@@ -51,9 +51,9 @@ void reservePools(b2World& world, const Scene& scene) {
 
 /// Calls `set` with the joint as its own type if it is a hinge or a wheel.
 template <class Set>
-void withMotor(b2Joint& made, Set set) {
-    if (made.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(made));
-    if (made.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(made));
+void withMotor(b2Joint& joint, Set set) {
+    if (joint.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(joint));
+    if (joint.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(joint));
 }
 
 } // namespace
@@ -83,7 +83,7 @@ void SceneWorld::build() {
     const auto scripted = scriptedBodies(scene_);
     for (std::size_t i = 0; i < scripted.size(); ++i) {
         const bool isPresent = i < scene_.bodies.size();
-        const Body& body = add(scripted[i], isPresent ? startOf(scripted[i]) : describedStart(scripted[i]));
+        const Body& body = add(scripted[i], isPresent ? makeStart(scripted[i]) : describedStart(scripted[i]));
         if (!isPresent) body.body->SetEnabled(false);
     }
     scriptedBodyCount_ = nextBody_;
@@ -101,18 +101,19 @@ void SceneWorld::build() {
 }
 
 SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& start) {
-    std::vector<b2Fixture*> created;
-    b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
+    std::vector<b2Fixture*> fixtures;
+    b2Body& worldBody = createBody(world_, scene_, body, start, clock_.stepSeconds(), fixtures);
     bodyNames_.emplace(body.name, nextBody_);
     Body& newBody =
-        bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
+        bodies_.emplace(nextBody_++, Body{&worldBody, nextFixture_, std::move(fixtures), body, body})
+            .first->second;
     nextFixture_ += newBody.fixtures.size();
     if (body.type == BodyType::staticBody && body.velocityMetresPerSecond.x != 0.0)
         belts_.push_back(&newBody);
     return newBody;
 }
 
-BodyStart SceneWorld::startOf(const BodyDescription& body) {
+BodyStart SceneWorld::makeStart(const BodyDescription& body) {
     const bool isJittered = hasJitter_ && body.type == BodyType::dynamicBody;
     return isJittered ? jitteredStart(body, random_) : describedStart(body);
 }
@@ -175,7 +176,7 @@ bool SceneWorld::executeActions(std::int64_t step) {
 // Box2D's friction moves bodies that touch the belt on either side. Contacts exist a step before they touch,
 // so all of them get the speed in time.
 void SceneWorld::driveBelt(const Body& belt) {
-    const auto speed = static_cast<float>(belt.described.velocityMetresPerSecond.x);
+    const auto speed = static_cast<float>(belt.original.velocityMetresPerSecond.x);
     for (b2ContactEdge* edge = belt.body->GetContactList(); edge != nullptr; edge = edge->next)
         edge->contact->SetTangentSpeed(speed);
 }
@@ -226,16 +227,16 @@ void SceneWorld::restart(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
     // a ChangeAction has replaced the body: its joints return to this one
-    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) {
+    if (std::size_t& named = bodyNames_.find(body.original.name)->second; named != number) {
         moveJoints(*bodies_.at(named).body, *body.body);
         removeFromWorld(std::exchange(named, number));
     }
     for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
-        setMaterial(body, i, body.described.fixtures[i].material);
-        body.current.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
+        setMaterial(body, i, body.original.fixtures[i].material);
+        body.current.fixtures[i].isCamera = body.original.fixtures[i].isCamera;
     }
     grips_.release(*body.body); // because the body restarts
-    restartBody(*body.body, body.described, startOf(body.described));
+    restartBody(*body.body, body.original, makeStart(body.original));
     delayHalfAStep(*body.body);
 }
 

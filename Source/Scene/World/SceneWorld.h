@@ -291,7 +291,7 @@ private:
         b2Body* body;
         std::size_t firstFixture; // number of its first fixture
         std::vector<b2Fixture*> fixtures;
-        BodyDescription described;
+        BodyDescription original;
         BodyDescription current; // with the present materials and source flags
     };
     struct PendingRemoval {
@@ -309,7 +309,7 @@ private:
     struct ActionExecutor;
     bool apply(const Action& action); // true if fixtures changed, as executeActions()
     void restart(const SpawnAction& action, int repetition);
-    BodyStart startOf(const BodyDescription& body);
+    BodyStart makeStart(const BodyDescription& body);
     void delayHalfAStep(b2Body& body) const;
     void applyGravity();
     Body* find(std::string_view name) noexcept; // nullptr if none has it
@@ -344,7 +344,7 @@ private:
     std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedBodies()
     struct WorldJoint {
         b2Joint* joint;
-        Joint described;
+        Joint description;
     };
     std::map<std::string, WorldJoint, std::less<>> joints_;
     std::map<const SpawnAction*, std::size_t> spawned_; // number of the first repetition's body

@@ -19,7 +19,7 @@ namespace {
 constexpr int velocityIterations = 8;
 constexpr int positionIterations = 3;
 
-StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
+StepClock makeClock(const Scene& scene, int stepsPerSecond) {
     if (const std::string error = validate(scene); !error.empty()) throw std::invalid_argument(error);
     if (stepsPerSecond < Simulation::minStepsPerSecond || stepsPerSecond > Simulation::maxStepsPerSecond)
         throw std::invalid_argument("steps per second: expected " +
@@ -28,7 +28,7 @@ StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
     return {stepsPerSecond};
 }
 
-ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocation location) {
+ImpactSettings makeSettings(const Scene& scene, ImpactTiming timing, ImpactLocation location) {
     ImpactSettings settings;
     settings.fieldWidthMetres = scene.fieldWidthMetres;
     settings.normalisation = scene.normalisation.secondsPerMetre;
@@ -39,7 +39,7 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
     return settings;
 }
 
-HapticFixture hapticFixtureOf(const Scene& scene, const SceneWorld::CurrentFixture& current) {
+HapticFixture makeHapticFixture(const Scene& scene, const SceneWorld::CurrentFixture& current) {
     // a sound action may have removed the decay, so that the sound would never end
     const bool isSilent = isEndless(current.material.frequencyHz, current.material.decayPerSecond);
     HapticFixture values{isSilent ? 0.0 : current.material.frequencyHz, current.material.decayPerSecond,
@@ -48,7 +48,7 @@ HapticFixture hapticFixtureOf(const Scene& scene, const SceneWorld::CurrentFixtu
                          current.description.voice};
     values.texture = current.material.texture();
     values.sound = soundOfMaterial(current.material.name);
-    values.part = partNumberOf(current.description.part);
+    values.part = toPartNumber(current.description.part);
     return values;
 }
 
@@ -56,15 +56,15 @@ HapticFixture hapticFixtureOf(const Scene& scene, const SceneWorld::CurrentFixtu
 
 Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond, ImpactTiming timing,
                        ImpactLocation location)
-    : clock_(checkedClock(scene, stepsPerSecond))
+    : clock_(makeClock(scene, stepsPerSecond))
     , world_(scene, seed, clock_)
-    , attachment_(world_.world(), settingsOf(scene, timing, location)) {
+    , attachment_(world_.world(), makeSettings(scene, timing, location)) {
     updateFixtures();
 }
 
 void Simulation::updateFixtures() {
     world_.forEachFixture([this](const SceneWorld::CurrentFixture& current) {
-        (void)attachment_.set(current.fixture, hapticFixtureOf(scene(), current),
+        (void)attachment_.set(current.fixture, makeHapticFixture(scene(), current),
                               static_cast<std::int32_t>(current.number));
     });
 }

@@ -7,9 +7,9 @@
 
 namespace physvib {
 
-void declareColumns(OptionTable& command, std::vector<std::string>& words) {
+void declareColumns(OptionTable& command, std::vector<std::string>& columnNames) {
     command
-        .add("--columns", words,
+        .add("--columns", columnNames,
              "of another program's table: what it calls our columns, e.g. "
              "participant=subject,response=key_resp.keys")
         .as("NAME=COLUMN[,...]")
@@ -25,11 +25,11 @@ struct AnalyseOptions {
 
 void declareResultOptions(OptionTable& command, AnalysisJob& o) {
     const std::string name = command.name();
-    const bool isGrid = name == "resolution" || name == "percent-counts";
+    const bool hasGridCells = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
         command.add("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
             .in(0, 1000);
-    if (isGrid)
+    if (hasGridCells)
         command.add("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
             .in(0.0, 100.0);
     if (name == "resolution")
@@ -108,7 +108,7 @@ int runAnalyse(const OptionTable& command, AnalyseOptions& options) {
     AnalysisJob& o = options.job;
     o.columns = std::move(columns.value);
     const AnalysisReport report = analyse(command.called()->name(), o);
-    for (const auto& words : report.warnings) warn(words);
+    for (const auto& warning : report.warnings) printWarning(warning);
     if (report.error.empty() || !report.text.empty()) printIfSimulated(report.isSimulated);
     std::cout << report.text;
     if (!report.error.empty()) return reportExit(exitFailed, report.error);

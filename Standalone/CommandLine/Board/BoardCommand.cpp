@@ -32,8 +32,8 @@ struct BoardOptions {
 
 /// Waits for a condition. False on time-out or interruption by the user.
 template <class Condition>
-bool waitFor(Condition condition, std::int64_t milliseconds = 1'000'000'000) {
-    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * 1'000'000; !condition();
+bool waitFor(Condition condition, std::int64_t maxMs = 1'000'000'000) {
+    for (const std::int64_t end = BoardLink::nowNs() + maxMs * 1'000'000; !condition();
          std::this_thread::sleep_for(std::chrono::milliseconds(5)))
         if (interrupted || BoardLink::nowNs() > end) return false;
     return true;
@@ -41,19 +41,19 @@ bool waitFor(Condition condition, std::int64_t milliseconds = 1'000'000'000) {
 
 const auto keepGoing = [] { return !interrupted; };
 
-void printBoardInfo(const BoardLinkStatus& s) {
-    const auto& b = s.board;
-    const auto& t = s.telemetry;
-    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, "
-              << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
-              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets)
+void printBoardInfo(const BoardLinkStatus& status) {
+    const auto& board = status.board;
+    const auto& t = status.telemetry;
+    std::cout << status.port << ": " << int(board.channels) << " channels at " << board.sampleRateHz
+              << " Hz, " << board.maxModes << " modes, protocol " << int(board.version) << ", clock "
+              << (board.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(board.resets)
               << " restarts by the watchdog\n"
-              << (b.version < wire::firstVersionWithSegments
+              << (board.version < wire::firstVersionWithSegments
                       ? "what moves is a row of still bursts on this image, an older one"
                       : "what moves is within one step of a device")
               << '\n'
-              << std::fixed << std::setprecision(1) << "felt " << s.outputLatencyMs
-              << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
+              << std::fixed << std::setprecision(1) << "felt " << status.outputLatencyMs
+              << " ms after the call at the earliest; drift " << status.driftPpm << " ppm\n"
               << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, "
               << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad << " bad, " << t.lost
               << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; "
@@ -74,7 +74,7 @@ void playChannelsInTurn(BoardLink& link) {
         tone.decayPerSecond = 1.0;
         tone.amplitude = 0.25;
         tone.durationNs = 250 * nsPerMs;
-        link.push({start + static_cast<std::int64_t>(j) * 400 * nsPerMs, boardEventOf(tone, gains)});
+        link.push({start + static_cast<std::int64_t>(j) * 400 * nsPerMs, toBoardEvent(tone, gains)});
     }
     waitFor([&] { return BoardLink::nowNs() > start + 1600 * nsPerMs; }, 5000);
 }
@@ -119,15 +119,15 @@ private:
 bool checkPlayable(const BoardOptions& o, const std::vector<CollisionEvent>& events,
                    const PhantomPanner& panner, bool isFieldGuessed) {
     const double minAmplitude = 0.5 / 127.0 / fromDecibels(o.levelDb); // half a step of the converter
-    const std::string silent =
+    const std::string silenceText =
         silenceReason(events, panner, isFieldGuessed, limits::maxTimeNs + 1, minAmplitude);
-    const std::string outside = outsideFieldWarning(events, fieldOf(panner), isFieldGuessed);
-    if (!silent.empty())
+    const std::string outsideText = outsideFieldWarning(events, fieldOf(panner), isFieldGuessed);
+    if (!silenceText.empty())
         reportExit(exitFailed, o.eventsPath + ": nothing can be felt at --level " + numberText(o.levelDb) +
-                                   ": " + silent);
-    else if (!outside.empty())
-        printMessage("warning: " + outside);
-    return silent.empty();
+                                   ": " + silenceText);
+    else if (!outsideText.empty())
+        printMessage("warning: " + outsideText);
+    return silenceText.empty();
 }
 
 /// Time until the event ends, or is 60 dB weaker: less than a step of the board's converters.
@@ -183,10 +183,10 @@ int runBoard(const BoardOptions& o) {
         if (geometry.count > limits::board::channels)
             return reportExit(exitUsage, "--layout: the board has four channels, this layout " +
                                              std::to_string(geometry.count));
-        const FieldSize stated = o.field.isKnown() ? o.field : list.value.field;
-        const FieldSize field = stated.isKnown() ? stated : extentOf(geometry);
+        const FieldSize statedField = o.field.isKnown() ? o.field : list.value.field;
+        const FieldSize field = statedField.isKnown() ? statedField : extentOf(geometry);
         panner = {geometry, PanningLaw::automatic, 1.0, field.widthMetres, field.heightMetres};
-        if (!checkPlayable(o, events, panner, !stated.isKnown())) return exitFailed;
+        if (!checkPlayable(o, events, panner, !statedField.isKnown())) return exitFailed;
     }
     installInterruptHandlers();
     beginNonBlockingOutput();

@@ -19,7 +19,7 @@ struct AttenuationOptions {
     std::string exportPath, picturePath;     ///< for a folder; empty: none
 };
 
-constexpr const char* referenceWord = "reference";
+constexpr const char* referenceMaterial = "reference";
 
 int compareRecordings(const AttenuationOptions& o) {
     const auto isolated = axisLevels(o.isolatedPath), reference = axisLevels(o.referencePath);
@@ -41,7 +41,7 @@ int compareRecordings(const AttenuationOptions& o) {
     return exitDone;
 }
 
-Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& folder) {
+Result<std::vector<IsolationMeasurement>> readMeasurements(const std::string& folder) {
     const auto list = RecordingList::open(folder, {"frequency_hz", "axis", "material"});
     if (!list) return Failure{list.error};
     std::vector<IsolationMeasurement> measurements;
@@ -53,7 +53,7 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
         m.condition = {list.value.cell(row, "material"),     list.value.cell(row, "softener_percent"),
                        list.value.cell(row, "thickness_mm"), list.value.cell(row, "voltage_v"),
                        list.value.cell(row, "axis"),         hz.value};
-        m.isReference = m.condition.material == referenceWord;
+        m.isReference = m.condition.material == referenceMaterial;
         auto levels = axisLevels(m.source);
         if (!levels) return Failure{levels.error};
         m.levels = std::move(levels.value);
@@ -66,8 +66,8 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
 class ConditionColumns {
 public:
     explicit ConditionColumns(const std::vector<IsolationResult>& results)
-        : hasSoftener_{
-              std::ranges::any_of(results, [](const auto& r) { return !r.condition.softener.empty(); })} {}
+        : hasSoftener_{std::ranges::any_of(
+              results, [](const auto& result) { return !result.condition.softener.empty(); })} {}
     std::string names() const {
         return std::string{"material,"} + (hasSoftener_ ? "softener_percent," : "") +
                "thickness_mm,frequency_hz,voltage_v,axis,";
@@ -92,15 +92,15 @@ private:
 std::string repetitionTable(const std::vector<IsolationResult>& results) {
     const ConditionColumns columns{results};
     std::string table = columns.names() + "repetition,gamma\n";
-    for (const IsolationResult& r : results)
-        for (std::size_t k = 0; k < r.gammas.size(); ++k)
-            table +=
-                columns.cells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
+    for (const IsolationResult& result : results)
+        for (std::size_t k = 0; k < result.gammas.size(); ++k)
+            table += columns.cells(result.condition) + std::to_string(k + 1) + "," +
+                     numberText(result.gammas[k]) + "\n";
     return table;
 }
 
 int summariseFolder(const AttenuationOptions& o) {
-    const auto measurements = measurementsIn(o.isolatedPath);
+    const auto measurements = readMeasurements(o.isolatedPath);
     if (!measurements) return reportExit(exitFailed, measurements.error);
     const IsolationStudy study = summariseIsolation(measurements.value);
     if (!study.error.empty()) return reportExit(exitFailed, study.error);
@@ -110,9 +110,9 @@ int summariseFolder(const AttenuationOptions& o) {
     if (code != exitDone) return code;
     const ConditionColumns columns{study.results};
     std::cout << columns.names() << "repetitions,gamma,standard_deviation\n";
-    for (const IsolationResult& r : study.results)
-        std::cout << columns.cells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ','
-                  << numberText(r.deviation) << '\n';
+    for (const IsolationResult& result : study.results)
+        std::cout << columns.cells(result.condition) << result.gammas.size() << ',' << numberText(result.mean)
+                  << ',' << numberText(result.deviation) << '\n';
     return exitDone;
 }
 

@@ -46,7 +46,7 @@ SweepSettings sweepSettings(const CalibrateOptions& o) {
 }
 
 /// Reads channel 1 of each file.
-Result<RecordedSweep> readPair(const CalibrateOptions& o) {
+Result<RecordedSweep> readSweepFiles(const CalibrateOptions& o) {
     auto played = readRecording(o.playedPath);
     if (!played) return Failure{played.error};
     auto recorded = readRecording(o.recordedPath);
@@ -61,27 +61,27 @@ Result<RecordedSweep> readPair(const CalibrateOptions& o) {
 }
 
 Result<RecordedSweep> measure(const CalibrateOptions& o) {
-    if (o.device.empty()) return readPair(o);
+    if (o.device.empty()) return readSweepFiles(o);
     return recordSweep(
         {o.device, o.channel - 1, o.input - 1, o.sampleRateHz},
         [&](double rateHz) { return makeSweep(sweepSettings(o), rateHz); }, systemAudioDrivers);
 }
 
-ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) {
-    ActuatorProfile p;
-    p.name = o.name;
-    p.description = "measured";
-    p.source = "physvib calibrate " PHYSVIB_VERSION ": sweep at " + numberText(m.rateHz) + " Hz, " +
-               fixedNumber(100.0 * (1.0 - m.residualShare), 2) + " % explained";
-    p.resonanceHz = m.resonator.resonanceHz;
-    p.q = m.resonator.q;
-    p.band = m.bandWithin(bandDecibels, SweepSettings{}.band);
-    if (!o.band.empty()) p.band = *parseBand(o.band);
-    if (!p.band->isKnown()) p.band.reset();
-    if (o.gPerUnit > 0.0) p.fullScaleG = std::abs(m.gain) * o.gPerUnit;
-    if (o.driveVolts > 0.0) p.driveLimitVolts = o.driveVolts;
-    p.delaySeconds = std::max(0.0, m.delaySeconds);
-    return p;
+ActuatorProfile makeProfile(const CalibrateOptions& o, const MeasuredActuator& m) {
+    ActuatorProfile profile;
+    profile.name = o.name;
+    profile.description = "measured";
+    profile.source = "physvib calibrate " PHYSVIB_VERSION ": sweep at " + numberText(m.rateHz) + " Hz, " +
+                     fixedNumber(100.0 * (1.0 - m.residualShare), 2) + " % explained";
+    profile.resonanceHz = m.resonator.resonanceHz;
+    profile.q = m.resonator.q;
+    profile.band = m.bandWithin(bandDecibels, SweepSettings{}.band);
+    if (!o.band.empty()) profile.band = *parseBand(o.band);
+    if (!profile.band->isKnown()) profile.band.reset();
+    if (o.gPerUnit > 0.0) profile.fullScaleG = std::abs(m.gain) * o.gPerUnit;
+    if (o.driveVolts > 0.0) profile.driveLimitVolts = o.driveVolts;
+    profile.delaySeconds = std::max(0.0, m.delaySeconds);
+    return profile;
 }
 
 int writeSweep(const CalibrateOptions& o) {
@@ -96,10 +96,10 @@ int writeSweep(const CalibrateOptions& o) {
     return exitDone;
 }
 
-std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
+std::string sweepSource(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
 
 /// The layout with profile and full scale at the measured place, or at all places; or one error line.
-Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScaleG) {
+Result<LayoutDescription> makeLayout(const CalibrateOptions& o, double fullScaleG) {
     auto layout = resolveLayout(o.layout);
     if (!layout) return layout;
     bool hasPlace = false;
@@ -116,15 +116,15 @@ Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScale
 
 /// Checks the requested layout before anything vibrates; empty if it is valid.
 std::string layoutError(const CalibrateOptions& o) {
-    return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error;
+    return o.layout.empty() ? std::string{} : makeLayout(o, 1.0).error;
 }
 
 /// Explains how to use the measured full scale for levels in g.
-void printLayoutAdvice(const CalibrateOptions& o, const ActuatorProfile& p) {
-    if (!p.fullScaleG)
+void printLayoutAdvice(const CalibrateOptions& o, const ActuatorProfile& profile) {
+    if (!profile.fullScaleG)
         return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a "
                                  "recorded sample of 1 stands for\n");
-    std::cout << "full scale " << fixedNumber(*p.fullScaleG, 3) << " g: ";
+    std::cout << "full scale " << fixedNumber(*profile.fullScaleG, 3) << " g: ";
     if (!o.layoutPath.empty())
         std::cout << o.layoutPath << " has it\n";
     else
@@ -144,9 +144,9 @@ Result<RecordedSweep> measureAndWarn(const CalibrateOptions& o) {
 int printLoopback(const CalibrateOptions& o) {
     const auto sweep = measureAndWarn(o);
     if (!sweep) return reportExit(exitFailed, sweep.error);
-    const auto found = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
-    if (!found) return reportExit(exitFailed, sourceOf(o) + ": " + found.error);
-    const MeasuredLoopback& m = found.value;
+    const auto loopback = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
+    if (!loopback) return reportExit(exitFailed, sweepSource(o) + ": " + loopback.error);
+    const MeasuredLoopback& m = loopback.value;
     std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, "
               << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at "
               << numberText(sweep.value.rateHz) << " Hz; gain " << fixedNumber(m.gain, 4) << "; "
@@ -221,12 +221,12 @@ int runCalibrate(const CalibrateOptions& o) {
     const auto sweep = measureAndWarn(o);
     if (!sweep) return reportExit(exitFailed, sweep.error);
     const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
-    if (!measured) return reportExit(exitFailed, sourceOf(o) + ": " + measured.error);
-    const ActuatorProfile profile = profileOf(o, measured.value);
+    if (!measured) return reportExit(exitFailed, sweepSource(o) + ": " + measured.error);
+    const ActuatorProfile profile = makeProfile(o, measured.value);
     if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read)
         return reportExit(exitFailed, read.error);
     if (layoutFile) {
-        const auto layout = layoutWith(o, profile.fullScaleG.value_or(1.0));
+        const auto layout = makeLayout(o, profile.fullScaleG.value_or(1.0));
         if (!layout) return reportExit(exitFailed, layout.error);
         layoutFile->write(layoutJson(layout.value));
     }

@@ -41,7 +41,7 @@ std::string addRecording(CouplingSums& measured, std::size_t j,
     return {};
 }
 
-Result<MeasuredCoupling> meansOf(SumsByFrequency& sumsByHz, const LayoutDescription& layout) {
+Result<MeasuredCoupling> averageSums(SumsByFrequency& sumsByHz, const LayoutDescription& layout) {
     MeasuredCoupling coupling;
     for (auto& [hz, measured] : sumsByHz) {
         for (std::size_t j = 0; j < measured.counts.size(); ++j) {
@@ -57,7 +57,7 @@ Result<MeasuredCoupling> meansOf(SumsByFrequency& sumsByHz, const LayoutDescript
     return coupling;
 }
 
-Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescription& layout) {
+Result<MeasuredCoupling> measureCoupling(const std::string& folder, const LayoutDescription& layout) {
     const auto list = RecordingList::open(folder, {"frequency_hz", "driven"});
     if (!list) return Failure{list.error};
     const std::size_t actuatorCount = layout.actuators.size();
@@ -65,9 +65,9 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
     for (const CsvRow& row : list.value.rows()) {
         const auto hz = list.value.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        const auto driven =
+        const auto drive =
             std::ranges::find(layout.actuators, list.value.cell(row, "driven"), &ActuatorDescription::label);
-        if (driven == layout.actuators.end())
+        if (drive == layout.actuators.end())
             return Failure{list.value.table().cellError(row, *list.value.table().column("driven"),
                                                         "the label of an actuator of the layout")};
         const std::string path = list.value.path(row);
@@ -76,13 +76,13 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
         if (tones.value.size() != actuatorCount)
             return Failure{path + ": expected a channel per actuator of the layout, " +
                            std::to_string(actuatorCount) + ", found " + std::to_string(tones.value.size())};
-        const auto at = sumsByHz.try_emplace(hz.value, actuatorCount).first;
-        if (auto error = addRecording(at->second, static_cast<std::size_t>(driven - layout.actuators.begin()),
+        const auto sum = sumsByHz.try_emplace(hz.value, actuatorCount).first;
+        if (auto error = addRecording(sum->second, static_cast<std::size_t>(drive - layout.actuators.begin()),
                                       tones.value, layout);
             !error.empty())
             return Failure{path + ": " + error};
     }
-    auto coupling = meansOf(sumsByHz, layout);
+    auto coupling = averageSums(sumsByHz, layout);
     return coupling ? coupling
                     : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
 }
@@ -101,7 +101,7 @@ void declareCoupling(OptionTable& command, CouplingOptions& o) {
 int runCoupling(const CouplingOptions& o) {
     const auto layout = resolveLayout(o.layout);
     if (!layout) return reportExit(exitFailed, layout.error);
-    const auto coupling = couplingIn(o.folder, layout.value);
+    const auto coupling = measureCoupling(o.folder, layout.value);
     if (!coupling) return reportExit(exitFailed, coupling.error);
     const std::string text = couplingJson(coupling.value, layout.value.name,
                                           "measured: recordings of one driven actuator at a time");

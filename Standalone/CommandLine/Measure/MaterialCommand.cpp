@@ -32,25 +32,25 @@ std::string conditionsText(const Scrape& scrape) {
 }
 
 std::string measurementText(const ScrapedTexture& f, const Scrape& scrape) {
-    std::string words = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
-    words += f.grainCount > 0 ? std::to_string(f.grainCount) + " counted, " +
-                                    fixedNumber(100.0 * f.lostShare, 1) + " % taken to be hidden"
-                              : "by their tone alone";
-    return words + (f.strength > 0.0
-                        ? "; " + fixedNumber(100.0 * f.strength, 2) +
-                              " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " +
-                              conditionsText(scrape)
-                        : "; modes and roughness cannot be measured at this speed: scrape more slowly");
+    std::string text = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
+    text += f.grainCount > 0 ? std::to_string(f.grainCount) + " counted, " +
+                                   fixedNumber(100.0 * f.lostShare, 1) + " % taken to be hidden"
+                             : "by their tone alone";
+    return text + (f.strength > 0.0
+                       ? "; " + fixedNumber(100.0 * f.strength, 2) +
+                             " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " +
+                             conditionsText(scrape)
+                       : "; modes and roughness cannot be measured at this speed: scrape more slowly");
 }
 
 /// Measures a recorded scrape and prints its texture as a table. Returns an exit code.
 int printTexture(const std::string& path, const Scrape& scrape) {
     const auto recording = readRecording(path);
     if (!recording) return reportExit(exitFailed, recording.error);
-    const auto found =
+    const auto extraction =
         extractTexture(loudestChannel(recording.value.channels), recording.value.sampleRateHz, scrape);
-    if (!found) return reportExit(exitFailed, path + ": " + found.error);
-    const ScrapedTexture& f = found.value;
+    if (!extraction) return reportExit(exitFailed, path + ": " + extraction.error);
+    const ScrapedTexture& f = extraction.value;
     const auto orEmpty = [&](double number) { return f.strength > 0.0 ? numberText(number) : std::string{}; };
     std::cout << "frequency_hz,decay_per_s,grain_m,roughness,grain_pattern\n"
               << orEmpty(f.frequencyHz) << ',' << orEmpty(f.decayPerSecond) << ','
@@ -87,17 +87,17 @@ int listMaterials() {
 
 std::string significantText(double number) { return fixedNumber(number, number < 0.1 ? 4 : 2); }
 
-std::string confidenceText(const ContactSound& s) {
-    std::string words = fixedNumber(s.frequencyHz, 2) + " Hz";
-    if (s.frequencyErrorHz > 0.0) words += " +- " + significantText(s.frequencyErrorHz);
-    words += ", " + fixedNumber(s.decayPerSecond, 2) + " /s";
-    if (s.decayErrorPerSecond > 0.0) words += " +- " + significantText(s.decayErrorPerSecond);
-    words +=
-        "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB"
-                                               : std::string{"none"});
-    return words + "; " + counted(static_cast<std::size_t>(s.partialCount), "partial") + " in " +
-           fixedNumber(s.lengthSeconds, 3) + " s from " + fixedNumber(s.beginSeconds, 4) + " s; confidence " +
-           (s.isConfident() ? "high" : "low");
+std::string confidenceText(const ContactSound& sound) {
+    std::string text = fixedNumber(sound.frequencyHz, 2) + " Hz";
+    if (sound.frequencyErrorHz > 0.0) text += " +- " + significantText(sound.frequencyErrorHz);
+    text += ", " + fixedNumber(sound.decayPerSecond, 2) + " /s";
+    if (sound.decayErrorPerSecond > 0.0) text += " +- " + significantText(sound.decayErrorPerSecond);
+    text += "; residual " + (sound.residualShare > 0.0
+                                 ? fixedNumber(10.0 * std::log10(sound.residualShare), 1) + " dB"
+                                 : std::string{"none"});
+    return text + "; " + plural(static_cast<std::size_t>(sound.partialCount), "partial") + " in " +
+           fixedNumber(sound.lengthSeconds, 3) + " s from " + fixedNumber(sound.beginSeconds, 4) +
+           " s; confidence " + (sound.isConfident() ? "high" : "low");
 }
 
 /// Scales the values to a peak of 1, as in thesis Fig. 5.7.
@@ -107,26 +107,26 @@ void normalise(std::vector<double>& values) {
 }
 
 /// Draws waveform and spectrum as SVG, from the contact's start until its mode has fallen to a hundredth.
-std::string pictureOf(const std::vector<float>& samples, double rateHz, const ContactSound& sound,
-                      const ExtractionBand& band) {
+std::string drawContact(const std::vector<float>& samples, double rateHz, const ContactSound& sound,
+                        const ExtractionBand& band) {
     constexpr double maxSeconds = 0.5;
-    const auto from = static_cast<std::size_t>(std::max(0.0, sound.beginSeconds) * rateHz);
+    const auto first = static_cast<std::size_t>(std::max(0.0, sound.beginSeconds) * rateHz);
     const double seconds = std::min(maxSeconds, std::log(100.0) / std::max(1.0, sound.decayPerSecond));
     std::vector<double> contact, mode;
-    for (std::size_t n = 0; from + n < samples.size() && static_cast<double>(n) < seconds * rateHz; ++n) {
+    for (std::size_t n = 0; first + n < samples.size() && static_cast<double>(n) < seconds * rateHz; ++n) {
         const double t = static_cast<double>(n) / rateHz;
-        contact.push_back(static_cast<double>(samples[from + n]));
+        contact.push_back(static_cast<double>(samples[first + n]));
         mode.push_back(std::sin(2.0 * std::numbers::pi * sound.frequencyHz * t) *
                        std::exp(-sound.decayPerSecond * t));
     }
     LineChart waveformChart{{"wave", "Waveform", false}, "time (ms)", "share of the peak", {}},
         spectrumChart{{"bins", "Spectrum", false}, "frequency (Hz)", "share of the peak", {}};
-    for (auto& [words, values, style] : {std::tuple{"recorded", &contact, 0u}, {"its mode", &mode, 4u}}) {
+    for (auto& [label, values, style] : {std::tuple{"recorded", &contact, 0u}, {"its mode", &mode, 4u}}) {
         std::vector<double> spectrum = magnitudes(*values);
         const double binHz = 0.5 * rateHz / static_cast<double>(spectrum.size() - 1);
         normalise(*values);
         normalise(spectrum);
-        LineSeries waveform{words, {}}, magnitude{words, {}};
+        LineSeries waveform{label, {}}, magnitude{label, {}};
         for (std::size_t n = 0; n < values->size(); ++n)
             waveform.points.push_back(
                 {1000.0 * static_cast<double>(n) / rateHz, ChartValue::withMargin((*values)[n])});
@@ -190,9 +190,9 @@ int runMaterial(const MaterialOptions& o) {
     if (!sound) return reportExit(exitFailed, o.path + ": " + sound.error);
     const int code =
         writeStudyFiles({StudyFile{o.picturePath, [&] {
-                                       return pictureOf(loudestChannel(recording.value.channels),
-                                                        recording.value.sampleRateHz, sound.value,
-                                                        {band->lowHz, band->highHz});
+                                       return drawContact(loudestChannel(recording.value.channels),
+                                                          recording.value.sampleRateHz, sound.value,
+                                                          {band->lowHz, band->highHz});
                                    }}});
     if (code != exitDone) return code;
     const auto rowText = [](double hz, double perSecond) {

@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 /// Level without the mean, which contains gravity.
-double levelOf(const std::vector<float>& x) {
+double computeLevel(const std::vector<float>& x) {
     double mean = 0.0, power = 0.0;
     for (const float s : x) mean += s / static_cast<double>(x.size());
     for (const float s : x) power += (s - mean) * (s - mean) / static_cast<double>(x.size());
@@ -18,13 +18,13 @@ double levelOf(const std::vector<float>& x) {
 }
 
 /// Hann window, which suppresses gravity and the effect of incomplete periods.
-std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample) {
+std::complex<double> computeTone(const std::vector<float>& x, double radiansPerSample) {
     std::complex<double> sum = 0.0;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(x.size());
     for (std::size_t n = 0; n < x.size(); ++n) {
-        const auto at = static_cast<double>(n);
-        sum +=
-            (1.0 - std::cos(step * at)) * static_cast<double>(x[n]) * std::polar(1.0, -radiansPerSample * at);
+        const auto index = static_cast<double>(n);
+        sum += (1.0 - std::cos(step * index)) * static_cast<double>(x[n]) *
+               std::polar(1.0, -radiansPerSample * index);
     }
     return sum * (2.0 / static_cast<double>(x.size()));
 }
@@ -50,12 +50,12 @@ Result<std::vector<Value>> measureChannels(const std::string& path, Measure meas
 
 Result<std::vector<double>> axisLevels(const std::string& path) {
     return measureChannels<double>(
-        path, [](const std::vector<float>& channel, double) { return levelOf(channel); });
+        path, [](const std::vector<float>& channel, double) { return computeLevel(channel); });
 }
 
 Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz) {
     return measureChannels<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) {
-        return toneOf(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
+        return computeTone(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
     });
 }
 

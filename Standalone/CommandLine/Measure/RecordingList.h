@@ -44,8 +44,8 @@ public:
     std::string path(const CsvRow& row) const { return (folder_ / cell(row, "file")).string(); }
     /// Empty if there is no such column.
     std::string cell(const CsvRow& row, std::string_view column) const {
-        const auto at = table_.column(column);
-        return at ? row.cells[*at] : std::string{};
+        const auto index = table_.column(column);
+        return index ? row.cells[*index] : std::string{};
     }
     /// The number in the column frequency_hz; or one error line if it is out of range.
     Result<double> frequencyHz(const CsvRow& row) const {

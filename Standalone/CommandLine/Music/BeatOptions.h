@@ -44,7 +44,7 @@ inline void declareBeatOptions(OptionTable& command, BeatOptions& o) {
 }
 
 /// Voices for that number of actuators; or a usage error in one line.
-inline Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int actuatorCount) {
+inline Result<BeatVoices> parseBeatVoices(const BeatOptions& o, int actuatorCount) {
     BeatVoices voices;
     voices.level = o.level;
     voices.actuators = defaultBeatActuators(actuatorCount);

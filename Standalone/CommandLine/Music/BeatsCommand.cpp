@@ -22,7 +22,7 @@
 namespace physvib {
 namespace {
 
-struct BeatsOptions {
+struct MusicOptions {
     std::string music;
     std::string eventsPath, wavPath; ///< empty: not written
     bool playsMusic = false;         ///< write the low-passed music itself to the WAV
@@ -32,7 +32,7 @@ struct BeatsOptions {
     BeatOptions beats;
 };
 
-Provenance provenanceOf(const BeatsOptions& o) {
+Provenance provenanceOf(const MusicOptions& o) {
     return {PHYSVIB_VERSION, {{"music", fileNameOf(o.music)}, {"layout", o.layout}}};
 }
 
@@ -117,7 +117,7 @@ private:
 /// Writes the filtered music to a WAV file, on the channels of some actuators.
 class BandReceiver final : public MonoReceiver {
 public:
-    BandReceiver(const BeatsOptions& options, int channels, ActuatorSet actuators, FrequencyBand band)
+    BandReceiver(const MusicOptions& options, int channels, ActuatorSet actuators, FrequencyBand band)
         : options_{options}
         , actuators_{actuators}
         , band_{band}
@@ -144,7 +144,7 @@ private:
         return wav_->write(channels_.data(), static_cast<int>(mono.size())) ? "" : wav_->error();
     }
 
-    const BeatsOptions& options_;
+    const MusicOptions& options_;
     ActuatorSet actuators_;
     FrequencyBand band_;
     std::vector<const float*> channels_;
@@ -166,12 +166,12 @@ void renderWav(WavSink& wav, std::span<const CollisionEvent> events, const Actua
     warnIfAny(status.rejected, "strikes that could not be played at " + std::to_string(rateHz) + " Hz");
 }
 
-int renderBeats(const BeatsOptions& o, const LayoutDescription& layout) {
-    const auto voices = beatVoicesOf(o.beats, layout.geometry.count);
+int renderBeats(const MusicOptions& o, const LayoutDescription& layout) {
+    const auto voices = parseBeatVoices(o.beats, layout.geometry.count);
     if (!voices) return reportExit(exitUsage, voices.error);
-    std::optional<AtomicFile> table;
-    if (!o.eventsPath.empty() && !table.emplace(o.eventsPath).error().empty())
-        return reportExit(exitFailed, table->error());
+    std::optional<AtomicFile> csvFile;
+    if (!o.eventsPath.empty() && !csvFile.emplace(o.eventsPath).error().empty())
+        return reportExit(exitFailed, csvFile->error());
     BeatReceiver beats{o.beats, voices.value, layout.geometry};
     if (const std::string error = streamRecording(o.music, beats); !error.empty())
         return reportExit(exitFailed, error);
@@ -184,9 +184,9 @@ int renderBeats(const BeatsOptions& o, const LayoutDescription& layout) {
         if (wav->error().empty()) renderWav(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
         if (!wav->complete().empty()) return reportExit(exitFailed, wav->error());
     }
-    if (table && (!table->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
-                  !table->commit().empty()))
-        return reportExit(exitFailed, table->error());
+    if (csvFile && (!csvFile->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
+                    !csvFile->commit().empty()))
+        return reportExit(exitFailed, csvFile->error());
     if (wav && !wav->finish().empty()) return reportExit(exitFailed, wav->error());
     std::cout << "beats";
     for (std::size_t band = 0; band < beatBands.size(); ++band)
@@ -195,7 +195,7 @@ int renderBeats(const BeatsOptions& o, const LayoutDescription& layout) {
     return exitDone;
 }
 
-int renderMusic(const BeatsOptions& o, const LayoutDescription& layout) {
+int renderMusic(const MusicOptions& o, const LayoutDescription& layout) {
     if (o.wavPath.empty() || !o.eventsPath.empty())
         return reportExit(exitUsage,
                           "--through: expected --render FILE.wav, and no --out: music has no strikes");
@@ -217,7 +217,7 @@ int renderMusic(const BeatsOptions& o, const LayoutDescription& layout) {
     return exitDone;
 }
 
-void declareBeats(OptionTable& command, BeatsOptions& o) {
+void declareBeats(OptionTable& command, MusicOptions& o) {
     command.add("music", o.music, "WAV, AIFF, FLAC, Ogg Vorbis or Opus, of up to a day")
         .required()
         .as("MUSIC.wav");
@@ -231,11 +231,11 @@ void declareBeats(OptionTable& command, BeatsOptions& o) {
     command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")
         .as("LO-HI");
     command.add("--enchanters", o.actuators, "who feels it, with --through: all unless told").as("AC");
-    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
+    command.add("--layout", o.layout, rangeList(layoutPresetNames) + ", study1 or a layout file");
     declareBeatOptions(command, o.beats);
 }
 
-int runBeats(const BeatsOptions& o) {
+int runBeats(const MusicOptions& o) {
     if (o.eventsPath.empty() && o.wavPath.empty())
         return reportExit(exitUsage, "beats: nothing to write; give --out or --render");
     if (!o.playsMusic && !(o.band.empty() && o.actuators.empty()))

@@ -25,7 +25,7 @@ struct PadsOptions {
 
 constexpr auto searchTime = std::chrono::milliseconds{1500}; // Bluetooth controllers need a second
 
-PadTrialClock systemTime(GamePads& pads) {
+PadTrialClock makeTrialClock(GamePads& pads) {
     const auto seconds = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
@@ -36,15 +36,15 @@ PadTrialClock systemTime(GamePads& pads) {
     return {seconds, tick, [] { return !interrupted.load(); }};
 }
 
-std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceName>& audioDevices) {
-    std::string words = info.hasMotors ? "two motors" : "no motors";
-    if (info.hasTriggers) words += ", triggers";
-    if (info.hasAccelerometer) words += ", accelerometer";
-    if (!info.isDualSense) return words;
+std::string describeAbilities(const GamePadInfo& info, const std::vector<AudioDeviceName>& audioDevices) {
+    std::string text = info.hasMotors ? "two motors" : "no motors";
+    if (info.hasTriggers) text += ", triggers";
+    if (info.hasAccelerometer) text += ", accelerometer";
+    if (!info.isDualSense) return text;
     const auto sound = dualSenseDevice(audioDevices);
-    return words + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)"
-                    : info.bus == PadBus::bluetooth ? ", coils (--device DUALSENSE:auto --layout dualsense)"
-                                                    : ", coils by USB sound (not there)");
+    return text + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)"
+                   : info.bus == PadBus::bluetooth ? ", coils (--device DUALSENSE:auto --layout dualsense)"
+                                                   : ", coils by USB sound (not there)");
 }
 
 int listPads() {
@@ -52,18 +52,18 @@ int listPads() {
     if (!pads.error().empty()) return reportExit(exitFailed, pads.error());
     for (const auto end = std::chrono::steady_clock::now() + searchTime;
          pads.list().empty() && std::chrono::steady_clock::now() < end;)
-        systemTime(pads).tick();
-    const auto found = pads.list();
-    const bool hasDualSense = std::ranges::any_of(found, &GamePadInfo::isDualSense);
+        makeTrialClock(pads).tick();
+    const auto connectedPads = pads.list();
+    const bool hasDualSense = std::ranges::any_of(connectedPads, &GamePadInfo::isDualSense);
     const auto audioDevices =
         hasDualSense ? listAudioDevices(systemAudioDrivers) : std::vector<AudioDeviceName>{};
-    for (const GamePadInfo& info : found)
-        std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, audioDevices)
+    for (const GamePadInfo& info : connectedPads)
+        std::cout << info.name << "  " << busName(info.bus) << ", " << describeAbilities(info, audioDevices)
                   << "  profile " << info.profile << '\n';
-    bool hasAny = !found.empty();
+    bool hasAny = !connectedPads.empty();
     for (const SinkKind& kind : sinkKinds()) // controllers with coils or more motors
         for (const SinkUnit& unit : kind.acceptsRawReports ? kind.listUnits() : std::vector<SinkUnit>{}) {
-            std::cout << unit.about << "  " << unit.address << "  --device " << kind.name << ':'
+            std::cout << unit.label << "  " << unit.address << "  --device " << kind.name << ':'
                       << unit.address << '\n';
             hasAny = true;
         }
@@ -75,17 +75,17 @@ int listPads() {
 Result<std::unique_ptr<GamePad>> awaitPad(GamePads& pads, const std::string& name) {
     if (!pads.error().empty()) return Failure{pads.error()};
     for (const auto end = std::chrono::steady_clock::now() + searchTime;
-         std::chrono::steady_clock::now() < end && !interrupted; systemTime(pads).tick())
+         std::chrono::steady_clock::now() < end && !interrupted; makeTrialClock(pads).tick())
         if (auto pad = pads.open(name)) return pad;
     return Failure{name == anyPad ? "no game controller with motors is there"
                                   : "no game controller with motors is called " + inQuotes(name)};
 }
 
 /// Plays ten impacts of 20 ms with increasing level, as `play` sends them.
-void playHits(GamePad& pad, const PadLaw& law, const PadTrialClock& time) {
+void playHits(GamePad& pad, const PadModel& law, const PadTrialClock& clock) {
     ActuatorLayout phone;
     layoutPreset("phone2", phone);
-    const PhantomPanner grips = PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
+    const PhantomPanner grips = PadMotors::makeGripPanner({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
     PadMotors motors{law};
     constexpr std::int64_t intervalNs = 600'000'000;
     for (int i = 1; i <= 10; ++i) {
@@ -97,10 +97,10 @@ void playHits(GamePad& pad, const PadLaw& law, const PadTrialClock& time) {
         hit.x = hit.y = 0.5;
         motors.strike(hit, grips);
     }
-    const double begin = time.seconds();
-    for (PadCommand lastCommand; time.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
-         time.tick()) {
-        if (static_cast<double>(motors.dueNs()) * 1e-9 > time.seconds() - begin) continue;
+    const double beginSeconds = clock.seconds();
+    for (PadCommand lastCommand; clock.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
+         clock.tick()) {
+        if (static_cast<double>(motors.dueNs()) * 1e-9 > clock.seconds() - beginSeconds) continue;
         const PadCommand command = motors.next(1.0);
         if (!command.isSame(lastCommand)) pad.rumble(command.low, command.high);
         lastCommand = command;
@@ -110,25 +110,25 @@ void playHits(GamePad& pad, const PadLaw& law, const PadTrialClock& time) {
 int testMotors(const PadsOptions& o) {
     installInterruptHandlers();
     GamePads pads;
-    auto found = awaitPad(pads, o.pad);
-    if (!found) return reportExit(exitFailed, found.error);
-    GamePad& pad = *found.value;
+    auto foundPad = awaitPad(pads, o.pad);
+    if (!foundPad) return reportExit(exitFailed, foundPad.error);
+    GamePad& pad = *foundPad.value;
     auto profile = findPad(pad.info().profile);
-    PadLaw law = profile.value.law;
+    PadModel law = profile.value.law;
     law.commandsPerSecond = std::min(law.commandsPerSecond, maxCommandsPerSecond(pad.info().bus));
-    const PadTrialClock time = systemTime(pads);
+    const PadTrialClock clock = makeTrialClock(pads);
     std::cout << pad.info().name << ", " << profile.value.name << '\n';
-    for (const auto& [words, low, high] :
+    for (const auto& [motorName, low, high] :
          {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
         for (const double command : {0.2, 0.4, 0.7, 1.0}) {
-            std::cout << words << ": command " << numberText(command) << std::endl;
-            if (!holdMotors(pad, low * command, high * command, 0.7, time) ||
-                !holdMotors(pad, 0.0, 0.0, 0.5, time))
+            std::cout << motorName << ": command " << numberText(command) << std::endl;
+            if (!holdMotors(pad, low * command, high * command, 0.7, clock) ||
+                !holdMotors(pad, 0.0, 0.0, 0.5, clock))
                 return reportExit(exitFailed,
                                   pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
         }
     std::cout << "ten hits of 20 ms, from 0.1 to 1 of full scale: all of them should be felt" << std::endl;
-    playHits(pad, law, time);
+    playHits(pad, law, clock);
     pad.rumble(0.0, 0.0);
     return interrupted ? reportExit(exitFailed, "ended before its time") : exitDone;
 }
@@ -139,14 +139,14 @@ int calibrateMotors(const PadsOptions& o) {
     if (!file.error().empty()) return reportExit(exitFailed, file.error());
     installInterruptHandlers();
     GamePads pads{GamePads::Driver::sdl};
-    auto found = awaitPad(pads, o.pad);
-    if (!found) return reportExit(exitFailed, found.error);
-    GamePad& pad = *found.value;
+    auto foundPad = awaitPad(pads, o.pad);
+    if (!foundPad) return reportExit(exitFailed, foundPad.error);
+    GamePad& pad = *foundPad.value;
     PadProfile profile = findPad(pad.info().profile).value;
     for (const bool isHeavy : {true, false}) {
         std::cout << (isHeavy ? "heavy" : "light")
                   << " motor, 15 s: leave the controller alone, on something soft" << std::endl;
-        const auto steps = recordMotor(pad, isHeavy, systemTime(pads));
+        const auto steps = recordMotor(pad, isHeavy, makeTrialClock(pads));
         const auto motor = steps ? fitMotor(steps.value) : Result<PadMotor>{Failure{steps.error}};
         if (!motor) return reportExit(exitFailed, motor.error);
         const PadMotor& m = isHeavy ? profile.law.low = motor.value : profile.law.high = motor.value;
@@ -158,8 +158,8 @@ int calibrateMotors(const PadsOptions& o) {
     profile.name = o.name.empty() ? std::filesystem::path{o.profilePath}.stem().string() : o.name;
     profile.description = "measured on " + pad.info().name;
     profile.source = "physvib pads calibrate " PHYSVIB_VERSION ", the controller's own accelerometer";
-    if (const auto read = readPad(padJson(profile), o.profilePath); !read)
-        return reportExit(exitFailed, read.error);
+    if (const auto checkedPad = readPad(padJson(profile), o.profilePath); !checkedPad)
+        return reportExit(exitFailed, checkedPad.error);
     file.write(padJson(profile));
     if (const std::string& error = file.commit(); !error.empty()) return reportExit(exitFailed, error);
     std::cout << o.profilePath << "  for --pad " << (o.pad == anyPad ? "auto" : o.pad) << '@' << o.profilePath

@@ -117,7 +117,7 @@ Result<PlainMessage> InputListener::handleInput(LineInput& input, const Line& li
     if (const auto* message = std::get_if<PlainMessage>(&input)) {
         auto answer = messages_.handle(*message, nullptr, clips_);
         if (answer.value.name == "status")
-            answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
+            answer.value.values.push_back({"unread", static_cast<double>(droppedLines(StdStream::output))});
         return answer;
     }
     if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.silenceCount;

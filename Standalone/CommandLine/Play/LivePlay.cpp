@@ -26,12 +26,12 @@ namespace physvib {
 
 namespace {
 
-std::string summary(const OscCounts& c) {
-    std::ostringstream words;
-    words << c.packets << " packets, " << c.malformed << " bad, " << c.lost << " lost; " << c.messages
-          << " messages, " << c.refused << " refused, " << c.late << " late, " << c.heldBack
-          << " replies held back";
-    return words.str();
+std::string countsText(const OscCounts& c) {
+    std::ostringstream text;
+    text << c.packets << " packets, " << c.malformed << " bad, " << c.lost << " lost; " << c.messages
+         << " messages, " << c.refused << " refused, " << c.late << " late, " << c.heldBack
+         << " replies held back";
+    return text.str();
 }
 
 /// Prints the listening address on stderr, and if the requested port is in use. Any thread.
@@ -43,7 +43,7 @@ void printPort(const OscSettings& settings, const std::string& address) {
 
 /// Prints a summary on stdout at the end. Any thread.
 void printOscSummary(const OscStatus& osc) {
-    if (!osc.address.empty()) std::cout << "OSC at " << osc.address << ": " << summary(osc.counts) << '\n';
+    if (!osc.address.empty()) std::cout << "OSC at " << osc.address << ": " << countsText(osc.counts) << '\n';
     if (osc.sent + osc.unsent > 0)
         std::cout << "OSC out: " << osc.sent << " sent, " << osc.unsent << " not taken\n";
 }
@@ -55,7 +55,7 @@ public:
     void printNewErrors(const OscCounts& counts) {
         const std::uint64_t errors = counts.failures() + counts.late + counts.lost + counts.heldBack;
         if (std::exchange(reportedErrors_, errors) == errors) return;
-        printMessage("OSC: " + summary(counts) + (counts.lastError.empty() ? "" : "; the last error: ") +
+        printMessage("OSC: " + countsText(counts) + (counts.lastError.empty() ? "" : "; the last error: ") +
                      counts.lastError);
     }
 
@@ -63,7 +63,7 @@ private:
     std::uint64_t reportedErrors_ = 0;
 };
 
-std::uint64_t dropsOf(const Session& session, const RenderStatus& status) {
+std::uint64_t countDrops(const Session& session, const RenderStatus& status) {
     return session.world().drops() + status.unsent + session.pulse().dropped();
 }
 
@@ -84,8 +84,8 @@ public:
     /// Stops playback; returns the number of events that were played.
     std::uint64_t stop() {
         if (!interrupted && !rig_.output().status().isRunning) deviceError_ = rig_.errorText();
-        rig_.stop([this](const PlayedEvent&) { ++played_; });
-        return played_;
+        rig_.stop([this](const PlayedEvent&) { ++playedCount_; });
+        return playedCount_;
     }
 
     /// Empty, or the error of a device that was lost before the end. Valid after stop().
@@ -96,7 +96,7 @@ private:
 
     bool tick() {
         rig_.step();
-        rig_.drainPlayed([this](const PlayedEvent&) { ++played_; });
+        rig_.drainPlayed([this](const PlayedEvent&) { ++playedCount_; });
         const SessionStatus status = rig_.session().status();
         if (++ticks_ % (1000 / tickMs) == 0) reportEverySecond(status);
         const bool hasEnded = listener_ && listener_->hasEnded();
@@ -125,22 +125,22 @@ private:
         const AudioOutputStatus o = rig_.output().status();
         const double rate = rig_.output().sampleRateHz() / 1e3;
         const auto margin = status.minMarginFrames == noMargin ? 0 : status.minMarginFrames;
-        char words[200];
-        std::snprintf(words, sizeof words,
+        char line[200];
+        std::snprintf(line, sizeof line,
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped%s   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
                       static_cast<double>(rig_.session().timeline().outputLatencyFrames()) / rate,
                       static_cast<double>(margin) / rate, status.render.liveModes,
                       static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(dropsOf(rig_.session(), status.render)),
+                      static_cast<unsigned long long>(countDrops(rig_.session(), status.render)),
                       o.guardGain < 1.0f ? "  guard acts" : "");
-        std::cerr << words << std::flush;
+        std::cerr << line << std::flush;
     }
 
     void printDroppedOutput() {
-        const std::uint64_t dropped = droppedLines(Standard::output);
-        if (std::exchange(droppedOutput_, dropped) != dropped)
+        const std::uint64_t dropped = droppedLines(StdStream::output);
+        if (std::exchange(droppedCount_, dropped) != dropped)
             printMessage("standard output: lines that were dropped, as nobody read them: " +
                          std::to_string(dropped));
     }
@@ -155,24 +155,24 @@ private:
     const InputListener* listener_;
     std::int64_t endNs_;
     OscReport oscReport_;
-    std::uint64_t played_ = 0, droppedOutput_ = 0;
+    std::uint64_t playedCount_ = 0, droppedCount_ = 0;
     int ticks_ = 0, stalledSeconds_ = 0;
     std::int64_t lastSessionNs_ = -1;
     std::string lastError_, deviceError_;
 };
 
-void printSummary(Rig& rig, std::uint64_t played) {
+void printSummary(Rig& rig, std::uint64_t playedCount) {
     Session& session = rig.session();
     AudioOutput& output = rig.output();
     const SessionStatus status = session.status();
-    const RenderStatus& r = status.render;
+    const RenderStatus& render = status.render;
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
     std::cout << std::fixed << std::setprecision(1) << "output latency "
               << static_cast<double>(session.timeline().outputLatencyFrames()) / framesPerMs << " ms; "
-              << played << " events left, " << r.late << " late, " << dropsOf(session, r) << " dropped, "
-              << r.rejected << " refused; " << static_cast<double>(session.world().stalledNs()) * 1e-6
-              << " ms of stalls; ";
+              << playedCount << " events left, " << render.late << " late, " << countDrops(session, render)
+              << " dropped, " << render.rejected << " refused; "
+              << static_cast<double>(session.world().stalledNs()) * 1e-6 << " ms of stalls; ";
     if (status.minMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.minMarginFrames) / framesPerMs << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, "
@@ -186,8 +186,8 @@ void printSummary(Rig& rig, std::uint64_t played) {
         total.seconds > 0.0 ? std::cout << ' ' << total.peak : std::cout << " -";
     }
     std::cout << std::setprecision(1) << " of full scale, " << seconds << " s\n";
-    if (r.withoutPart > 0)
-        std::cout << r.withoutPart
+    if (render.withoutPart > 0)
+        std::cout << render.withoutPart
                   << " of a part of the body that no actuator is on, felt by their place on all\n";
     if (session.timeline().inputLeadNs() > 0)
         std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds()
@@ -231,14 +231,14 @@ std::string playLive(LivePlaySettings settings) {
     MessageRouter messages{rig.session()};
     if (settings.sound)
         if (auto error = startSound(settings, rig.session(), messages); !error.empty()) return error;
-    std::uint64_t played = 0, beats = 0;
+    std::uint64_t playedCount = 0, beatCount = 0;
     std::optional<OscStatus> oscStatus;
     std::string deviceError;
     {
         rig.start();
-        std::optional<LiveBeats> music;
+        std::optional<LiveBeats> liveBeats;
         if (settings.beats)
-            music.emplace(rig.session(), *rig.inputs(), *settings.beats, settings.beatSensitivity);
+            liveBeats.emplace(rig.session(), *rig.inputs(), *settings.beats, settings.beatSensitivity);
         std::optional<InputListener> listener;
         const ClipFolder clips{settings.clips};
         if (settings.readsInput)
@@ -248,17 +248,17 @@ std::string playLive(LivePlaySettings settings) {
         {
             PlayLoop loop{rig, osc.get(), listener ? &*listener : nullptr, settings.seconds};
             loop.run();
-            played = loop.stop();
+            playedCount = loop.stop();
             deviceError = loop.deviceError();
         }
         if (osc) oscStatus = osc->status();
-        if (music) beats = music->beats();
+        if (liveBeats) beatCount = liveBeats->count();
     } // inputs end here, so that a sender that continues does not delay the end
     const std::string saveError = rig.finish(interrupted);
     if (oscStatus) printOscSummary(*oscStatus);
-    printSummary(rig, played);
+    printSummary(rig, playedCount);
     if (rig.inputs()) {
-        std::cout << beats << " beats heard\n";
+        std::cout << beatCount << " beats heard\n";
         warnIfAny(rig.inputs()->chunksLost(), "sound was lost on its way to the beats", " times");
     }
     std::string error;
@@ -276,13 +276,13 @@ std::string channelCountText(const LoadedClip& sound) {
 }
 
 /// True if channel j belongs to actuator j; otherwise there is one channel, or the file gives places.
-bool hasOwnChannels(const LoadedClip& sound) { return sound.channels.size() > 1 && sound.shares.empty(); }
+bool hasOwnChannels(const LoadedClip& sound) { return sound.channels.size() > 1 && sound.places.empty(); }
 
 } // namespace
 
 bool isSoundFile(std::string_view file) {
     const std::string lower = lowerCase(std::string{file});
-    return clipFormatOf(file) ||
+    return findClipFormat(file) ||
            std::ranges::any_of(soundFileExtensions, [&](auto ending) { return lower.ends_with(ending); });
 }
 
@@ -322,8 +322,8 @@ std::string soundError(const LoadedClip& sound, const LoadedRender& job) {
 std::string startSound(LivePlaySettings& settings, const Session& session, MessageRouter& messages) {
     PlainMessage message{"clip", {{"file", settings.rig.setup.scene.name}}};
     if (hasOwnChannels(*settings.sound)) message.values.push_back({"law", "alone"});
-    const auto read = [&](const std::string&) { return Result<LoadedClip>{std::move(*settings.sound)}; };
-    const auto reply = messages.handle(message, nullptr, read);
+    const auto takeSound = [&](const std::string&) { return Result<LoadedClip>{std::move(*settings.sound)}; };
+    const auto reply = messages.handle(message, nullptr, takeSound);
     settings.seconds += session.timeline().outputLatencySeconds();
     return reply.error;
 }

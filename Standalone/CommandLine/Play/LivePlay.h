@@ -42,12 +42,12 @@ public:
         thread_.join();
     }
 
-    std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_relaxed); } ///< Any thread.
+    std::uint64_t count() const noexcept { return count_.load(std::memory_order_relaxed); } ///< Any thread.
 
 private:
     static constexpr std::chrono::milliseconds pollInterval{1};
     static constexpr std::int64_t nsPerSecond = 1'000'000'000;
-    static std::int64_t nsOf(std::int64_t frames, int rateHz) {
+    static std::int64_t framesToNs(std::int64_t frames, int rateHz) {
         return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz;
     }
 
@@ -60,12 +60,12 @@ private:
     }
     // Restarts the detector if session time jumps, because input was lost or the device returned.
     void process(const InputChunk& chunk) {
-        const std::int64_t expectedNs = startNs_ + (detector_ ? nsOf(processedFrames_, rateHz_) : 0);
+        const std::int64_t expectedNs = startNs_ + (detector_ ? framesToNs(processedFrames_, rateHz_) : 0);
         if (!detector_ || chunk.rateHz != rateHz_ ||
             std::abs(chunk.sessionNs - expectedNs) > nsPerSecond / chunk.rateHz)
             restart(chunk);
         processedFrames_ += chunk.count;
-        detector_->process(chunk.sound(), [this](const BandOnset& onset) { submitBeat(onset); });
+        detector_->process(chunk.usedSamples(), [this](const BandOnset& onset) { submitBeat(onset); });
     }
     void restart(const InputChunk& chunk) {
         if (!detector_ || chunk.rateHz != rateHz_)
@@ -79,10 +79,10 @@ private:
     void submitBeat(const BandOnset& onset) {
         const PhantomPanner panner = session_.panner();
         std::vector<CollisionEvent> events;
-        makeBeatEvents(onset, startNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
+        makeBeatEvents(onset, startNs_ + framesToNs(onset.frame, rateHz_), voices_, panner.layout(),
                        panner.fieldWidthMetres(), panner.fieldHeightMetres(),
                        [&](const CollisionEvent& e) { events.push_back(e); });
-        if (session_.submit({Strikes{events}, 0})) ++beats_;
+        if (session_.submit({Strikes{events}, 0})) ++count_;
     }
 
     Session& session_;
@@ -92,7 +92,7 @@ private:
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
     std::int64_t startNs_ = 0, processedFrames_ = 0; // session time of the first frame; frames since
-    std::atomic<std::uint64_t> beats_{0};
+    std::atomic<std::uint64_t> count_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

@@ -21,7 +21,7 @@ namespace physvib {
 namespace {
 
 struct PlayOptions {
-    RenderJob scene;       ///< what is played, with its layout and panning
+    RenderJob input;       ///< what is played, with its layout and panning
     LivePlaySettings live; ///< settings of the playback
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
@@ -51,7 +51,7 @@ std::string parseMap(std::string_view option, const std::string& example, const 
     return {};
 }
 
-float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
+float toGain(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
 
 /// "-6" for all channels, or "-6,-12,-6,-6" for each; false for any other text.
 bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxActuators>& ceilings) {
@@ -62,15 +62,15 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     if (decibels.size() != static_cast<std::size_t>(channels) ||
         !std::all_of(decibels.begin(), decibels.end(), isCeiling))
         return false;
-    std::transform(decibels.begin(), decibels.end(), ceilings.begin(), gainOf);
+    std::transform(decibels.begin(), decibels.end(), ceilings.begin(), toGain);
     return true;
 }
 
-SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
+SessionSetup makeSetup(const PlayOptions& o, const LoadedRender& job) {
     SessionSetup setup = sessionSetup(job);
-    if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
-    if (o.scene.contactSound.find(',') != std::string::npos) setup.ears = 2;
-    setup.marks = o.scene.marks();
+    if (!o.input.contactSound.empty()) setup.contactSound = job.recordings;
+    if (o.input.contactSound.find(',') != std::string::npos) setup.contactChannels = 2;
+    setup.marks = o.input.marks();
     if (o.isDirect) setup.direct = Direct::inputs;
     setup.longestGapSeconds =
         o.driver == "thread" ? threadGapSeconds(setup.stepsPerSecond) : messageTimerGapSeconds;
@@ -96,7 +96,7 @@ int prepareDualSense(AudioOutputSettings& settings, int channels) {
 }
 
 void declarePlayOptions(OptionTable& command, PlayOptions& o) {
-    declareSceneOptions(command, o.scene);
+    declareSceneOptions(command, o.input);
     command.add("--device", o.device, "output device (see physvib devices), or pico: the first Pico");
     command
         .add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")
@@ -127,12 +127,12 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")
         .in(PinkNoise::minDb, PinkNoise::maxDb);
     command
-        .add("--contact-sound", o.scene.contactSound,
+        .add("--contact-sound", o.input.contactSound,
              "other outputs of the device on which each hit is heard, from 1; two: left and right")
         .as("5,6");
     command
         .add(
-            "--marker", o.scene.marker,
+            "--marker", o.input.marker,
             "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes")
         .as("8");
     command.add("--block", o.blockFrames, "frames per block; 0: device default")
@@ -203,7 +203,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
-    if (o.device.empty() && outputs.sinks.empty()) return suggestDevices(o.scene.scene);
+    if (o.device.empty() && outputs.sinks.empty()) return suggestDevices(o.input.scene);
     if (o.device.empty()) { // boards and controllers alone: a timer requests the blocks
         o.device = OutputNames{"BOARD:"}.device;
         for (const char* option : {"--map", "--on-off", "--threshold", "--noise", "--noise-db",
@@ -214,15 +214,15 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     }
     // options that a board or a live session cannot apply
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
-    if (auto error = sceneOptionsError(o.scene); !error.empty()) return reportExit(exitUsage, error);
-    if (!o.scene.coupling.empty()) return reportExit(exitUsage, "--coupling: not yet live; render has it");
-    if (o.scene.limiting == Limiting::blocks && !o.live.rig.savePath.empty())
+    if (auto error = sceneOptionsError(o.input); !error.empty()) return reportExit(exitUsage, error);
+    if (!o.input.coupling.empty()) return reportExit(exitUsage, "--coupling: not yet live; render has it");
+    if (o.input.limiting == Limiting::blocks && !o.live.rig.savePath.empty())
         return reportExit(exitUsage,
                           "--limiter blocks: expected no --save, as a session does not keep blocks");
-    const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings &&
-                         o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 &&
-                         !o.scene.isWeighted;
-    if (hasBoard && !isPlain)
+    const bool isBoardPlayable = o.input.method.fixesNothing() && !o.input.playsRecordings &&
+                                 o.input.actuator == "none" && o.input.levelDb == 0.0 &&
+                                 o.input.gamma == 0.0 && !o.input.isWeighted;
+    if (hasBoard && !isBoardPlayable)
         return reportExit(exitUsage,
                           "--board: not yet with --method, --level-db, --gamma, --perceived-level and "
                           "--actuator; render --events, then board PORT play, has them");
@@ -232,23 +232,23 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     // scene or sound file, layout, actuators and recordings
     if (const auto preset = picoLayoutPreset(systemAudioDrivers, o.device);
         !preset.empty() && !isGiven(command, "--layout"))
-        o.scene.layout = preset;
-    LoadedRender job{o.scene, {}, {}, {}, {}};
+        o.input.layout = preset;
+    LoadedRender job{o.input, {}, {}, {}, {}};
     std::optional<LoadedClip> sound;
-    if (isSoundFile(o.scene.scene)) {
+    if (isSoundFile(o.input.scene)) {
         if (!outputs.sinks.empty())
-            return reportExit(exitUsage, o.scene.scene + ": boards and controllers play no recordings; "
+            return reportExit(exitUsage, o.input.scene + ": boards and controllers play no recordings; "
                                                          "expected a --device alone");
-        recordGivenOptions(command, o.scene);
-        auto loaded = loadSound(o.scene, o.device, job);
+        recordGivenOptions(command, o.input);
+        auto loaded = loadSound(o.input, o.device, job);
         if (!loaded) return reportExit(exitFailed, loaded.error);
         sound = std::move(loaded.value);
     } else if (const int code = loadSceneInto(job); code != exitDone)
         return code;
     if (o.takesLiveInput) job.scene = sceneForUserInput(std::move(*job.scene));
-    auto layout = resolveLayout(o.scene.layout);
+    auto layout = resolveLayout(o.input.layout);
     if (!layout) return reportExit(exitFailed, layout.error);
-    auto calibrated = calibratedLayout(o.scene, std::move(layout.value));
+    auto calibrated = calibratedLayout(o.input, std::move(layout.value));
     if (!calibrated) return reportExit(exitFailed, calibrated.error);
     job.layout = std::move(calibrated.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
@@ -259,17 +259,17 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     if (auto error = fixedLevelError(job); !error.empty()) return reportExit(exitFailed, error);
     if (auto error = sound ? soundError(*sound, job) : ""; !error.empty())
         return reportExit(exitUsage, error);
-    auto actuators = chooseActuators(o.scene, job.layout);
+    auto actuators = chooseActuators(o.input, job.layout);
     if (!actuators) return reportExit(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
     for (const std::string& line :
-         remapWarnings(job.actuators.remap, materialSounds(*job.scene), job.layout, o.scene))
+         remapWarnings(job.actuators.remap, materialSounds(*job.scene), job.layout, o.input))
         printMessage("warning: " + line);
-    if (auto error = loadNamedRecordings(job, materialSounds(*job.scene), o.scene.scene); !error.empty())
+    if (auto error = loadNamedRecordings(job, materialSounds(*job.scene), o.input.scene); !error.empty())
         return reportExit(exitFailed, error);
-    for (const std::string& note : notesOf(job.recordings)) printMessage(note);
-    for (const std::string& line : calibrationWarnings(o.scene, job.layout)) printMessage("warning: " + line);
-    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) printMessage(line);
+    for (const std::string& note : recordingNotes(job.recordings)) printMessage(note);
+    for (const std::string& line : calibrationWarnings(o.input, job.layout)) printMessage("warning: " + line);
+    for (const std::string& line : levelNotes(job.actuators, o.input.sampleRateHz)) printMessage(line);
     const std::vector<std::string> outputPaths{
         o.live.rig.recordPath, o.live.rig.savePath,
         o.live.rig.savePath.empty()
@@ -278,26 +278,26 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     if (auto clash = fileClashError(outputPaths, job.namedInputs()); !clash.empty())
         return reportExit(exitUsage, clash);
     // device outputs, and what they play besides the actuators' signals
-    AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
-    const std::string actuatorsOf = "actuators like 1,2, of " + std::to_string(job.channels());
+    AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, toGain(o.levelDb)};
+    const std::string actuatorsExample = "actuators like 1,2, of " + std::to_string(job.channels());
     ListeningSettings& listening = settings.listening;
     for (const std::string& error :
          {parseMap("--map", "outputs like 1,2,3,4", o.map, settings.channelMap),
-          parseMap("--on-off", actuatorsOf, o.onOff, settings.onOffActuators, job.channels()),
+          parseMap("--on-off", actuatorsExample, o.onOff, settings.onOffActuators, job.channels()),
           parseMap("--noise", "outputs like 5,6", o.noise, listening.noise),
-          parseMap("--contact-sound", "outputs like 5,6", o.scene.contactSound, listening.contacts),
-          parseMap("--marker", "outputs like 8", o.scene.marker, listening.marks),
+          parseMap("--contact-sound", "outputs like 5,6", o.input.contactSound, listening.contacts),
+          parseMap("--marker", "outputs like 8", o.input.marker, listening.marks),
           parseMap("--beats", "inputs like 1,2", o.beatInputs, settings.inputs)})
         if (!error.empty()) return reportExit(exitUsage, error);
     if (dualsense::isDevice(o.device))
         if (const int code = prepareDualSense(settings, job.channels()); code != exitDone) return code;
     settings.onOffThreshold = o.threshold;
     listening.noiseDb = o.noiseDb;
-    listening.contactDb = o.scene.contactSoundDb;
-    const auto voices = beatVoicesOf(o.beats, job.channels());
+    listening.contactDb = o.input.contactSoundDb;
+    const auto voices = parseBeatVoices(o.beats, job.channels());
     if (!voices) return reportExit(exitUsage, voices.error);
     // the session
-    SessionSetup setup = setupOf(o, job);
+    SessionSetup setup = makeSetup(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return reportExit(exitUsage,
                           "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" +
@@ -312,7 +312,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     live.rig.sinks = outputs.sinks;
     live.rig.hasOwnThread = o.driver == "thread";
     live.rig.provenance = {PHYSVIB_VERSION, {{"scene", setup.scene.name}, {"session", live.rig.savePath}}};
-    live.seconds = o.scene.seconds;
+    live.seconds = o.input.seconds;
     live.beatSensitivity = o.beats.sensitivity;
     live.osc.phoneAngleRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
     live.sound = std::move(sound);

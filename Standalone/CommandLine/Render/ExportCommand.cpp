@@ -14,15 +14,15 @@ namespace physvib {
 namespace {
 
 struct ExportOptions {
-    RenderJob input; ///< what is exported, and its layout and panning
-    std::string to;  ///< its extension selects the format
+    RenderJob input;  ///< what is exported, and its layout and panning
+    std::string path; ///< its extension selects the format
     double maxDeviation = 0.004;
 };
 
-constexpr double minError = 1e-5, maxError = 0.1;
+constexpr double smallestDeviation = 1e-5, largestDeviation = 0.1;
 
 /// Gains of an event by the panner at its time, because a session may have changed its layout.
-EventGains gainsOf(const LoadedRender& job) {
+EventGains eventGains(const LoadedRender& job) {
     return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event,
                                                                 PhantomPanner::Gains& gains) mutable {
         while (job.keepsLayouts() && next < job.session->log.panners.size() &&
@@ -33,21 +33,22 @@ EventGains gainsOf(const LoadedRender& job) {
     };
 }
 
-HitExport hitsOf(const LoadedRender& job) {
+HitExport toHits(const LoadedRender& job) {
     const std::string& actuator = job.options.actuator;
     const bool isDefault = actuator == "none" || actuator == "layout";
     return {job.source(), fileNameOf(job.source()), job.collisions.events,
             job.layout,   job.options.layout,       isDefault ? std::string{} : actuator};
 }
 
-Result<Clip> clipOf(const LoadedRender& job, double error) {
+Result<Clip> makeClip(const LoadedRender& job, double maxDeviation) {
     if (job.clip) return *job.clip;
-    return clipOfHits(hitsOf(job), {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
+    return makeHitClip(toHits(job),
+                       {maxDeviation, static_cast<std::size_t>(job.channels()), eventGains(job)});
 }
 
 void printLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format,
                  const FrequencyScale& scale) {
-    for (const std::string& loss : lossesOf(parts, format, scale)) printMessage("warning: " + loss);
+    for (const std::string& loss : listLosses(parts, format, scale)) printMessage("warning: " + loss);
     if (parts.size() > 1)
         printMessage("warning: a file for each actuator; for one file of all hits: --layout phone1");
     if (job.session && !job.session->log.channels.empty())
@@ -73,9 +74,9 @@ std::string loadEvents(LoadedRender& job, std::vector<std::string>& warnings) {
                                    "expected --method AV-FV-DRV, for modes";
     if (job.session && !job.session->log.clips.empty())
         return job.options.scene + ": the session plays clips, which are exported by themselves";
-    auto made = makeEvents(job);
-    if (!made) return made.error;
-    warnings = std::move(made.value);
+    auto newWarnings = makeEvents(job);
+    if (!newWarnings) return newWarnings.error;
+    warnings = std::move(newWarnings.value);
     if (job.scene || job.options.isGiven("--seconds"))
         std::erase_if(job.collisions.events,
                       [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
@@ -85,35 +86,35 @@ std::string loadEvents(LoadedRender& job, std::vector<std::string>& warnings) {
 void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
     std::vector<std::string> formats;
-    for (const ClipFormatInfo& row : clipFormats)
-        formats.push_back(std::string{row.ending} + " (" + std::string{row.owner} + ")");
-    command.add("--to", o.to, "the file; its ending says the format: " + listed(formats))
+    for (const ClipFormatInfo& format : clipFormats)
+        formats.push_back(std::string{format.ending} + " (" + std::string{format.owner} + ")");
+    command.add("--to", o.path, "the file; its ending says the format: " + nameList(formats))
         .required()
         .outputFile("FILE");
     command
         .add("--error", o.maxDeviation, "how far lines may be from each hit's exponential, of its strength")
-        .in(minError, maxError);
+        .in(smallestDeviation, largestDeviation);
 }
 
 int runExport(const OptionTable& command, ExportOptions& options) {
     RenderJob& o = options.input;
     recordGivenOptions(command, o);
     if (const std::string error = exportOptionsError(o); !error.empty()) return reportExit(exitUsage, error);
-    const auto format = clipFormatOf(options.to);
-    if (!format) return reportExit(exitUsage, "--to: " + fileExtensionError(options.to, writableEndings));
+    const auto format = findClipFormat(options.path);
+    if (!format) return reportExit(exitUsage, "--to: " + fileExtensionError(options.path, writableEndings));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // the playing device equalises its own actuators
     if (const std::string error = sceneOptionsError(o); !error.empty()) return reportExit(exitUsage, error);
     LoadedRender job{o, {}, {}, {}, {}};
     if (const int code = loadInputs(job); code != exitDone) return code;
-    const auto scale = frequencyScaleOf(o);
+    const auto scale = findFrequencyScale(o);
     if (!scale) return reportExit(exitFailed, scale.error);
     std::vector<std::string> warnings;
     if (const std::string error = job.clip ? std::string{} : loadEvents(job, warnings); !error.empty())
         return reportExit(exitFailed, error);
-    const Result<Clip> clip = clipOf(job, options.maxDeviation);
+    const Result<Clip> clip = makeClip(job, options.maxDeviation);
     if (!clip) return reportExit(exitFailed, clip.error);
-    const std::vector<ClipPart> parts = partsOf(clip.value, options.to, *format);
+    const std::vector<ClipPart> parts = splitClip(clip.value, options.path, *format);
     std::vector<std::string> outputs, inputs = job.namedInputs();
     for (const ClipPart& part : parts) outputs.push_back(part.path);
     for (const std::string& path : {o.scene, o.fromEvents, o.layout, o.actuator}) inputs.push_back(path);

@@ -22,18 +22,18 @@ constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little below the limit 
 // The error of an event at or above half the sample rate, which would alias; or empty.
 std::string aliasingError(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
     const double limitHz = 0.5 * rateHz;
-    const auto tooHigh =
+    const auto highEvent =
         std::find_if(events.begin(), events.end(), [=](const auto& e) { return e.frequencyHz >= limitHz; });
-    if (tooHigh == events.end()) return {};
+    if (highEvent == events.end()) return {};
     std::ostringstream text;
-    text << source << ": event " << tooHigh - events.begin() + 1
+    text << source << ": event " << highEvent - events.begin() + 1
          << ": column frequency_hz: expected less than half of --rate, " << limitHz << " Hz, found "
-         << tooHigh->frequencyHz;
+         << highEvent->frequencyHz;
     return text.str();
 }
 
 // Prints warnings about all that was lost or altered.
-void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
+void printRenderLosses(const RenderStatus& status, const LoadedRender& job) {
     const auto& events = job.collisions.events;
     const auto afterEnd =
         std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
@@ -49,12 +49,12 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     warnIfAny(static_cast<std::uint64_t>(afterEnd),
               "events that begin after the end of the render (see --seconds)");
     if (job.scene || job.clip) return;
-    const std::string outside = outsideFieldWarning(events, job.field(), job.hasGuessedField());
-    if (!outside.empty()) printMessage("warning: " + outside);
+    const std::string outsideText = outsideFieldWarning(events, job.field(), job.hasGuessedField());
+    if (!outsideText.empty()) printMessage("warning: " + outsideText);
 }
 
-OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls,
-                           const RecordedContacts& contacts) {
+OfflineSettings makeSettings(const LoadedRender& job, const std::vector<RenderControl>& controls,
+                             const RecordedContacts& contacts) {
     const RenderJob& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
@@ -75,7 +75,7 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
     const RenderJob& o = job.options;
     const ContactSounds sounds{job.recordings, o.sampleRateHz};
     ContactAudioRender audio{o.sampleRateHz, job.frames(), o.blockFrames};
-    audio.ears = o.contactSoundChannels;
+    audio.channels = o.contactSoundChannels;
     audio.field = job.panner();
     audio.levelDb = o.contactSoundDb;
     audio.recordings = {sounds.contacts(), true};
@@ -89,12 +89,12 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
 RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
     const ClipEvents clip{job};
     return renderOffline(
-        clip.events(), settingsOf(job, {}, {clip.contacts()}),
+        clip.events(), makeSettings(job, {}, {clip.contacts()}),
         [&](const float* const* channels, int frames) { return outputs.write(channels, frames); });
 }
 
 /// Renders the samples, and the onset markers if requested, in the same pass.
-RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
+RenderStatus renderWithMarks(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
     const auto markedOnsets = job.options.marks();
     if (!markedOnsets)
         return renderOffline(job.collisions.events, settings, [&](const float* const* channels, int frames) {
@@ -114,11 +114,11 @@ RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
     SessionRecordings recordings{job.session ? job.session->log : SessionLog{}, job.sessionRecordings,
                                  job.options.sampleRateHz};
     const auto controls =
-        recordings.mergedWith(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels())
+        recordings.mergedWith(job.session ? logControls(job.session->log, job.keepsLayouts(), job.channels())
                                           : std::vector<RenderControl>{});
     outputs.computeMotorCommands(controls);
-    const RenderStatus status =
-        renderMarked(job, settingsOf(job, controls, recordings.withClips(job.playedRecordings())), outputs);
+    const RenderStatus status = renderWithMarks(
+        job, makeSettings(job, controls, recordings.withClips(job.playedRecordings())), outputs);
     if (outputs.needsContactSound()) renderContactSound(job, controls, outputs);
     return status;
 }
@@ -142,8 +142,8 @@ std::string render(LoadedRender& job) {
         return error;
     if (auto error = loadNamedRecordings(job, job.collisions.events, job.source()); !error.empty())
         return error;
-    for (const std::string& note : notesOf(job.recordings)) printMessage(note);
-    outputs.begin();
+    for (const std::string& note : recordingNotes(job.recordings)) printMessage(note);
+    outputs.startZoom();
     const RenderStatus status = job.clip ? renderClip(job, outputs) : renderEvents(job, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;
     for (const std::string& line : warnings.value) printMessage("warning: " + line);
@@ -151,7 +151,7 @@ std::string render(LoadedRender& job) {
         printMessage("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) printMessage(line);
     if (!job.coupling.note.empty()) printMessage(job.coupling.note);
-    warnOfLosses(status, job);
+    printRenderLosses(status, job);
     outputs.summarise(std::cout);
     if (job.options.explains) printExplanation(job, status);
     return {};

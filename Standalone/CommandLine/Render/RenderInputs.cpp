@@ -14,8 +14,8 @@ namespace {
 
 /// Loads the layout of the options, else `ownLayout`, and the data of its actuators; or one error line.
 std::string chooseLayout(LoadedRender& job, std::optional<LayoutDescription> ownLayout) {
-    const bool usesOwn = ownLayout && !job.options.isGiven("--layout");
-    auto layout = usesOwn ? Result{std::move(*ownLayout)} : resolveLayout(job.options.layout);
+    const bool usesOwnLayout = ownLayout && !job.options.isGiven("--layout");
+    auto layout = usesOwnLayout ? Result{std::move(*ownLayout)} : resolveLayout(job.options.layout);
     if (layout) layout = calibratedLayout(job.options, std::move(layout.value));
     if (!layout) return layout.error;
     job.layout = std::move(layout.value);
@@ -47,10 +47,11 @@ std::string readInputs(LoadedRender& job) {
 }
 
 /// Simulates the events of the scene or session; one error line if the simulation takes too long.
-Result<SceneEvents> eventsOf(const LoadedRender& job) {
+Result<SceneEvents> simulateEvents(const LoadedRender& job) {
     SimulationTimeLimit timeLimit{job.options.timeoutSeconds};
-    auto simulated = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(timeLimit))
-                                 : simulateScene(*job.scene, job.run(), job.endNs(), std::ref(timeLimit));
+    auto simulated = job.session
+                         ? sessionEvents(*job.session, job.endNs(), std::ref(timeLimit))
+                         : simulateScene(*job.scene, job.settings(), job.endNs(), std::ref(timeLimit));
     if (auto error = timeLimit.error(); !error.empty()) return Failure{job.options.scene + ": " + error};
     return simulated;
 }
@@ -59,7 +60,7 @@ Result<SceneEvents> eventsOf(const LoadedRender& job) {
 
 int loadInputs(LoadedRender& job) {
     const std::string& name = job.options.scene;
-    if (clipFormatOf(name)) return loadClipInto(job);
+    if (findClipFormat(name)) return loadClipInto(job);
     if (!name.empty()) {
         const bool isSession = isJsonPath(name) && fileKind(name) == FileKind::session;
         if (const int code = isSession ? loadSessionInto(job) : loadSceneInto(job); code != exitDone)
@@ -71,7 +72,7 @@ int loadInputs(LoadedRender& job) {
 
 Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     if (job.scene) {
-        auto simulated = eventsOf(job);
+        auto simulated = simulateEvents(job);
         if (!simulated) return Failure{simulated.error};
         job.collisions = std::move(simulated.value);
     }
@@ -87,7 +88,7 @@ bool hasPlaces(const Clip& clip) {
                                [](const ClipChannel& channel) { return channel.place.has_value(); });
 }
 
-LayoutDescription layoutOf(const Clip& clip) {
+LayoutDescription makeClipLayout(const Clip& clip) {
     ActuatorLayout geometry{
         clip.extentWidthMetres, clip.extentHeightMetres, static_cast<int>(clip.channels.size()), {}};
     for (std::size_t j = 0; j < clip.channels.size(); ++j) geometry.places[j] = *clip.channels[j].place;
@@ -95,17 +96,17 @@ LayoutDescription layoutOf(const Clip& clip) {
 }
 
 /// Converts the place to metres of the job's field.
-ActuatorPlace placeOf(const LoadedRender& job, std::size_t channel) {
+ActuatorPlace channelPlace(const LoadedRender& job, std::size_t channel) {
     const Clip& clip = *job.clip;
     const ActuatorLayout& layout = job.layout.geometry;
-    const auto onField = [&](double x, double y) {
+    const auto toField = [&](double x, double y) {
         return ActuatorPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()};
     };
     if (hasPlaces(clip))
-        return onField(clip.channels[channel].place->xMetres / clip.extentWidthMetres,
+        return toField(clip.channels[channel].place->xMetres / clip.extentWidthMetres,
                        clip.channels[channel].place->yMetres / clip.extentHeightMetres);
-    if (static_cast<int>(clip.channels.size()) != layout.count) return onField(0.5, 0.5);
-    return onField(layout.places[channel].xMetres / layout.extentWidthMetres,
+    if (static_cast<int>(clip.channels.size()) != layout.count) return toField(0.5, 0.5);
+    return toField(layout.places[channel].xMetres / layout.extentWidthMetres,
                    layout.places[channel].yMetres / layout.extentHeightMetres);
 }
 
@@ -125,7 +126,7 @@ ClipEvents::ClipEvents(const LoadedRender& job)
     : sound_{clipSound(*job.clip, job.options.sampleRateHz)} {
     if (const std::string note = removeSlowPart(sound_, job.options.scene); !note.empty()) printMessage(note);
     for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
-        const ActuatorPlace place = placeOf(job, j);
+        const ActuatorPlace place = channelPlace(job, j);
         const SoundNumber sound = soundOfClip(static_cast<int>(j));
         events_.push_back({0, clipFrequencyHz, 1.0, job.gain(), place.xMetres, place.yMetres, 0, {}});
         events_.back().sound = sound;
@@ -133,7 +134,7 @@ ClipEvents::ClipEvents(const LoadedRender& job)
     }
 }
 
-Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
+Result<FrequencyScale> findFrequencyScale(const RenderJob& options) {
     if (options.actuator == "none" || options.actuator == "layout") return FrequencyScale{};
     const auto profile = findActuator(options.actuator);
     if (!profile) return Failure{"--actuator: " + profile.error};
@@ -147,14 +148,14 @@ int loadClipInto(LoadedRender& job) {
                                            "--method", "--sound", "--perceived-level", "--remap",
                                            "--contact-sound", "--marker", "--events", "--coupling"}))
         return reportExit(exitUsage, std::string{option} + ": a clip has no collisions");
-    const auto scale = frequencyScaleOf(o);
+    const auto scale = findFrequencyScale(o);
     if (!scale) return reportExit(exitFailed, scale.error);
-    auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);
+    auto clip = loadClip(o.scene, *findClipFormat(o.scene), scale.value);
     if (!clip) return reportExit(exitFailed, clip.error);
-    if (!clip.value.leftOut.empty()) printMessage("warning: " + o.scene + ": " + clip.value.leftOut);
+    if (!clip.value.omissions.empty()) printMessage("warning: " + o.scene + ": " + clip.value.omissions);
     job.clip = std::move(clip.value);
     if (auto error =
-            chooseLayout(job, hasPlaces(*job.clip) ? std::optional{layoutOf(*job.clip)} : std::nullopt);
+            chooseLayout(job, hasPlaces(*job.clip) ? std::optional{makeClipLayout(*job.clip)} : std::nullopt);
         !error.empty())
         return reportExit(exitFailed, error);
     const std::string error = channelCountError(job);

@@ -34,7 +34,7 @@ private:
 
 /// The frequency range that a phone's haptic file refers to: the band of a named --actuator, else the
 /// default. Or one error line if there is no such actuator. Message thread.
-Result<FrequencyScale> frequencyScaleOf(const RenderJob& options);
+Result<FrequencyScale> findFrequencyScale(const RenderJob& options);
 
 /// Loads the clip that the options name, and its own layout if none is given, into `job`. Returns exitDone,
 /// or the exit code after an error line on stderr. Message thread.

@@ -21,20 +21,20 @@
 
 namespace physvib {
 
-inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"; }
+inline std::string levelText(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"; }
 
 /// "peak -6.0 dBFS (0.50 g)", in g of the actuator that moves most. An equalised channel contains the drive
 /// signal, so the acceleration is that before equalisation, not that of the samples in the file.
 inline std::string peakText(const LoadedRender& job, const WaveformEnvelope& envelope) {
     if (!(envelope.peak() > 0.0f)) {
-        const std::string why =
+        const std::string reason =
             job.clip ? ""
                      : silenceReason(job.collisions.events, job.panner(), job.hasGuessedField(), job.endNs());
-        return "silent" + (why.empty() ? "" : ": " + why);
+        return "silent" + (reason.empty() ? "" : ": " + reason);
     }
-    std::string words = "peak " + fixedNumber(toDecibels(static_cast<double>(envelope.peak())), 1) + " dBFS";
+    std::string text = "peak " + fixedNumber(toDecibels(static_cast<double>(envelope.peak())), 1) + " dBFS";
     const auto equalised = job.equalised();
-    if (std::ranges::any_of(equalised, &EqualisedActuator::isKnown)) return "drive " + words;
+    if (std::ranges::any_of(equalised, &EqualisedActuator::isKnown)) return "drive " + text;
     double maxG = 0.0;
     for (int j = 0; j < envelope.channels(); ++j)
         maxG = std::max(
@@ -42,7 +42,7 @@ inline std::string peakText(const LoadedRender& job, const WaveformEnvelope& env
             static_cast<double>(envelope.peak(j)) *
                 job.layout.actuators[std::min(static_cast<std::size_t>(j), job.layout.actuators.size() - 1)]
                     .fullScaleG);
-    return words + " (" + inG(maxG) + ")";
+    return text + " (" + levelText(maxG) + ")";
 }
 
 /// "48 collisions, 0.0020 g to 0.42 g, 3 under one step of an 8-bit converter": each event counts at the
@@ -51,8 +51,8 @@ inline std::string collisionText(const LoadedRender& job) {
     constexpr double converterStep = 1.0 / 128.0; // of full scale: the board's converters
     auto events = job.collisions.events;
     std::erase_if(events, isMeanCompensation);
-    std::string words = counted(events.size(), "collision");
-    if (events.empty()) return words;
+    std::string text = plural(events.size(), "collision");
+    if (events.empty()) return text;
     const PhantomPanner panner = job.panner();
     PhantomPanner::Gains gains{};
     double minG = HUGE_VAL, maxG = 0.0;
@@ -69,14 +69,14 @@ inline std::string collisionText(const LoadedRender& job) {
         maxG = std::max(maxG, g);
         belowStep += level < converterStep ? 1 : 0;
     }
-    return words + ", " + inG(minG) + " to " + inG(maxG) + ", " + std::to_string(belowStep) +
+    return text + ", " + levelText(minG) + " to " + levelText(maxG) + ", " + std::to_string(belowStep) +
            " under one step of an 8-bit converter";
 }
 
 namespace {
 
 /// Opens the file if its path is not empty.
-std::string open(auto& file, const std::string& path, const auto&... arguments) {
+std::string openIfNamed(auto& file, const std::string& path, const auto&... arguments) {
     return path.empty() ? std::string{} : file.emplace(path, arguments...).error();
 }
 
@@ -89,21 +89,21 @@ RenderOutputs::RenderOutputs(const LoadedRender& job)
 
 std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
-    std::string error =
-        o.pad.empty() ? physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText())
-                      : openMotors();
+    std::string error = o.pad.empty()
+                            ? openIfNamed(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText())
+                            : openMotors();
     const std::string text = provenanceText();
     if (error.empty())
-        error = physvib::open(contactWav_, o.contactSound, o.contactSoundChannels, o.sampleRateHz,
-                              text + " heard=contact_sound");
+        error = openIfNamed(contactWav_, o.contactSound, o.contactSoundChannels, o.sampleRateHz,
+                            text + " heard=contact_sound");
     if (error.empty())
-        error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz,
-                              text + " marked=" + std::string{nameOf(o.markedOnsets)});
+        error = openIfNamed(markerWav_, o.marker, 1, o.sampleRateHz,
+                            text + " marked=" + std::string{nameOf(o.markedOnsets)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath},
                                      {&pictureFile_, &o.picturePath},
                                      {&patternFile_, &o.patternPath}})
-        if (error.empty()) error = physvib::open(*file, *path);
-    if (error.empty()) error = physvib::open(movie_, o.moviePath, o.sampleRateHz, o.contactSoundChannels);
+        if (error.empty()) error = openIfNamed(*file, *path);
+    if (error.empty()) error = openIfNamed(movie_, o.moviePath, o.sampleRateHz, o.contactSoundChannels);
     return error;
 }
 
@@ -111,7 +111,7 @@ std::string RenderOutputs::openMotors() {
     auto pad = findPad(job_.options.pad);
     if (!pad) return "--pad: " + pad.error;
     padProfile_ = std::move(pad.value);
-    return physvib::open(motorsFile_, job_.options.wavPath);
+    return openIfNamed(motorsFile_, job_.options.wavPath);
 }
 
 void RenderOutputs::computeMotorCommands(const std::vector<RenderControl>& controls) {
@@ -120,7 +120,7 @@ void RenderOutputs::computeMotorCommands(const std::vector<RenderControl>& contr
             padCommands(padProfile_.law, job_.collisions.events, controls, job_.panner(), job_.endNs());
 }
 
-void RenderOutputs::begin() {
+void RenderOutputs::startZoom() {
     const FrameWindow window = zoomWindow(job_.collisions.events, job_.options.sampleRateHz);
     zoomEnvelope_.emplace(job_.channels(), window.firstFrame, window.frameCount);
 }
@@ -136,7 +136,7 @@ bool RenderOutputs::write(const float* const* channels, int frames) {
 
 bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
-    return wav_->write(voltBlock_.scaled(channels, job_.channels(), frames, job_.actuators.voltageScale),
+    return wav_->write(voltBlock_.copyScaled(channels, job_.channels(), frames, job_.actuators.voltageScale),
                        frames);
 }
 
@@ -195,10 +195,10 @@ Provenance RenderOutputs::inputProvenance() const {
     Provenance p{PHYSVIB_VERSION,
                  {{"scene", job_.scene->name},
                   {"seed", std::to_string(job_.session ? job_.session->log.runs.front().seed : o.seed)},
-                  {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
+                  {"steps_per_second", std::to_string(job_.settings().stepsPerSecond)}}};
     if (job_.session) p.entries.emplace_back("session", fileNameOf(o.scene));
-    if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
-    if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
+    if (job_.settings().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
+    if (job_.settings().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
     for (const SceneVariable& variable : job_.scene->variables)
         p.entries.emplace_back(variable.name, variable.value);
     return p;
@@ -212,7 +212,7 @@ std::string RenderOutputs::provenanceText() const {
 }
 
 RunSettings RenderOutputs::sceneRun() const {
-    RunSettings run = job_.run();
+    RunSettings run = job_.settings();
     if (job_.session) run.seed = job_.session->log.runs.front().seed;
     return run;
 }

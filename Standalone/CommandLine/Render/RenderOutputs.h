@@ -36,17 +36,17 @@ public:
     std::string csv(const Provenance& provenance) const {
         std::string text = provenanceComment(provenance) + "channel,on_s,off_s\n";
         for (std::size_t j = 0; j < rows_.size(); ++j)
-            text += rows_[j] + (steps_[j].isOn() ? secondsOf(steps_[j].steps()) + "\n" : "");
+            text += rows_[j] + (steps_[j].isOn() ? secondsText(steps_[j].steps()) + "\n" : "");
         return text;
     }
 
 private:
-    static std::string secondsOf(long long step) {
+    static std::string secondsText(long long step) {
         return fixedNumber(static_cast<double>(step) / OnOffSteps::stepsPerSecond, 2);
     }
     void addEdge(std::size_t channel, long long step, bool isOn) {
         rows_[channel] +=
-            isOn ? std::to_string(channel + 1) + "," + secondsOf(step) + "," : secondsOf(step) + "\n";
+            isOn ? std::to_string(channel + 1) + "," + secondsText(step) + "," : secondsText(step) + "\n";
     }
 
     std::vector<OnOffSteps> steps_;
@@ -57,7 +57,7 @@ private:
 class ScaledBlock {
 public:
     /// Valid until the next call.
-    const float* const* scaled(const float* const* channels, int count, int frames, const auto& scales) {
+    const float* const* copyScaled(const float* const* channels, int count, int frames, const auto& scales) {
         samples_.resize(static_cast<std::size_t>(count));
         pointers_.clear();
         for (std::size_t j = 0; j < samples_.size(); ++j) {
@@ -84,7 +84,7 @@ public:
     std::string open();
 
     /// To be called when the job's events are known: the picture enlarges the strongest one.
-    void begin();
+    void startZoom();
 
     /// Computes the commands of a game controller from the events and these controls, if requested.
     void computeMotorCommands(const std::vector<RenderControl>& controls);

@@ -31,24 +31,25 @@ public:
         std::error_code error;
         for (auto missing = std::filesystem::absolute(folder);
              !missing.empty() && !std::filesystem::exists(missing, error); missing = missing.parent_path())
-            created_.insert(created_.begin(), missing);
+            folders_.insert(folders_.begin(), missing);
         std::filesystem::create_directories(folder, error);
         return error || !std::filesystem::is_directory(folder)
                    ? folder.string() + ": expected a folder that can be written"
                    : "";
     }
-    void keep() { created_.clear(); }
+    void keep() { folders_.clear(); }
     CreatedFolders() = default;
     CreatedFolders(const CreatedFolders&) = delete;
     CreatedFolders& operator=(const CreatedFolders&) = delete;
     ~CreatedFolders() {
         std::error_code ignored;
         // a folder with files in it stays
-        for (auto at = created_.rbegin(); at != created_.rend(); ++at) std::filesystem::remove(*at, ignored);
+        for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder)
+            std::filesystem::remove(*folder, ignored);
     }
 
 private:
-    std::vector<std::filesystem::path> created_;
+    std::vector<std::filesystem::path> folders_;
 };
 
 void declareReport(OptionTable& command, ReportOptions& o) {
@@ -83,9 +84,9 @@ int runReport(ReportOptions& o) {
     o.job.columns = std::move(columns.value);
     std::optional<Protocol> protocol;
     if (!o.protocol.empty()) {
-        auto found = loadCheckedProtocol(o.protocol);
-        if (!found) return reportExit(exitFailed, found.error);
-        protocol = std::move(found.value);
+        auto foundProtocol = loadCheckedProtocol(o.protocol);
+        if (!foundProtocol) return reportExit(exitFailed, foundProtocol.error);
+        protocol = std::move(foundProtocol.value);
     }
     const auto report = makeReport(o.job, protocol, outputOptionError, runAnalysisScript);
     if (!report) return reportExit(exitFailed, report.error);
@@ -94,7 +95,7 @@ int runReport(ReportOptions& o) {
     if (!o.job.peoplePath.empty()) inputs.push_back(o.job.peoplePath);
     if (!o.job.planPath.empty()) inputs.push_back(o.job.planPath);
     if (const int code = writeFolder(o.job.folder, report.value.files, inputs); code != exitDone) return code;
-    for (const std::string& note : report.value.notes) warn(note);
+    for (const std::string& note : report.value.notes) printWarning(note);
     if (const std::string& error = report.value.scriptError; !error.empty())
         return reportExit(exitFailed, error);
     printIfSimulated(report.value.isSimulated);
@@ -102,7 +103,7 @@ int runReport(ReportOptions& o) {
               << report.value.files.size() << " files\n";
     if (const std::size_t tests = report.value.tests.size(); tests > 0)
         std::cout << (std::filesystem::path{o.job.folder} / testsTable).string() << "  "
-                  << counted(tests, "test") << " by R\n";
+                  << plural(tests, "test") << " by R\n";
     else if (report.value.files.contains(analysisScriptName) && !report.value.files.contains(testsTable))
         std::cout << "tests: run `Rscript "
                   << (std::filesystem::path{o.job.folder} / analysisScriptName).string()

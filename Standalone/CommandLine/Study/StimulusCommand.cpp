@@ -23,7 +23,7 @@ struct RenderedStimulus {
     StimulusSound sound;
 };
 
-std::string titleOf(const StimulusJob& job, const StimulusOptions& o) {
+std::string stimulusTitle(const StimulusJob& job, const StimulusOptions& o) {
     const auto* const phantom = std::get_if<PhantomJob>(&job.stimulus);
     if (phantom == nullptr) return o.pattern.label;
     if (!phantom->recording.empty()) return fileNameOf(phantom->recording);
@@ -48,8 +48,8 @@ Result<StimulusSound> placeSound(const PhantomJob& phantom, double levelG, const
         layout);
 }
 
-Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o,
-                              const LayoutDescription& layout, std::vector<CollisionEvent>& events) {
+Result<StimulusSound> makeSound(const StimulusJob& job, const StimulusOptions& o,
+                                const LayoutDescription& layout, std::vector<CollisionEvent>& events) {
     if (const auto* const phantom = std::get_if<PhantomJob>(&job.stimulus);
         phantom != nullptr && !phantom->recording.empty())
         return placeSound(*phantom, job.levelG, layout);
@@ -60,19 +60,19 @@ Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o,
 }
 
 /// Pointers to the first sample of each channel; valid as long as the sound.
-std::vector<const float*> channelsOf(const StimulusSound& sound) {
+std::vector<const float*> toPointers(const StimulusSound& sound) {
     std::vector<const float*> pointers;
     for (const auto& channel : sound.channels) pointers.push_back(channel.data());
     return pointers;
 }
 
-std::string pictureOf(const RenderedStimulus& result, const StimulusOptions& o,
-                      const LayoutDescription& layout, const std::string& provenance) {
+std::string drawStimulus(const RenderedStimulus& result, const StimulusOptions& o,
+                         const LayoutDescription& layout, const std::string& provenance) {
     const auto frames = static_cast<std::int64_t>(result.sound.channels.front().size());
     const int channels = static_cast<int>(result.sound.channels.size());
     WaveformEnvelope overview{channels, 0, frames},
         zoom{channels, 0, std::min<std::int64_t>(frames, result.sound.sampleRateHz / 10)};
-    const auto samples = channelsOf(result.sound);
+    const auto samples = toPointers(result.sound);
     overview.add(samples.data(), static_cast<int>(frames));
     zoom.add(samples.data(), static_cast<int>(frames));
     PictureInput picture;
@@ -100,15 +100,15 @@ int writeOutputs(const RenderedStimulus& result, const StimulusOptions& o, const
     if (!o.wavPath.empty()) {
         wav.emplace(o.wavPath, static_cast<int>(result.sound.channels.size()), result.sound.sampleRateHz,
                     provenance)
-            .write(channelsOf(result.sound).data(), static_cast<int>(result.sound.channels.front().size()));
+            .write(toPointers(result.sound).data(), static_cast<int>(result.sound.channels.front().size()));
         if (const auto& error = wav->complete(); !error.empty()) return reportExit(exitFailed, error);
     }
     if (const int code =
-            writeStudyFiles({{o.picturePath, [&] { return pictureOf(result, o, layout, provenance); }}});
+            writeStudyFiles({{o.picturePath, [&] { return drawStimulus(result, o, layout, provenance); }}});
         code != exitDone)
         return code;
     if (wav && !wav->finish().empty()) return reportExit(exitFailed, wav->error());
-    std::cout << printable(result.title) << "  " << counted(result.sound.channels.size(), "channel") << ", "
+    std::cout << printable(result.title) << "  " << plural(result.sound.channels.size(), "channel") << ", "
               << fixedNumber(
                      static_cast<double>(result.sound.channels.front().size()) / result.sound.sampleRateHz, 3)
               << " s\n";
@@ -130,8 +130,8 @@ int runStimulus(const OptionTable& command, const StimulusOptions& o) {
         return reportExit(exitUsage, "stimulus: " + error);
     if (o.wavPath.empty() && o.picturePath.empty())
         return reportExit(exitUsage, "stimulus: nothing to write; give --out or --picture");
-    RenderedStimulus result{titleOf(job.value, o), {}, {}};
-    auto sound = soundOf(job.value, o, layout.value, result.events);
+    RenderedStimulus result{stimulusTitle(job.value, o), {}, {}};
+    auto sound = makeSound(job.value, o, layout.value, result.events);
     if (!sound) return reportExit(exitFailed, sound.error);
     result.sound = std::move(sound.value);
     return writeOutputs(result, o, layout.value);

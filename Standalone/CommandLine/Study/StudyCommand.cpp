@@ -80,13 +80,13 @@ std::string runParticipant(const StudyRun& run, const ObserverSettings& settings
 
 /// Applies the recordings of the call to the protocol. One error line if a recording is invalid.
 std::string applyRecordings(const RecordedSounds& sounds, Protocol& protocol) {
-    for (const RecordedSound& chosen : sounds) {
-        if (!chosen.material.empty())
+    for (const RecordedSound& source : sounds) {
+        if (!source.material.empty())
             return "--sound: expected HZ=FILE.wav, the frequency of a study's stimuli, found " +
-                   inQuotes(chosen.material);
+                   inQuotes(source.material);
         std::erase_if(protocol.sounds,
-                      [&](const StudySoundFile& sound) { return sound.frequencyHz == chosen.frequencyHz; });
-        protocol.sounds.push_back({chosen.frequencyHz, chosen.path});
+                      [&](const StudySoundFile& sound) { return sound.frequencyHz == source.frequencyHz; });
+        protocol.sounds.push_back({source.frequencyHz, source.path});
     }
     for (const StudySoundFile& sound : protocol.sounds)
         if (auto contact = loadContact({sound.frequencyHz, resolveProtocolPath(protocol.folder, sound.file)});
@@ -115,19 +115,19 @@ int runForPerson(const StudyOptions& o) {
                           "study run: expected --observer, or a display where physvib-mixer shows a "
                           "person what to answer; its tab Studies has the protocol " +
                               inQuotes(o.protocol));
-    std::vector<std::string> words{"--study",       o.protocol,
-                                   "--participant", participantCode(o, o.number),
-                                   "--number",      std::to_string(o.number)};
-    if (!o.folder.empty()) words.insert(words.end(), {"--out", o.folder});
+    std::vector<std::string> arguments{"--study",       o.protocol,
+                                       "--participant", participantCode(o, o.number),
+                                       "--number",      std::to_string(o.number)};
+    if (!o.folder.empty()) arguments.insert(arguments.end(), {"--out", o.folder});
     printMessage(
         "opening physvib-mixer, where a person answers; --observer simulated is answered by the computer");
-    const auto ran = runProgram(siblingProgram("physvib-mixer"), std::move(words));
-    if (!ran)
-        return reportExit(exitFailed, ran.error + "; expected the package of the mixer to be installed");
-    return ran.value ? exitDone : exitFailed;
+    const auto success = runProgram(siblingProgram("physvib-mixer"), std::move(arguments));
+    if (!success)
+        return reportExit(exitFailed, success.error + "; expected the package of the mixer to be installed");
+    return success.value ? exitDone : exitFailed;
 }
 
-int runStudyFor(const StudyOptions& o) {
+int runStudies(const StudyOptions& o) {
     const std::string expected = "study run: --observer: expected " + std::string(observerNames);
     const bool isPersonAnswering = o.observer.empty() || o.observer == "person";
     const auto settings = isPersonAnswering ? std::optional<ObserverSettings>{} : observerNamed(o.observer);
@@ -149,8 +149,8 @@ int runStudyFor(const StudyOptions& o) {
     std::filesystem::create_directories(o.folder, folderError);
     if (folderError) return reportExit(exitFailed, o.folder + ": cannot be made: " + folderError.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
-        const StudyRun one{protocol.value, {participantCode(o, number), number, o.observer}, o.folder};
-        if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty())
+        const StudyRun studyRun{protocol.value, {participantCode(o, number), number, o.observer}, o.folder};
+        if (auto error = runParticipant(studyRun, *settings, o.paceSeconds); !error.empty())
             return reportExit(exitFailed, error);
     }
     printIfSimulated(true);
@@ -160,25 +160,25 @@ int runStudyFor(const StudyOptions& o) {
 /// Whether limiter or guard change a study as published.
 bool isChangedAsPublished(const Protocol& protocol) {
     return protocol.name.ends_with(thesisSuffix) &&
-           std::ranges::any_of(deviationsOf(protocol), [](const ThesisDeviation& one) {
-               return one.property == HitProperty::limiter || one.property == HitProperty::guard;
+           std::ranges::any_of(findDeviations(protocol), [](const ThesisDeviation& deviation) {
+               return deviation.property == HitProperty::limiter || deviation.property == HitProperty::guard;
            });
 }
 
 int checkProtocol(const StudyOptions& o) {
     const auto protocol = protocolWithSounds(o);
     if (!protocol) return reportExit(exitFailed, protocol.error);
-    const StudyCheck found = checkStudy(protocol.value, o.participants);
+    const StudyCheck result = checkStudy(protocol.value, o.participants);
     if (const int code =
-            writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}});
+            writeStudyFiles({StudyFile{o.pagePath, [&] { return toHtml(result, protocol.value); }}});
         code != exitDone)
         return code;
-    std::cout << textOf(found, protocol.value);
+    std::cout << toText(result, protocol.value);
     if (!o.acceptsDeviations && isChangedAsPublished(protocol.value))
         return reportExit(exitFailed,
                           "study check: limiter or guard change what is published, as deviations above "
                           "say: expected --accept-deviations");
-    return found.errors.empty() ? exitDone : exitFailed;
+    return result.errors.empty() ? exitDone : exitFailed;
 }
 
 int planStudy(const StudyOptions& o) {
@@ -222,7 +222,7 @@ int averageAdjustments(const StudyOptions& o) {
         code != exitDone)
         return code;
     std::cout << o.levelsPath << "  " << averages.size() << " levels of "
-              << counted(averages.front().participants, "participant") << '\n';
+              << plural(averages.front().participants, "participant") << '\n';
     printIfSimulated(data.value.isSimulated);
     return exitDone;
 }
@@ -244,8 +244,8 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     plan.add("--participants", o.participants, "how many are to take part").in(1, 1000).required();
     plan.add("--out", o.planPath, "the same text, for report --plan; beside it analysis.R, the tests in R")
         .outputFile("PLAN.txt");
-    for (OptionTable* const one : {&show, &run, &check, &levels, &plan})
-        one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
+    for (OptionTable* const subcommand : {&show, &run, &check, &levels, &plan})
+        subcommand->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
     run.add("--observer", o.observer, "who answers: " + std::string(observerNames));
     run.add("--participant", o.participant, "code of the participant; no other personal data is kept")
@@ -255,8 +255,8 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     check.add("--page", o.pagePath, "the check as a page of HTML").outputFile("FILE.html");
     check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
     check.add("--accept-deviations", o.acceptsDeviations, "limiter and guard may change what is published");
-    for (OptionTable* const one : {&run, &check})
-        addSounds(*one, o.sounds,
+    for (OptionTable* const subcommand : {&run, &check})
+        addSounds(*subcommand, o.sounds,
                   "for a protocol that calls render --method SV: the recorded contact of the material of "
                   "that frequency; may be repeated")
             .as("HZ=FILE.wav");
@@ -267,7 +267,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
 int runStudy(const OptionTable& command, const StudyOptions& o) {
     if (command.isCalled("list")) return listProtocols();
     if (command.isCalled("schema")) return std::cout << protocolSchema(), exitDone;
-    if (command.isCalled("run")) return runStudyFor(o);
+    if (command.isCalled("run")) return runStudies(o);
     if (command.isCalled("check")) return checkProtocol(o);
     if (command.isCalled("levels")) return averageAdjustments(o);
     if (command.isCalled("plan")) return planStudy(o);

@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace physvib {
-inline void warn(const std::string& words) { printMessage("warning: " + words); }
+inline void printWarning(const std::string& text) { printMessage("warning: " + text); }
 
 /// Marks results of a simulated observer, so that they cannot be mistaken for a person's.
 inline void printIfSimulated(bool isSimulated) {
@@ -56,6 +56,6 @@ Result<StudyFiles> runAnalysisScript(const StudyFiles& files);
 class OptionTable;
 
 /// Declares the option `--columns` of commands that read tables of other programs.
-void declareColumns(OptionTable& command, std::vector<std::string>& words);
+void declareColumns(OptionTable& command, std::vector<std::string>& columnNames);
 
 } // namespace physvib

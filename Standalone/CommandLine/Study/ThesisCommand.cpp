@@ -27,12 +27,12 @@ constexpr double hitIntervalSeconds = 0.22, firstHitSeconds = 0.02;
 using ThreeHits = std::array<std::size_t, 3>;
 
 /// The stimuli of study 2 as published with that pair, by method; or the error of one that cannot be played.
-Result<std::map<std::string, PlayableStimulus>> methodsOf(const std::string& pair) {
+Result<std::map<std::string, PlayableStimulus>> loadMethods(const std::string& pair) {
     const Protocol protocol = findProtocol("eight-methods-thesis").value;
     std::map<std::string, PlayableStimulus> methods;
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
         const TrialJob job = planned.job(protocol);
-        const std::string call = std::visit([](const auto& one) { return textOf(one); }, job);
+        const std::string call = std::visit([](const auto& typedJob) { return textOf(typedJob); }, job);
         if (call.find("pair=" + pair) == std::string::npos || methods.contains(planned.label)) continue;
         auto playable = makePlayableStimulus(job, figureRateHz);
         if (!playable) return Failure{playable.error};
@@ -42,7 +42,7 @@ Result<std::map<std::string, PlayableStimulus>> methodsOf(const std::string& pai
 }
 
 /// Events whose amplitudes are nearest to a quarter, a half and all of the strongest.
-ThreeHits threeHits(const std::vector<CollisionEvent>& events) {
+ThreeHits chooseThreeHits(const std::vector<CollisionEvent>& events) {
     const double maxAmplitude = std::ranges::max_element(events, {}, &CollisionEvent::amplitude)->amplitude;
     ThreeHits hits{};
     for (std::size_t k = 0; k < hits.size(); ++k) {
@@ -86,11 +86,11 @@ LineSeries makeCurve(std::string name, const std::vector<double>& samples, std::
 }
 
 std::string drawEightMethods(ThesisPage& thesis) {
-    const auto methods = methodsOf("steel-steel");
+    const auto methods = loadMethods("steel-steel");
     if (!methods) return methods.error;
-    const ThreeHits hits = threeHits(methods.value.at("AV-FV-DRV").stimulus.events);
-    const auto varied = renderHits(methods.value.at("AV-FV-DRV"), hits);
-    const double strongestG = 1.2 * std::ranges::max(varied);
+    const ThreeHits hits = chooseThreeHits(methods.value.at("AV-FV-DRV").stimulus.events);
+    const auto variedSamples = renderHits(methods.value.at("AV-FV-DRV"), hits);
+    const double strongestG = 1.2 * std::ranges::max(variedSamples);
     std::vector<std::string> charts;
     for (const auto& [name, playable] : methods.value) {
         const bool isFixed = name.starts_with("AF");
@@ -113,10 +113,10 @@ std::string drawEightMethods(ThesisPage& thesis) {
 }
 
 std::string drawOnOff(ThesisPage& thesis) {
-    const auto methods = methodsOf("wood-wood");
+    const auto methods = loadMethods("wood-wood");
     if (!methods) return methods.error;
     const PlayableStimulus& playable = methods.value.at("AV-FV-DRV");
-    std::vector<double> wave = renderHits(playable, threeHits(playable.stimulus.events)), motor;
+    std::vector<double> wave = renderHits(playable, chooseThreeHits(playable.stimulus.events)), motor;
     const double peak = std::ranges::max(wave); // a decay's first half wave
     OnOffSteps steps{figureRateHz, OnOffSteps::thesisThreshold};
     for (double& sample : wave) {
@@ -138,13 +138,13 @@ std::string drawOnOff(ThesisPage& thesis) {
     return {};
 }
 
-std::string textOf(const ThesisEntry& entry) {
+std::string describeEntry(const ThesisEntry& entry) {
     std::string text = entry.sections + ": " + entry.subject + "\n";
-    for (const auto& [words, cell] : {std::pair{"    ", &entry.call},
-                                      {"    needs: ", &entry.requirements},
-                                      {"    misprint: ", &entry.misprint},
-                                      {"    differs: ", &entry.difference}})
-        if (!cell->empty()) text += words + *cell + "\n";
+    for (const auto& [label, field] : {std::pair{"    ", &entry.call},
+                                       {"    needs: ", &entry.requirements},
+                                       {"    misprint: ", &entry.misprint},
+                                       {"    differs: ", &entry.difference}})
+        if (!field->empty()) text += label + *field + "\n";
     return text;
 }
 
@@ -171,9 +171,9 @@ int runThesis(const ThesisOptions& o) {
         return exitDone;
     }
     std::string text; // place 5.3 also matches 5.3.1, but Fig. 5.1 not Fig. 5.10
-    const std::regex at{", " + std::regex_replace(o.place, std::regex{"\\W"}, "\\$&") + "(?![0-9])"};
+    const std::regex pattern{", " + std::regex_replace(o.place, std::regex{"\\W"}, "\\$&") + "(?![0-9])"};
     for (const ThesisEntry& entry : thesisEntries())
-        if (std::regex_search(", " + entry.sections, at)) text += textOf(entry);
+        if (std::regex_search(", " + entry.sections, pattern)) text += describeEntry(entry);
     if (text.empty())
         return reportExit(exitUsage,
                           "thesis: expected a place such as 5.3, 'Fig. 4.9' or 'Table 5.1', found " +

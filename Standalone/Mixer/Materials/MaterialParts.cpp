@@ -14,37 +14,37 @@ namespace {
 
 constexpr int headingHeight = 18;
 
-juce::Rectangle<int> drawPlotWell(juce::Graphics& g, const juce::Component& c) {
-    fillRound(g, c, Shade::well, c.getLocalBounds().toFloat(), 5.0f);
-    return c.getLocalBounds().reduced(8, 4);
+juce::Rectangle<int> drawPlotWell(juce::Graphics& g, const juce::Component& plot) {
+    fillRound(g, plot, Shade::well, plot.getLocalBounds().toFloat(), 5.0f);
+    return plot.getLocalBounds().reduced(8, 4);
 }
 
 /// Draws `rightText`, and beside it the first text of `leftTexts` that fits.
-void drawHeading(juce::Graphics& g, const juce::Component& c, juce::Rectangle<int> row,
+void drawHeading(juce::Graphics& g, const juce::Component& plot, juce::Rectangle<int> row,
                  const juce::StringArray& leftTexts, const juce::String& rightText,
                  Shade rightShade = Shade::muted) {
     const auto font = text::font(text::small);
     g.setFont(font);
-    g.setColour(shade(c, rightShade));
+    g.setColour(shade(plot, rightShade));
     const auto rightArea =
         row.removeFromRight(std::min(row.getWidth(), text::pixelWidth(font, rightText) + 4));
     g.drawText(rightText, rightArea, juce::Justification::centredRight, true);
-    g.setColour(shade(c, Shade::muted));
-    for (const auto& words : leftTexts)
-        if (text::pixelWidth(font, words) < row.getWidth() - 8)
-            return g.drawText(words, row, juce::Justification::centredLeft, true);
+    g.setColour(shade(plot, Shade::muted));
+    for (const auto& leftText : leftTexts)
+        if (text::pixelWidth(font, leftText) < row.getWidth() - 8)
+            return g.drawText(leftText, row, juce::Justification::centredLeft, true);
 }
 
 /// A value with as many decimals as its error justifies.
-juce::String withErrorText(double value, double error, const juce::String& unit) {
+juce::String valueWithError(double value, double error, const juce::String& unit) {
     const int decimals = error > 0.0 && error < 0.1 ? 2 : 1;
     return number(value, decimals) + juce::String::fromUTF8(" \xc2\xb1 ") +
            number(std::max(error, 0.01), decimals) + unit;
 }
 
-juce::Colour readableColour(const juce::Component& c, juce::Colour colour) {
-    return shade(c, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedBrightness(0.75f)
-                                                                  : colour.brighter(0.15f);
+juce::Colour readableColour(const juce::Component& plot, juce::Colour colour) {
+    return shade(plot, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedBrightness(0.75f)
+                                                                     : colour.brighter(0.15f);
 }
 
 constexpr double maxWaveformSeconds = 1.0;
@@ -62,7 +62,7 @@ HitWaveform normalisedWaveform(std::vector<float> samples, double rateHz) {
                                ? *std::max_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
                                                    heights.begin() + static_cast<std::ptrdiff_t>(last))
                                : 1.0;
-    waveform.levels = spectrumLevels(heights, binHz, std::max(highest, 1e-12));
+    waveform.levels = toSpectrumLevels(heights, binHz, std::max(highest, 1e-12));
     return waveform;
 }
 
@@ -80,8 +80,8 @@ juce::String grainText(double metres) {
                                     : number(metres, 2) + " m");
 }
 
-double parseDecimal(const juce::String& words) {
-    return words.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
+double parseDecimal(const juce::String& typed) {
+    return typed.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
 }
 
 /// Quality of a measurement: "residual -31 dB, confidence high".
@@ -93,8 +93,8 @@ juce::String confidenceText(const ContactSound& sound) {
 }
 
 /// Parses millimetres, or metres if the text says so.
-double parseGrainMetres(const juce::String& words) {
-    const auto text = words.trim();
+double parseGrainMetres(const juce::String& typed) {
+    const auto text = typed.trim();
     return text.endsWith("m") && !text.endsWith("mm") ? parseDecimal(text) : 1e-3 * parseDecimal(text);
 }
 
@@ -129,13 +129,13 @@ void SpectrumPlot::paint(juce::Graphics& g) {
     const float dashes[]{3.0f, 3.0f};
     g.drawDashedLine({x, static_cast<float>(area.getY()), x, static_cast<float>(area.getBottom())}, dashes, 2,
                      1.5f);
-    const auto* s = hit_.recording ? &hit_.recording->sound : nullptr;
+    const auto* sound = hit_.recording ? &hit_.recording->sound : nullptr;
     drawHeading(g, *this, heading,
                 hit_.recording ? juce::StringArray{utf8(hit_.recording->name), "recorded"}
                                : juce::StringArray{"Drop the recording of a hit here to measure it",
                                                    "Drop a recording here", "spectrum"},
-                s ? withErrorText(s->frequencyHz, s->frequencyErrorHz, " Hz")
-                  : number(hit_.frequencyHz, 1) + " Hz",
+                sound ? valueWithError(sound->frequencyHz, sound->frequencyErrorHz, " Hz")
+                      : number(hit_.frequencyHz, 1) + " Hz",
                 Shade::accent);
 }
 
@@ -160,39 +160,39 @@ void WaveformPlot::paint(juce::Graphics& g) {
     const int width = area.getWidth(), count = static_cast<int>(waveform_.samples.size());
     juce::RectangleList<float> columns;
     for (int x = 0; x < width; ++x) {
-        const auto from = waveform_.samples.begin() + static_cast<std::ptrdiff_t>(x) * count / width,
-                   to = waveform_.samples.begin() + static_cast<std::ptrdiff_t>(x + 1) * count / width;
+        const auto begin = waveform_.samples.begin() + static_cast<std::ptrdiff_t>(x) * count / width,
+                   end = waveform_.samples.begin() + static_cast<std::ptrdiff_t>(x + 1) * count / width;
         const auto [low, high] =
-            std::minmax_element(from, std::max(from + 1, std::min(to + 1, waveform_.samples.end())));
+            std::minmax_element(begin, std::max(begin + 1, std::min(end + 1, waveform_.samples.end())));
         columns.addWithoutMerging({static_cast<float>(area.getX() + x), centreY - halfHeight * *high, 1.0f,
                                    std::max(1.0f, halfHeight * (*high - *low))});
     }
     g.setColour(readableColour(*this, hit_.colour).withAlpha(0.75f));
     g.fillRectList(columns);
-    const double start = hit_.recording ? hit_.recording->amplitude : 1.0;
-    juce::Path upper;
+    const double startAmplitude = hit_.recording ? hit_.recording->amplitude : 1.0;
+    juce::Path upperCurve;
     for (int x = 0; x <= width; x += 2) {
         const double envelope =
-            std::min(1.0, start * std::exp(-hit_.decayPerSecond * waveform_.seconds() * x / width));
+            std::min(1.0, startAmplitude * std::exp(-hit_.decayPerSecond * waveform_.seconds() * x / width));
         const juce::Point<float> p{static_cast<float>(area.getX() + x),
                                    centreY - halfHeight * static_cast<float>(envelope)};
-        x == 0 ? upper.startNewSubPath(p) : upper.lineTo(p);
+        x == 0 ? upperCurve.startNewSubPath(p) : upperCurve.lineTo(p);
     }
-    auto lower = upper;
-    lower.applyTransform(juce::AffineTransform::verticalFlip(2.0f * centreY));
+    auto lowerCurve = upperCurve;
+    lowerCurve.applyTransform(juce::AffineTransform::verticalFlip(2.0f * centreY));
     g.setColour(shade(*this, Shade::accent));
-    g.strokePath(upper, juce::PathStrokeType{1.5f});
-    g.strokePath(lower, juce::PathStrokeType{1.5f});
-    const auto* s = hit_.recording ? &hit_.recording->sound : nullptr;
+    g.strokePath(upperCurve, juce::PathStrokeType{1.5f});
+    g.strokePath(lowerCurve, juce::PathStrokeType{1.5f});
+    const auto* sound = hit_.recording ? &hit_.recording->sound : nullptr;
     const auto length = number(1e3 * waveform_.seconds(), 0) + " ms";
-    const auto confidence = s ? confidenceText(*s) : juce::String{};
+    const auto confidence = sound ? confidenceText(*sound) : juce::String{};
     drawHeading(g, *this, heading,
-                s ? juce::StringArray{length + ", " + confidence, confidence,
-                                      confidence.fromLastOccurrenceOf(", ", false, false)}
-                  : juce::StringArray{length},
-                s ? withErrorText(s->decayPerSecond, s->decayErrorPerSecond, " /s")
-                  : number(hit_.decayPerSecond, 1) + " /s",
-                s && !s->isConfident() ? Shade::highlight : Shade::accent);
+                sound ? juce::StringArray{length + ", " + confidence, confidence,
+                                          confidence.fromLastOccurrenceOf(", ", false, false)}
+                      : juce::StringArray{length},
+                sound ? valueWithError(sound->decayPerSecond, sound->decayErrorPerSecond, " /s")
+                      : number(hit_.decayPerSecond, 1) + " /s",
+                sound && !sound->isConfident() ? Shade::highlight : Shade::accent);
 }
 
 Result<RecordedHit> measureHit(const std::filesystem::path& path) {
@@ -255,7 +255,7 @@ TextureRow::TextureRow() {
     };
     roughness_.valueFromTextFunction = parseDecimal;
     rolling_.textFromValueFunction = [](double share) { return "rolls " + number(100.0 * share, 0) + " %"; };
-    rolling_.valueFromTextFunction = [](const juce::String& words) { return 0.01 * parseDecimal(words); };
+    rolling_.valueFromTextFunction = [](const juce::String& typed) { return 0.01 * parseDecimal(typed); };
     for (const auto& name : grainPatternNames)
         pattern_.addItem(juce::String{name.data()}, pattern_.getNumItems() + 1);
     describe(pattern_, "Pattern",

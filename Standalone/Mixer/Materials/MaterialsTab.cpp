@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-constexpr int rowPixels = 28, headPixels = 20;
+constexpr int rowPixels = 28, headerPixels = 20, plotSpacing = 6, minStackedHeight = 150;
 constexpr int minTallHeight = 300;      // of the tab in pixels; a lower one has narrower rows
 constexpr double arrowKeyFactor = 1.01; // of the value before and after an arrow key
 
@@ -21,10 +21,10 @@ struct MaterialColumns {
         row.reduce(10, 0);
         colourDot = row.removeFromLeft(22);
         playSign = row.removeFromRight(40);
-        const int number = std::min(92, row.getWidth() * 22 / 100);
-        length = row.removeFromRight(number);
-        decay = row.removeFromRight(number);
-        frequency = row.removeFromRight(number);
+        const int numberWidth = std::min(92, row.getWidth() * 22 / 100);
+        length = row.removeFromRight(numberWidth);
+        decay = row.removeFromRight(numberWidth);
+        frequency = row.removeFromRight(numberWidth);
         name = row;
     }
 };
@@ -37,23 +37,23 @@ juce::String decayText(double perSecond) { return number(perSecond, 2); }
 /// Measures one recording on its own thread.
 class MaterialsTab::MeasuringThread final : public juce::Thread {
 public:
-    MeasuringThread(Job newJob, juce::AsyncUpdater& onDone)
+    MeasuringThread(Job newJob, juce::AsyncUpdater& updater)
         : juce::Thread{"physvib material"}
         , job{std::move(newJob)}
-        , onDone_{onDone} {
+        , updater_{updater} {
         startThread();
     }
     ~MeasuringThread() override { stopThread(-1); }
     void run() override {
         hit = measureHit(pathOf(job.file));
-        onDone_.triggerAsyncUpdate();
+        updater_.triggerAsyncUpdate();
     }
 
     const Job job;
     std::optional<Result<RecordedHit>> hit; ///< set when the thread has ended
 
 private:
-    juce::AsyncUpdater& onDone_;
+    juce::AsyncUpdater& updater_;
 };
 
 bool MaterialsTab::RatioSlider::keyPressed(const juce::KeyPress& key) {
@@ -132,8 +132,8 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
     slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     slider.setSliderStyle(juce::Slider::LinearBar);
     slider.setNormalisableRange(perceptualRange(minValue, low, high, maxValue));
-    slider.valueFromTextFunction = [](const juce::String& words) {
-        return words.trim().replaceCharacter(',', '.').getDoubleValue();
+    slider.valueFromTextFunction = [](const juce::String& typed) {
+        return typed.trim().replaceCharacter(',', '.').getDoubleValue();
     };
 }
 
@@ -148,11 +148,11 @@ int MaterialsTab::selectedIndex() const {
 }
 
 void MaterialsTab::choose(int material) {
-    if (const auto at = std::ranges::find(rowMaterials_, material); at != rowMaterials_.end())
-        list_.selectRow(static_cast<int>(at - rowMaterials_.begin()));
+    if (const auto entry = std::ranges::find(rowMaterials_, material); entry != rowMaterials_.end())
+        list_.selectRow(static_cast<int>(entry - rowMaterials_.begin()));
 }
 
-const RecordedHit* MaterialsTab::recordingOf(int material) const {
+const RecordedHit* MaterialsTab::findRecording(int material) const {
     const auto entry = recordings_.find(material);
     return entry == recordings_.end() ? nullptr : &entry->second;
 }
@@ -187,18 +187,18 @@ void MaterialsTab::showSelected() {
     frequency_.updateText();
     decay_.updateText();
     texture_.show(material != nullptr ? std::optional{material->texture()} : std::nullopt);
-    PlottedHit shown;
-    const auto* recording = recordingOf(selectedIndex());
+    PlottedHit newHit;
+    const auto* recording = findRecording(selectedIndex());
     if (vibrates)
-        shown = {material->frequencyHz, material->decayPerSecond,
-                 palette::material(model_.world().scene().materials, selectedIndex()), recording};
-    if (shown == plottedHit_) return;
-    plottedHit_ = shown;
+        newHit = {material->frequencyHz, material->decayPerSecond,
+                  palette::material(model_.world().scene().materials, selectedIndex()), recording};
+    if (newHit == plottedHit_) return;
+    plottedHit_ = newHit;
     const auto waveform = recording  ? recording->waveform
                           : vibrates ? makeModeWaveform(material->frequencyHz, material->decayPerSecond)
                                      : HitWaveform{};
-    spectrum_.show(shown, waveform);
-    waveform_.show(shown, waveform);
+    spectrum_.show(newHit, waveform);
+    waveform_.show(newHit, waveform);
     resized();
 }
 
@@ -214,8 +214,8 @@ void MaterialsTab::setSound(bool isFrequency, bool continuesEdit) {
 
 void MaterialsTab::editFrequency() {
     for (auto* child : frequency_.getChildren())
-        if (auto* box = dynamic_cast<juce::Label*>(child); box != nullptr && frequency_.isEnabled())
-            box->showEditor();
+        if (auto* textBox = dynamic_cast<juce::Label*>(child); textBox != nullptr && frequency_.isEnabled())
+            textBox->showEditor();
 }
 
 void MaterialsTab::playAt(FieldShare spot) {
@@ -234,7 +234,7 @@ void MaterialsTab::showSpot() {
 void MaterialsTab::visibilityChanged() {
     world_.showSpot(isVisible() ? std::optional{spot_} : std::nullopt);
     if (isVisible())
-        world_.onSpot = [this](FieldShare at) { playAt(at); };
+        world_.onSpot = [this](FieldShare spot) { playAt(spot); };
     else
         world_.onSpot = nullptr;
 }
@@ -297,29 +297,29 @@ void MaterialsTab::applyMeasurement(const Job& job, const Result<RecordedHit>& h
     showSelected();
 }
 
-void MaterialsTab::setDropping(bool isDropping) {
-    isDropping_ = isDropping;
+void MaterialsTab::setDragOver(bool isDragOver) {
+    isDragOver_ = isDragOver;
     resized();
     repaint();
 }
 
 void MaterialsTab::fileDragMove(const juce::StringArray&, int x, int y) {
-    if (const auto at = list_.getLocalPoint(this, juce::Point<int>{x, y});
-        list_.getLocalBounds().contains(at))
-        if (const int row = list_.getRowContainingPosition(at.x, at.y); row >= 0) list_.selectRow(row);
-    setDropping(true);
+    if (const auto point = list_.getLocalPoint(this, juce::Point<int>{x, y});
+        list_.getLocalBounds().contains(point))
+        if (const int row = list_.getRowContainingPosition(point.x, point.y); row >= 0) list_.selectRow(row);
+    setDragOver(true);
 }
 
 void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
     fileDragMove(files, x, y);
-    setDropping(false);
+    setDragOver(false);
     if (files.size() != 1)
         return model_.report("Expected one recording, found " + juce::String{files.size()} + " files");
     measure(juce::File{files[0]});
 }
 
 void MaterialsTab::paint(juce::Graphics& g) {
-    const MaterialColumns columns{headArea_.withWidth(list_.getVisibleRowWidth())};
+    const MaterialColumns columns{listHeadArea_.withWidth(list_.getVisibleRowWidth())};
     setInk(g, *this, Shade::muted, text::small);
     g.drawText("Material", columns.name, juce::Justification::centredLeft, false);
     g.drawText("f Hz", columns.frequency, juce::Justification::centredRight, false);
@@ -330,28 +330,28 @@ void MaterialsTab::paint(juce::Graphics& g) {
 }
 
 void MaterialsTab::paintOverChildren(juce::Graphics& g) {
-    if (!isDropping_ && !isMeasuring()) return;
+    if (!isDragOver_ && !isMeasuring()) return;
     const auto* material = selected();
-    const auto plots = spectrum_.getBounds().getUnion(waveform_.getBounds());
+    const auto plotsArea = spectrum_.getBounds().getUnion(waveform_.getBounds());
     g.setColour(shade(*this, Shade::panel).withAlpha(0.85f));
-    g.fillRect(plots);
+    g.fillRect(plotsArea);
     g.setColour(shade(*this, Shade::accent));
-    g.drawRoundedRectangle(plots.toFloat().reduced(1.0f), 5.0f, 2.0f);
+    g.drawRoundedRectangle(plotsArea.toFloat().reduced(1.0f), 5.0f, 2.0f);
     g.setFont(text::font(text::medium));
     const auto name = material ? utf8(material->name) : juce::String{};
     g.drawText(isMeasuring() ? juce::String::fromUTF8("Measuring\xe2\x80\xa6")
                              : "Drop it: the sound of " + name,
-               plots, juce::Justification::centred, true);
+               plotsArea, juce::Justification::centred, true);
 }
 
 void MaterialsTab::resized() {
     auto area = getLocalBounds();
-    headArea_ = area.removeFromTop(headPixels);
-    newButton_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
+    listHeadArea_ = area.removeFromTop(headerPixels);
+    newButton_->setBounds(listHeadArea_.withLeft(listHeadArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= minTallHeight;
     const int lineHeight = isTall ? rowHeight : rowHeight - 4, spacing = isTall ? 6 : 4;
     // a low tab has plots only of a recording, as the rows of the list come first
-    const bool hasPlots = isTall || isDropping_ || isMeasuring() || recordingOf(selectedIndex()) != nullptr;
+    const bool hasPlots = isTall || isDragOver_ || isMeasuring() || findRecording(selectedIndex()) != nullptr;
     const int height = area.getHeight() - 3 * lineHeight - 4 * spacing,
               rowCount = static_cast<int>(rowMaterials_.size()),
               plots = hasPlots ? std::max(70, std::min({230, height * 52 / 100, height - 5 * rowPixels})) : 0;
@@ -381,12 +381,12 @@ void MaterialsTab::resized() {
     placeLabelled(spotXLabel_, spotX_, 12, spotWidth);
     placeLabelled(spotYLabel_, spotY_, 12, row.getWidth());
     area.removeFromTop(spacing);
-    if (area.getHeight() >= 150) {
-        spectrum_.setBounds(area.removeFromTop((area.getHeight() - 6) / 2));
-        area.removeFromTop(6);
+    if (area.getHeight() >= minStackedHeight) {
+        spectrum_.setBounds(area.removeFromTop((area.getHeight() - plotSpacing) / 2));
+        area.removeFromTop(plotSpacing);
     } else {
-        spectrum_.setBounds(area.removeFromLeft((area.getWidth() - 6) / 2));
-        area.removeFromLeft(6);
+        spectrum_.setBounds(area.removeFromLeft((area.getWidth() - plotSpacing) / 2));
+        area.removeFromLeft(plotSpacing);
     }
     waveform_.setBounds(area);
 }

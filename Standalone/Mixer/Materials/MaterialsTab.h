@@ -91,11 +91,11 @@ private:
 inline juce::NormalisableRange<double> perceptualRange(double minValue, double low, double high,
                                                        double maxValue) {
     constexpr double endShare = 0.05;
-    const auto interpolate = [](double from, double to, double share) {
-        return from * std::pow(to / from, share);
+    const auto interpolate = [](double lower, double upper, double share) {
+        return lower * std::pow(upper / lower, share);
     };
-    const auto shareOf = [](double from, double to, double value) {
-        return std::log(value / from) / std::log(to / from);
+    const auto toShare = [](double lower, double upper, double value) {
+        return std::log(value / lower) / std::log(upper / lower);
     };
     return {minValue, maxValue,
             [=](double, double, double s) {
@@ -104,9 +104,9 @@ inline juce::NormalisableRange<double> perceptualRange(double minValue, double l
                                             : interpolate(low, high, (s - endShare) / (1.0 - 2.0 * endShare));
             },
             [=](double, double, double v) {
-                return v < low    ? endShare * shareOf(minValue, low, v)
-                       : v > high ? 1.0 - endShare + endShare * shareOf(high, maxValue, v)
-                                  : endShare + (1.0 - 2.0 * endShare) * shareOf(low, high, v);
+                return v < low    ? endShare * toShare(minValue, low, v)
+                       : v > high ? 1.0 - endShare + endShare * toShare(high, maxValue, v)
+                                  : endShare + (1.0 - 2.0 * endShare) * toShare(low, high, v);
             }};
 }
 
@@ -135,15 +135,15 @@ public:
     void choose(int material);    ///< selects it by its index in the scene
     void playAt(FieldShare spot); ///< plays the selected material, and moves the cross there
     /// Measurement of a material; null if there is none.
-    const RecordedHit* recordingOf(int material) const;
+    const RecordedHit* findRecording(int material) const;
 
     // the window handles session files
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
         return !files[0].endsWithIgnoreCase(".json");
     }
-    void fileDragEnter(const juce::StringArray&, int, int) override { setDropping(true); }
+    void fileDragEnter(const juce::StringArray&, int, int) override { setDragOver(true); }
     void fileDragMove(const juce::StringArray&, int x, int y) override;
-    void fileDragExit(const juce::StringArray&) override { setDropping(false); }
+    void fileDragExit(const juce::StringArray&) override { setDragOver(false); }
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
     void mixChanged() override;
@@ -182,7 +182,7 @@ private:
     void prepareSlider(RatioSlider& slider, const juce::String& title, double minValue, double low,
                        double high, double maxValue);
     void setSound(bool isFrequency, bool continuesEdit);
-    void setDropping(bool isDropping);
+    void setDragOver(bool isDragOver);
     void editFrequency();
     void showSelected();
     void showSpot();
@@ -197,7 +197,7 @@ private:
     std::vector<int> rowMaterials_;      // material of each row
     std::map<int, RecordedHit> recordings_;
     FieldShare spot_{0.5, 0.5};
-    bool isDropping_ = false;
+    bool isDragOver_ = false;
 
     juce::ListBox list_{"Materials", this};
     RatioSlider frequency_, decay_;
@@ -209,7 +209,7 @@ private:
     std::optional<PlottedHit> plottedHit_;
     SpectrumPlot spectrum_;
     WaveformPlot waveform_;
-    juce::Rectangle<int> headArea_;
+    juce::Rectangle<int> listHeadArea_;
     std::deque<Job> pendingJobs_;
     std::unique_ptr<MeasuringThread> measuringThread_;
 };

@@ -16,7 +16,7 @@ bool hasNoOutput(const Mix& mix, std::size_t strip) {
     return strip < mix.strips.size() && mix.strips[strip].output < 0;
 }
 
-juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
+juce::String joinLabels(const MixerModel& model, const std::vector<std::size_t>& strips) {
     juce::StringArray labels;
     for (const std::size_t j : strips) labels.add(labelOf(model.mix(), j));
     return labels.joinIntoString(", ");
@@ -33,7 +33,7 @@ void assignFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips
         model.report("The device has no other free output");
 }
 
-int headphoneOutputOf(std::size_t strip) {
+int headphoneOutput(std::size_t strip) {
     return strip < DeviceChoice::earCount ? static_cast<int>(strip) : -1;
 }
 
@@ -125,9 +125,9 @@ std::string MixerListening::applyRequested() {
 }
 
 std::string MixerListening::beginStudy(const ListeningSettings& studySettings) {
-    const auto before = std::exchange(studySettings_, studySettings);
+    const auto oldSettings = std::exchange(studySettings_, studySettings);
     auto error = applyRequested();
-    if (!error.empty()) studySettings_ = before;
+    if (!error.empty()) studySettings_ = oldSettings;
     return error;
 }
 
@@ -189,7 +189,7 @@ void fitLayoutTo(int outputCount, Mix& mix, std::string_view device) {
 void reportNoHeadphoneOutput(MixerModel& model, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
     model.messages().add(
-        {labelsOf(model, strips) + (strips.size() == 1 ? " has no output: " : " have no output: ") +
+        {joinLabels(model, strips) + (strips.size() == 1 ? " has no output: " : " have no output: ") +
              "headphones have two, L and R",
          false,
          {"Use two",
@@ -199,17 +199,18 @@ void reportNoHeadphoneOutput(MixerModel& model, const std::vector<std::size_t>& 
          noHeadphoneOutputLabel});
 }
 
-std::string openHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
+std::string openHeadphones(MixerModel& model, DeviceChoice choice,
+                           std::optional<std::vector<int>> oldOutputs) {
     if (!model.device().choice().isHeadphones)
-        choice.outputsBeforeHeadphones = before ? std::move(*before) : model.device().outputMap();
+        choice.outputsBeforeHeadphones = oldOutputs ? std::move(*oldOutputs) : model.device().outputMap();
     choice.isHeadphones = true;
     choice.monitorOutputs.clear();
     if (choice.markerOutput < DeviceChoice::earCount) choice.markerOutput = -1;
     std::vector<std::size_t> withoutOutput;
     Mix mix = model.mix();
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
-        mix.strips[j].output = headphoneOutputOf(j);
-        if (headphoneOutputOf(j) < 0) withoutOutput.push_back(j);
+        mix.strips[j].output = headphoneOutput(j);
+        if (headphoneOutput(j) < 0) withoutOutput.push_back(j);
     }
     mix.levelDb = std::min(mix.levelDb, defaultContactDb);
     if (mix.levelDb != model.mix().levelDb || // otherwise an undo step would change nothing
@@ -221,16 +222,16 @@ std::string openHeadphones(MixerModel& model, DeviceChoice choice, std::optional
 }
 
 void restoreOutputs(const DeviceChoice& choice, int outputCount, std::span<Strip> strips, std::size_t first) {
-    const auto& before = choice.outputsBeforeHeadphones;
-    std::vector<std::size_t> restored;
+    const auto& oldOutputs = choice.outputsBeforeHeadphones;
+    std::vector<std::size_t> headphoneStrips;
     for (std::size_t j = first; j < strips.size(); ++j)
-        if (strips[j].output == headphoneOutputOf(j)) restored.push_back(j), strips[j].output = -1;
-    for (const std::size_t j : restored)
-        if (j >= before.size()) // the strip was added meanwhile
+        if (strips[j].output == headphoneOutput(j)) headphoneStrips.push_back(j), strips[j].output = -1;
+    for (const std::size_t j : headphoneStrips)
+        if (j >= oldOutputs.size()) // the strip was added meanwhile
             strips[j].output = freeOutput(strips, choice.reservedOutputs(), outputCount);
-        else if (before[j] < outputCount &&
-                 std::ranges::find(strips, before[j], &Strip::output) == strips.end())
-            strips[j].output = std::max(-1, before[j]);
+        else if (oldOutputs[j] < outputCount &&
+                 std::ranges::find(strips, oldOutputs[j], &Strip::output) == strips.end())
+            strips[j].output = std::max(-1, oldOutputs[j]);
 }
 
 void leaveHeadphones(MixerModel& model, const DeviceChoice& headphones) {
@@ -243,13 +244,14 @@ void leaveHeadphones(MixerModel& model, const DeviceChoice& headphones) {
 
 void reportNoOutput(MixerModel& model, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
-    const bool isOne = strips.size() == 1;
-    model.messages().add({labelsOf(model, strips) + (isOne ? " has no output: another actuator has it"
-                                                           : " have no outputs: other actuators have them"),
-                          false,
-                          {isOne ? "Give a free output" : "Give free outputs",
-                           [&model, strips] { assignFreeOutputs(model, strips); }},
-                          noOutputLabel});
+    const bool isSingle = strips.size() == 1;
+    model.messages().add(
+        {joinLabels(model, strips) + (isSingle ? " has no output: another actuator has it"
+                                               : " have no outputs: other actuators have them"),
+         false,
+         {isSingle ? "Give a free output" : "Give free outputs",
+          [&model, strips] { assignFreeOutputs(model, strips); }},
+         noOutputLabel});
 }
 
 void MixerExposure::setLayout(const LayoutDescription& layout) {
@@ -279,30 +281,30 @@ void MixerSignals::setSceneTime(std::size_t runNumber, double seconds, int slown
     if (std::abs(seconds - run_.seconds()) > maxDriftSeconds) run_.seek(seconds);
 }
 
-float MixerSignals::updatePeaks(MixerSnapshot& snapshot, int actuators, const PlayedFlags& played) {
+float MixerSignals::updatePeaks(MixerSnapshot& snapshot, int actuators, const PlayedFlags& isPlayed) {
     const double timeMs = nowMs(), passedMs = std::min(1000.0, timeMs - readAtMs_);
     readAtMs_ = timeMs;
     const auto decay = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passedMs / 20'000.0));
-    for (std::size_t j = 0; j < played.size(); ++j) {
+    for (std::size_t j = 0; j < isPlayed.size(); ++j) {
         float& peak = snapshot.meters.peaks[j];
-        peak = !played[j] || peak * decay < 1e-4f ? 0.0f : peak * decay;
-        if (!played[j]) snapshot.heldPeaks[j] = 0.0f;
+        peak = !isPlayed[j] || peak * decay < 1e-4f ? 0.0f : peak * decay;
+        if (!isPlayed[j]) snapshot.heldPeaks[j] = 0.0f;
     }
     tap_.read([&](const float* const* block, int frames) {
         zeros_.resize(std::max(zeros_.size(), static_cast<std::size_t>(frames)));
         std::array<const float*, limits::maxActuators> channels{};
         for (std::size_t j = 0; j < static_cast<std::size_t>(actuators); ++j)
-            channels[j] = played[j] ? block[j] : zeros_.data();
+            channels[j] = isPlayed[j] ? block[j] : zeros_.data();
         addBlock(channels.data(), frames, snapshot, actuators);
     });
-    float loudest = 0.0f;
+    float maxPeak = 0.0f;
     for (std::size_t j = 0; j < static_cast<std::size_t>(actuators); ++j) {
         const float peak = snapshot.meters.peaks[j];
         if (peak >= snapshot.heldPeaks[j] || timeMs - heldAtMs_[j] > peakHoldMs)
             snapshot.heldPeaks[j] = peak, heldAtMs_[j] = timeMs;
-        loudest = std::max(loudest, peak);
+        maxPeak = std::max(maxPeak, peak);
     }
-    return loudest;
+    return maxPeak;
 }
 
 // The samples precede the master gain, so the traces go on while the output is muted.

@@ -87,7 +87,7 @@ struct DeviceChoice {
 };
 
 /// The smallest range that contains both. Any thread.
-inline SampleRange unionOf(const SampleRange& a, const SampleRange& b) {
+inline SampleRange unite(const SampleRange& a, const SampleRange& b) {
     return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)};
 }
 
@@ -114,7 +114,7 @@ public:
             for (int j = 0; j < channelCount; ++j) {
                 const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
                 SampleRange& column = nth(nth(lanes_, j), newestColumn_);
-                column = framesInColumn_ == 0 ? SampleRange{*low, *high} : unionOf(column, {*low, *high});
+                column = framesInColumn_ == 0 ? SampleRange{*low, *high} : unite(column, {*low, *high});
             }
             done += part;
             framesInColumn_ += part;
@@ -133,10 +133,10 @@ public:
     /// Minimum and maximum at pixel `x` of a trace that is `width` pixels wide, over the pixel's columns and
     /// the one before: a single column may hold only the upper or lower half of a wave of 400 Hz.
     SampleRange pixelRange(int channel, int x, int width) const {
-        const auto columnOf = [width](int pixel) { return pixel * (columnCount - 1) / std::max(1, width); };
-        const int first = columnOf(x), last = std::max(first, columnOf(x + 1) - 1);
+        const auto toColumn = [width](int pixel) { return pixel * (columnCount - 1) / std::max(1, width); };
+        const int first = toColumn(x), last = std::max(first, toColumn(x + 1) - 1);
         SampleRange range = columnAt(channel, first);
-        for (int k = std::max(0, first - 1); k <= last; ++k) range = unionOf(range, columnAt(channel, k));
+        for (int k = std::max(0, first - 1); k <= last; ++k) range = unite(range, columnAt(channel, k));
         return range;
     }
 
@@ -200,18 +200,18 @@ public:
     void add(const float* const* channels, int channelCount, int frames, double sceneSeconds) {
         for (int done = 0; done < frames;) {
             while (seconds_ >= columnSeconds_ * static_cast<double>(columnCount)) doubleColumns();
-            const double perFrame = sceneSeconds / frames;
-            const int part = perFrame > 0.0
-                                 ? std::clamp(static_cast<int>(columnSeconds_ / perFrame), 1, frames - done)
-                                 : frames - done;
+            const double frameSeconds = sceneSeconds / frames;
+            const int part = frameSeconds > 0.0 ? std::clamp(static_cast<int>(columnSeconds_ / frameSeconds),
+                                                             1, frames - done)
+                                                : frames - done;
             const auto columnIndex = static_cast<std::size_t>(seconds_ / columnSeconds_);
             for (std::size_t j = 0; j < static_cast<std::size_t>(channelCount); ++j) {
                 const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
                 SampleRange& column = lanes_[j][columnIndex];
-                column = unionOf(column, {*low, *high});
+                column = unite(column, {*low, *high});
             }
             done += part;
-            seconds_ += part * perFrame;
+            seconds_ += part * frameSeconds;
         }
     }
 
@@ -224,7 +224,7 @@ public:
         for (std::size_t i = first;
              i < columnCount && (i == first || static_cast<double>(i) * columnSeconds_ < toSeconds); ++i) {
             const SampleRange& column = nth(lanes_, channel)[i];
-            all = unionOf(all, column);
+            all = unite(all, column);
         }
         return all;
     }
@@ -233,7 +233,7 @@ private:
     void doubleColumns() {
         columnSeconds_ *= 2.0;
         for (auto& lane : lanes_) {
-            for (std::size_t i = 0; i < columnCount / 2; ++i) lane[i] = unionOf(lane[2 * i], lane[2 * i + 1]);
+            for (std::size_t i = 0; i < columnCount / 2; ++i) lane[i] = unite(lane[2 * i], lane[2 * i + 1]);
             std::fill(lane.begin() + columnCount / 2, lane.end(), SampleRange{});
         }
     }
@@ -260,7 +260,7 @@ public:
     /// Updates peaks and holds of `snapshot`, which must be the same object each time. Returns the loudest
     /// peak of the first `actuators`. Signals of those that are not played are shown as zeros.
     using PlayedFlags = std::array<bool, limits::maxActuators>;
-    float updatePeaks(MixerSnapshot& snapshot, int actuators, const PlayedFlags& played);
+    float updatePeaks(MixerSnapshot& snapshot, int actuators, const PlayedFlags& isPlayed);
 
 private:
     void addBlock(const float* const* block, int frames, MixerSnapshot& snapshot, int actuators);
@@ -392,9 +392,9 @@ void fitLayoutTo(int outputCount, Mix& mix, std::string_view device = {});
 
 /// Opens a device as headphones: the first actuator is heard left and the second right, at the level at which
 /// a monitor begins, or lower. Result as MixerModel::open(). Message thread.
-/// `before`: the outputs that leaveHeadphones() restores; none: the present ones.
+/// `oldOutputs`: those that leaveHeadphones() restores; none: the present ones.
 std::string openHeadphones(MixerModel& model, DeviceChoice choice,
-                           std::optional<std::vector<int>> before = {});
+                           std::optional<std::vector<int>> oldOutputs = {});
 
 /// Undoes the outputs that openHeadphones() has set: strips get back their former outputs if the device has
 /// them, and strips added since then get free ones; the level stays low. restoreOutputs() does this from

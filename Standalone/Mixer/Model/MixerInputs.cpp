@@ -19,7 +19,7 @@ double faderDbFromGain(float gain) {
 constexpr std::size_t maxPendingInputs = 1000; // reached only if the message thread hangs
 constexpr int reportIntervalMs = 10;
 
-OscSettings settingsOf(const OscChoice& choice) {
+OscSettings toOscSettings(const OscChoice& choice) {
     OscSettings settings;
     settings.address = choice.access == OscAccess::anyComputer ? oscAnyAddress : oscLoopbackAddress;
     if (choice.access != OscAccess::off) settings.port = oscDefaultPort;
@@ -33,19 +33,19 @@ constexpr double testAmplitude = 0.5; // share of full scale of a pulse or audit
 } // namespace
 
 std::vector<std::string> localAddresses() {
-    std::vector<std::string> all;
+    std::vector<std::string> addresses;
     for (const auto& address : juce::IPAddress::getAllAddresses(false))
-        if (const auto words = address.toString().toStdString();
-            !words.starts_with("127.") && !words.starts_with("0."))
-            all.push_back(words);
-    return all;
+        if (const auto text = address.toString().toStdString();
+            !text.starts_with("127.") && !text.starts_with("0."))
+            addresses.push_back(text);
+    return addresses;
 }
 
 std::string MixerInputs::configure(const OscChoice& choice) {
-    const OscChoice before = std::exchange(choice_, choice);
+    const OscChoice oldChoice = std::exchange(choice_, choice);
     std::string error = open();
     if (error.empty()) return error;
-    choice_ = before;
+    choice_ = oldChoice;
     if (!open().empty()) choice_ = {};
     return error;
 }
@@ -56,7 +56,7 @@ std::string MixerInputs::open() {
     if (choice_.access == OscAccess::off && choice_.receiver.empty()) return {};
     messages_.emplace(model_.session());
     port_ = std::make_unique<OscPort>(
-        settingsOf(choice_), model_.session(), *messages_, model_.output(),
+        toOscSettings(choice_), model_.session(), *messages_, model_.output(),
         OscHooks{
             [this](const LineInput& input, const OscOrigin& origin) { return receive(input, origin); },
             [this] { return std::string{model_.output().isPlayingBorrowed() ? "a study is running" : ""}; }});
@@ -72,7 +72,7 @@ void MixerInputs::close() {
     stopTimer();
     port_.reset(); // after this no thread triggers an update
     cancelPendingUpdate();
-    pending_.clear();
+    pendingInputs_.clear();
     lastMessageCount_ = refusedCount_ = 0;
     lastError_.clear();
 }
@@ -123,8 +123,8 @@ std::string MixerInputs::receive(const LineInput& input, const OscOrigin& origin
     const bool isSilenced = silence != nullptr && silence->isOn;
     if (isSilenced) applySilence(model_.output().silence(), *silence, MuteRequester::osc);
     const std::lock_guard lock{mutex_};
-    if (pending_.size() == maxPendingInputs) return isSilenced ? "" : "too many inputs at once";
-    pending_.push_back({input, origin});
+    if (pendingInputs_.size() == maxPendingInputs) return isSilenced ? "" : "too many inputs at once";
+    pendingInputs_.push_back({input, origin});
     triggerAsyncUpdate();
     return {};
 }
@@ -133,7 +133,7 @@ void MixerInputs::handleAsyncUpdate() {
     std::vector<PendingInput> inputs;
     {
         const std::lock_guard lock{mutex_};
-        inputs.swap(pending_);
+        inputs.swap(pendingInputs_);
     }
     for (const PendingInput& pending : inputs) {
         const std::string error = apply(pending.input);

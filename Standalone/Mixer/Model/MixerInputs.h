@@ -61,7 +61,7 @@ private:
     MixerModel& model_;
     OscChoice choice_;
     std::mutex mutex_; // guards the next member
-    std::vector<PendingInput> pending_;
+    std::vector<PendingInput> pendingInputs_;
     // used by the message thread, counted since the port was opened:
     std::uint64_t lastMessageCount_ = 0, refusedCount_ = 0; // the first as of the last hasNewMessages()
     std::string lastError_;                                 // why the mixer refused the last message

@@ -67,14 +67,14 @@ void MixerMessages::withdraw(const juce::String& label) {
     if (hasLabel(current_, label)) show({});
 }
 
-int materialIndexOf(const Scene& scene, const CollisionEvent& hit) {
+int findMaterialIndex(const Scene& scene, const CollisionEvent& hit) {
     const auto hasSound = [&hit](const Material& m) { return hit.sound == soundOfMaterial(m.name); };
     const auto found = std::ranges::find_if(scene.materials, hasSound);
     return found == scene.materials.end() ? -1 : static_cast<int>(found - scene.materials.begin());
 }
 
 juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
-    const int index = materialIndexOf(scene, hit);
+    const int index = findMaterialIndex(scene, hit);
     return isClip(hit.sound) ? juce::String{"clip"}
            : index < 0       ? juce::String{"hit"}
                              : utf8(nth(scene.materials, index).name);

@@ -32,8 +32,8 @@ inline std::string pathOf(const juce::File& file) { return file.getFullPathName(
 
 /// Displayed names of built-in scenes: "shake-the-box" as "Shake the box". Any thread.
 inline juce::String displayTitle(const std::string& name) {
-    const auto words = utf8(name).replaceCharacter('-', ' ');
-    return words.substring(0, 1).toUpperCase() + words.substring(1);
+    const auto title = utf8(name).replaceCharacter('-', ' ');
+    return title.substring(0, 1).toUpperCase() + title.substring(1);
 }
 
 /// The name of an actuator. Any thread.
@@ -43,7 +43,7 @@ inline juce::String labelOf(const Mix& mix, std::integral auto actuator) {
 
 /// "1 hit", "2 hits". Any thread.
 inline juce::String countText(std::integral auto number, const char* noun) {
-    return utf8(counted(static_cast<std::size_t>(number), noun));
+    return utf8(plural(static_cast<std::size_t>(number), noun));
 }
 
 /// Fixed notation with a real minus sign. Any thread.
@@ -103,7 +103,7 @@ private:
 };
 
 /// Index of the scene's material with the sound of the impact; -1: none. Any thread, as all texts on impacts.
-int materialIndexOf(const Scene& scene, const CollisionEvent& hit);
+int findMaterialIndex(const Scene& scene, const CollisionEvent& hit);
 /// The material's name, or "hit".
 juce::String materialName(const Scene& scene, const CollisionEvent& hit);
 

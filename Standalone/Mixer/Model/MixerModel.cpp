@@ -12,7 +12,7 @@ constexpr int stepsPerSecond = 100;
 constexpr const char* deviceLabel = "device"; // as Rig names it
 constexpr double newStripDb = -12.0;          // quiet, because people may be holding the actuators
 
-SessionSetup setupOf(const Mix& mix) {
+SessionSetup makeSetup(const Mix& mix) {
     SessionSetup setup;
     setup.scene = *mix.scene;
     setup.seed = mix.seed;
@@ -22,22 +22,22 @@ SessionSetup setupOf(const Mix& mix) {
     setup.layout = mix.layout;
     setup.longestGapSeconds = threadGapSeconds(stepsPerSecond);
     setup.contactSound.emplace();
-    setup.ears = 2;
+    setup.contactChannels = 2;
     setup.marks = MarkedOnsets::all;
     return setup;
 }
 
 /// Limits the gains of new strips to the lowest gain of an existing strip that plays.
-void limitNewStrips(std::span<const Strip> before, std::span<Strip> strips) {
+void limitNewStrips(std::span<const Strip> oldStrips, std::span<Strip> strips) {
     double maxDb = maxStripDb;
-    for (const Strip& strip : before)
+    for (const Strip& strip : oldStrips)
         if (strip.gainDb > minStripDb) maxDb = std::min(maxDb, strip.gainDb);
-    for (std::size_t j = before.size(); j < strips.size(); ++j)
+    for (std::size_t j = oldStrips.size(); j < strips.size(); ++j)
         strips[j].gainDb = std::min(strips[j].gainDb, maxDb);
 }
 
-RigSettings rigSettingsOf(const Mix& mix, const DeviceChoice& device) {
-    return {.setup = setupOf(mix), .sinks = device.sinks, .awaitsSinks = false};
+RigSettings makeRigSettings(const Mix& mix, const DeviceChoice& device) {
+    return {.setup = makeSetup(mix), .sinks = device.sinks, .awaitsSinks = false};
 }
 
 bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
@@ -106,34 +106,34 @@ Mix MixerModel::defaultMix() {
 /// An undoable edit of the mixer state; repeated edits of one fader merge into one.
 class MixerModel::MixEdit final : public juce::UndoableAction {
 public:
-    MixEdit(MixerHistory& history, Mix before, Mix after)
+    MixEdit(MixerHistory& history, Mix oldMix, Mix newMix)
         : history_{history}
-        , before_{std::move(before)}
-        , after_{std::move(after)} {}
+        , oldMix_{std::move(oldMix)}
+        , newMix_{std::move(newMix)} {}
     // JUCE keeps no step of an action that fails at first, but forgets all steps if one fails later
     bool perform() override {
-        const bool isDone = history_.model->apply(after_);
+        const bool isDone = history_.model->apply(newMix_);
         return std::exchange(wasPerformed_, true) || isDone;
     }
-    bool undo() override { return history_.model->apply(before_), true; }
+    bool undo() override { return history_.model->apply(oldMix_), true; }
     int getSizeInUnits() override { return 1; }
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
-        const auto* nextEdit = dynamic_cast<MixEdit*>(next);
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* nextAction) override {
+        const auto* nextEdit = dynamic_cast<MixEdit*>(nextAction);
         if (nextEdit == nullptr) return nullptr;
-        auto* merged = new MixEdit{history_, before_, nextEdit->after_};
-        merged->wasPerformed_ = true;
-        return merged;
+        auto* mergedEdit = new MixEdit{history_, oldMix_, nextEdit->newMix_};
+        mergedEdit->wasPerformed_ = true;
+        return mergedEdit;
     }
 
 private:
     MixerHistory& history_;
-    Mix before_, after_;
+    Mix oldMix_, newMix_;
     bool wasPerformed_ = false;
 };
 
 MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix, MixerStart start)
     : mix_{std::move(mix)}
-    , rig_{rigSettingsOf(mix_, device), drivers}
+    , rig_{makeRigSettings(mix_, device), drivers}
     , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
     , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
     , history_{start.history ? std::move(start.history) : std::make_shared<MixerHistory>()}
@@ -148,9 +148,9 @@ MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix
                    [this](const Result<std::string>& note) { onClipRead(note); }} {
     history_->model = this;
     const auto withoutOutput = removeSharedOutputs(mix_.strips);
-    saved_.run = setupOf(mix_).run();
-    saved_.panner = mix_.panner();
-    saved_.layout = mix_.layout;
+    savedSession_.run = makeSetup(mix_).run();
+    savedSession_.panner = mix_.panner();
+    savedSession_.layout = mix_.layout;
     maxActuators_ = mix_.count();
     signals_.tap().setActiveChannels(mix_.count());
     exposure_.setLayout(mix_.layout);
@@ -174,42 +174,42 @@ MixerModel::~MixerModel() {
     rig_.close();
 }
 
-void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit, bool restoresPoses) {
+void MixerModel::edit(const juce::String& name, const Mix& newMix, bool continuesEdit, bool restoresPoses) {
     auto& undo = history_->undo;
     if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
     if (const Scene& drawn = world_.drawing().drawn();
-        next.scene != mix_.scene && (restoresPoses || drawn != *mix_.scene)) {
+        newMix.scene != mix_.scene && (restoresPoses || drawn != *mix_.scene)) {
         auto base = std::make_shared<const Scene>(restoresPoses ? sceneNow(drawn, world_.posesNow()) : drawn);
-        const auto before = std::exchange(mix_.scene, std::move(base));
-        history_->drawnScenes.emplace_back(before, mix_.scene);
+        const auto oldScene = std::exchange(mix_.scene, std::move(base));
+        history_->drawnScenes.emplace_back(oldScene, mix_.scene);
     }
-    Mix adjusted = next;
-    limitNewStrips(mix_.strips, adjusted.strips);
-    const auto withoutHeadphone = assignNewStrips(device_.choice(), adjusted.strips, mix_.strips.size());
-    const auto withoutOutput = removeSharedOutputs(adjusted.strips);
-    undo.perform(new MixEdit{*history_, mix_, std::move(adjusted)});
+    Mix adjustedMix = newMix;
+    limitNewStrips(mix_.strips, adjustedMix.strips);
+    const auto withoutHeadphone = assignNewStrips(device_.choice(), adjustedMix.strips, mix_.strips.size());
+    const auto withoutOutput = removeSharedOutputs(adjustedMix.strips);
+    undo.perform(new MixEdit{*history_, mix_, std::move(adjustedMix)});
     reportNoOutput(*this, withoutOutput);
     reportNoHeadphoneOutput(*this, withoutHeadphone);
 }
 
-bool MixerModel::apply(const Mix& next) {
-    const Mix before = std::exchange(mix_, next);
-    if (history_->isSame(mix_.scene, before.scene)) mix_.scene = before.scene; // keeps the drawn bodies
+bool MixerModel::apply(const Mix& newMix) {
+    const Mix oldMix = std::exchange(mix_, newMix);
+    if (history_->isSame(mix_.scene, oldMix.scene)) mix_.scene = oldMix.scene; // keeps the drawn bodies
     bool isRejected = false;
     ++editCount_;
     maxActuators_ = std::max(maxActuators_, mix_.count());
-    if (mix_.scene != before.scene || mix_.seed != before.seed)
-        reportIfError(world_.restartScene(mix_.scene == before.scene));
+    if (mix_.scene != oldMix.scene || mix_.seed != oldMix.seed)
+        reportIfError(world_.restartScene(mix_.scene == oldMix.scene));
     signals_.tap().setActiveChannels(mix_.count());
     exposure_.setLayout(mix_.layout);
     sentMix_->sendLanes(session(), mix_);
     sentMix_->send(session(), mix_);
     if (!mix_.strips.empty() &&
-        !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
+        !std::ranges::equal(oldMix.strips, mix_.strips, {}, &Strip::output, &Strip::output))
         if (const auto error = device_.assignOutputs(); !error.empty()) {
             setStripOutputs(output().channelMap(), mix_.strips); // rejected: neither displayed nor saved
             report(utf8(error));
-            isRejected = isSame(mix_, before);
+            isRejected = isSame(mix_, oldMix);
         }
     if (std::ranges::none_of(mix_.strips, [](const Strip& strip) { return strip.output < 0; }))
         for (const char* label : {noOutputLabel, noHeadphoneOutputLabel}) messages_.withdraw(label);
@@ -236,7 +236,7 @@ bool MixerModel::attach(double shareX, double shareY) {
         // depth and part of the body are those of the nearest actuator in the view
         const auto others = std::span{geometry.places}.first(static_cast<std::size_t>(geometry.count));
         const auto nearest = *std::ranges::min_element(
-            others, {}, [=](const ActuatorPlace& at) { return std::hypot(at.xMetres - x, at.yMetres - y); });
+            others, {}, [=](const ActuatorPlace& p) { return std::hypot(p.xMetres - x, p.yMetres - y); });
         geometry.places[others.size()] = {x, y, nearest.zMetres, nearest.part};
         ++geometry.count;
         mix.strips.push_back(makeNextStrip(mix.strips));
@@ -260,20 +260,20 @@ void MixerModel::detach(int actuator) {
 }
 
 const SavedSession& MixerModel::savedSession() {
-    saved_.channels = maxActuators_;
-    saved_.lengthNs = session().status().sessionNs;
-    session().readLog(saved_.log);
-    saved_.mix = mix_;
-    return saved_;
+    savedSession_.channels = maxActuators_;
+    savedSession_.lengthNs = session().status().sessionNs;
+    session().readLog(savedSession_.log);
+    savedSession_.mix = mix_;
+    return savedSession_;
 }
 
 std::string MixerModel::open(const DeviceChoice& choice) {
     const int slowness = session().world().slowness();
-    const DeviceChoice before = device_.choice();
+    const DeviceChoice oldChoice = device_.choice();
     auto error = device_.open(choice);
     if (!choice.isHeadphones) {
         messages_.withdraw(noHeadphoneOutputLabel);
-        if (before.isHeadphones) leaveHeadphones(*this, before);
+        if (oldChoice.isHeadphones) leaveHeadphones(*this, oldChoice);
     }
     session().world().setSlowness(slowness); // the first device resets it
     if (!error.empty())
@@ -303,12 +303,12 @@ void MixerModel::checkOutput() {
     device_.maintain();
     session().world().setSlowness(slowness);
     // each source of errors has a message of its own
-    const auto before = std::exchange(rigErrors_, rig_.errors());
-    for (const RigError& previous : before)
+    const auto oldErrors = std::exchange(rigErrors_, rig_.errors());
+    for (const RigError& previous : oldErrors)
         if (std::ranges::find(rigErrors_, previous.source, &RigError::source) == rigErrors_.end())
             messages_.withdraw(utf8(previous.source));
     for (const RigError& error : rigErrors_)
-        if (std::ranges::find(before, error) == before.end())
+        if (std::ranges::find(oldErrors, error) == oldErrors.end())
             messages_.show({utf8(error.text), false, {}, utf8(error.source)});
 }
 
@@ -366,9 +366,9 @@ MixerSnapshot MixerModel::poll() {
     signals_.setSceneTime(world.runNumber(),
                           1e-9 * static_cast<double>(world.sceneNs()) - device_.outputLatencySeconds(),
                           world.slowness());
-    MixerSignals::PlayedFlags played{};
-    for (std::size_t j = 0; j < mix_.strips.size(); ++j) played[j] = !isSilent_ && device_.isPlayed(j);
-    const float loudest = signals_.updatePeaks(snapshot_, mix_.count(), played);
+    MixerSignals::PlayedFlags isPlayed{};
+    for (std::size_t j = 0; j < mix_.strips.size(); ++j) isPlayed[j] = !isSilent_ && device_.isPlayed(j);
+    const float maxPeak = signals_.updatePeaks(snapshot_, mix_.count(), isPlayed);
     snapshot_.session = session().status();
     snapshot_.device = output().status();
     exposure_.update();
@@ -380,17 +380,17 @@ MixerSnapshot MixerModel::poll() {
     lanes_.poll();
     snapshot_.meters.limiterGain = snapshot_.session.render.limiterGain;
     snapshot_.meters.guardGain = snapshot_.device.guardGain;
-    snapshot_.meters.enchanters = mix_.count();
+    snapshot_.meters.actuatorCount = mix_.count();
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j)
         snapshot_.meters.isConnected[j] = mix_.strips[j].output >= 0;
-    snapshot_.masterPeak = loudest * masterGain(mix_);
+    snapshot_.masterPeak = maxPeak * masterGain(mix_);
     snapshot_.posesNs = session().world().readPoses(snapshot_.poses);
     snapshot_.latencyNs = static_cast<std::int64_t>(1e9 * device_.outputLatencySeconds());
     checkOutput();
-    if (const auto words =
+    if (const auto warning =
             world_.overloadWarning(snapshot_.session.sessionNs, snapshot_.posesNs, snapshot_.poses);
-        words.isNotEmpty())
-        report(words);
+        warning.isNotEmpty())
+        report(warning);
     script_.poll();
     if (inputs_.hasNewMessages()) ++editCount_; // events from messages are part of the saved session
     return snapshot_;

@@ -29,13 +29,13 @@ public:
     /// `continuesEdit`, such as those of a held fader, only the first starts a new undo step. An actuator
     /// whose output another one has gets none, which is reported. Undo moves bodies to their drawn poses, or
     /// with `restoresPoses` to those before the edit.
-    void edit(const juce::String& name, const Mix& next, bool continuesEdit = false,
+    void edit(const juce::String& name, const Mix& newMix, bool continuesEdit = false,
               bool restoresPoses = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool continuesEdit = false) {
-        Mix next = mix_;
-        change(next);
-        edit(name, next, continuesEdit);
+        Mix newMix = mix_;
+        change(newMix);
+        edit(name, newMix, continuesEdit);
     }
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.
@@ -87,7 +87,7 @@ private:
     void countEdit(bool changesDisplay = true);
 
     void checkOutput();
-    bool apply(const Mix& next); // false: it was rejected, and nothing has changed
+    bool apply(const Mix& newMix); // false: it was rejected, and nothing has changed
     void showSilence();
     void collectPlayed();
     void onClipRead(const Result<std::string>& note);
@@ -106,7 +106,7 @@ private:
     bool isSilent_ = false;
     std::uint64_t editCount_ = 0;
     std::unique_ptr<SentMix> sentMix_;
-    SavedSession saved_;
+    SavedSession savedSession_;
     int maxActuators_ = 0;
     RecentContacts recentContacts_;
     MixerSnapshot snapshot_;

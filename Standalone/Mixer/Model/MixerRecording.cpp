@@ -101,10 +101,10 @@ double maxLaneDb(const GainLane& lane) { return std::ranges::max(lane, {}, &Gain
 void writeLane(const GainLane& moves, double startDb, double& faderDb, GainLane& lane) {
     const double maxMoveDb = maxLaneDb(moves);
     faderDb = startDb <= minStripDb ? maxMoveDb : std::max(startDb, maxMoveDb - maxStripDb);
-    GainLane moved = moves;
-    for (GainPoint& point : moved)
+    GainLane movedLane = moves;
+    for (GainPoint& point : movedLane)
         point.db = point.db <= minStripDb ? minStripDb : std::max(minStripDb, point.db - faderDb);
-    lane = simplified(sumOf(lane, moved));
+    lane = simplified(sumLanes(lane, movedLane));
 }
 
 constexpr const char* folderName = "PhysVib";
@@ -122,10 +122,10 @@ double MixerLanes::sceneSeconds() const {
 }
 
 std::vector<double> MixerLanes::faderValuesDb() const {
-    std::vector<double> all;
-    for (const Strip& strip : model_.mix().strips) all.push_back(strip.gainDb);
-    for (const StripGroup& group : model_.mix().groups) all.push_back(group.gainDb);
-    return all;
+    std::vector<double> valuesDb;
+    for (const Strip& strip : model_.mix().strips) valuesDb.push_back(strip.gainDb);
+    for (const StripGroup& group : model_.mix().groups) valuesDb.push_back(group.gainDb);
+    return valuesDb;
 }
 
 void MixerLanes::poll() {
@@ -181,11 +181,11 @@ void MixerLanes::end() {
 
 // The working directory is never used: it is arbitrary if a menu has started the program.
 juce::Array<juce::File> UserFolder::candidates() const {
-    juce::Array<juce::File> all;
-    if (chosen_ != juce::File{}) all.add(chosen_);
+    juce::Array<juce::File> folders;
+    if (chosenFolder_ != juce::File{}) folders.add(chosenFolder_);
     for (const auto base : {juce::File::userDocumentsDirectory, juce::File::userHomeDirectory})
-        all.add(juce::File::getSpecialLocation(base).getChildFile(folderName));
-    return all;
+        folders.add(juce::File::getSpecialLocation(base).getChildFile(folderName));
+    return folders;
 }
 
 juce::File UserFolder::location() const {
@@ -204,11 +204,11 @@ Result<juce::File> UserFolder::newFile(const juce::String& name, const juce::Str
     const auto folder = create();
     if (!folder) return folder;
     for (int k = 1;; ++k) {
-        const auto numbered = name + (k == 1 ? juce::String{} : "-" + juce::String{k});
+        const auto numberedName = name + (k == 1 ? juce::String{} : "-" + juce::String{k});
         bool exists = false;
         for (const auto& ending : endings)
-            exists = exists || folder.value.getChildFile(numbered + ending).exists();
-        if (!exists) return folder.value.getChildFile(numbered + endings[0]);
+            exists = exists || folder.value.getChildFile(numberedName + ending).exists();
+        if (!exists) return folder.value.getChildFile(numberedName + endings[0]);
     }
 }
 

@@ -155,8 +155,8 @@ class UserFolder {
 public:
     /// Sets the user's choice. Without one, or if it cannot be written, the folder is PhysVib in the
     /// documents or else in the home folder.
-    void choose(const juce::File& folder) { chosen_ = folder; }
-    const juce::File& chosen() const noexcept { return chosen_; }
+    void choose(const juce::File& folder) { chosenFolder_ = folder; }
+    const juce::File& chosenFolder() const noexcept { return chosenFolder_; }
 
     /// The first of these folders that can be written or created; an empty file if none can.
     juce::File location() const;
@@ -170,7 +170,7 @@ public:
 private:
     juce::Array<juce::File> candidates() const;
 
-    juce::File chosen_;
+    juce::File chosenFolder_;
 };
 
 } // namespace physvib

@@ -26,14 +26,14 @@ public:
     }
     int getSizeInUnits() override { return 1; }
     // merges successive changes of a sound or texture by one control
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
-        const auto* nextEdit = dynamic_cast<Edit*>(next);
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* nextAction) override {
+        const auto* nextEdit = dynamic_cast<Edit*>(nextAction);
         if (nextEdit == nullptr ||
             !(changesSameMaterial<SoundAction>(*nextEdit) || changesSameMaterial<TextureAction>(*nextEdit)))
             return nullptr;
-        auto* merged = new Edit{history_, edit_.mergedWith(nextEdit->edit_)};
-        merged->wasPerformed_ = true;
-        return merged;
+        auto* mergedEdit = new Edit{history_, edit_.mergedWith(nextEdit->edit_)};
+        mergedEdit->wasPerformed_ = true;
+        return mergedEdit;
     }
 
 private:
@@ -48,14 +48,14 @@ private:
     // Submits all actions at once: in a slow world each would wait for a step, and Esc would wait for all.
     bool submit(bool isForward) {
         MixerWorld& world = this->world();
-        const SceneDrawing before = world.drawing_;
+        const SceneDrawing oldDrawing = world.drawing_;
         std::vector<Action> actions;
         edit_.perform(isForward, world.drawing_, world.posesNow(), [&](std::span<const Action> part) {
             world.drawing_.apply(part);
             actions.insert(actions.end(), part.begin(), part.end());
         });
         if (auto error = world.session_.submit({std::span<const Action>{actions}}).error; !error.empty()) {
-            world.drawing_ = before;
+            world.drawing_ = oldDrawing;
             return world.editError_ = std::move(error), false;
         }
         for (const Action& action : actions) world.reportInput(isLasting(action));
@@ -123,8 +123,8 @@ juce::String MixerWorld::overloadWarning(std::int64_t sessionNs, std::int64_t po
         pace_.poll(sessionNs, session_.world().stalledNs() + std::max<std::int64_t>(0, sessionNs - posesNs));
     if (!share) return {};
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
-    const bool wasOverloaded =
-        std::exchange(isOverloaded_, *share < PaceWatch::minShare && bodies >= PaceWatch::minBodies);
+    const bool wasOverloaded = std::exchange(isOverloaded_, *share < RealTimeMonitor::minShare &&
+                                                                bodies >= RealTimeMonitor::minBodies);
     if (wasOverloaded || !isOverloaded_) return {};
     const int percent = juce::roundToInt(100.0 * *share);
     return utf8(readable::number(static_cast<double>(bodies), 0)) +
@@ -165,11 +165,11 @@ std::vector<CollisionEvent> contactsToMatch(const MixerModel& model) {
     return events;
 }
 
-/// `mix` with the world of `now`, since the world is not part of the comparison.
-Mix withWorldOf(Mix mix, const Mix& now) {
-    mix.scene = now.scene;
-    mix.seed = now.seed;
-    mix.dragNewtonSecondsPerScreenMetre = now.dragNewtonSecondsPerScreenMetre;
+/// `mix` with the world of `source`, since the world is not part of the comparison.
+Mix copyWorld(Mix mix, const Mix& source) {
+    mix.scene = source.scene;
+    mix.seed = source.seed;
+    mix.dragNewtonSecondsPerScreenMetre = source.dragNewtonSecondsPerScreenMetre;
     return mix;
 }
 
@@ -178,7 +178,7 @@ Mix withWorldOf(Mix mix, const Mix& now) {
 void MixerScript::start() {
     if (isRecording_) return;
     auto scene = std::make_shared<const Scene>(sceneToRecord(model_.world().drawing().drawn()));
-    runsBefore_ = model_.savedSession().log.runs.size();
+    runIndex_ = model_.savedSession().log.runs.size();
     model_.change(scriptEditName, [&scene](Mix& mix) { mix.scene = scene; });
     recordedScene_ = model_.mix().scene;
     worldEditCount_ = model_.world().editCount();
@@ -196,13 +196,13 @@ void MixerScript::poll() {
             "The recording of hands has ended: another scene was chosen. No script was kept");
     }
     const auto& runs = model_.savedSession().log.runs;
-    if (runs.size() <= runsBefore_) return; // the world has not restarted yet
-    const SceneRun& run = runs[runsBefore_];
+    if (runs.size() <= runIndex_) return; // the world has not restarted yet
+    const SceneRun& run = runs[runIndex_];
     seconds_ = 1e-9 * static_cast<double>(run.worldEndNs);
     inputCount_ = run.inputs.size();
     const bool isFull =
         seconds_ >= maxRecordedSeconds(*recordedScene_) || inputCount_ >= maxRecordedInputs(*recordedScene_);
-    const bool hasEnded = runs.size() > runsBefore_ + 1 || model_.world().editCount() != worldEditCount_;
+    const bool hasEnded = runs.size() > runIndex_ + 1 || model_.world().editCount() != worldEditCount_;
     if (isFull || hasEnded) stop();
     if (isFull)
         model_.announce("The script is full: the recording of hands ended after " +
@@ -212,10 +212,10 @@ void MixerScript::poll() {
 void MixerScript::stop() {
     if (!isRecording_) return;
     isRecording_ = false;
-    trimsOfScenes_.clear();
+    sceneTrims_.clear();
     const auto& runs = model_.savedSession().log.runs;
-    if (runs.size() > runsBefore_)
-        recording_ = recordedInputs(runs[runsBefore_]);
+    if (runs.size() > runIndex_)
+        recording_ = recordedInputs(runs[runIndex_]);
     else
         recording_ = {};
     if (recording_.inputs.empty()) return model_.announce("Nothing was recorded: no hand did anything");
@@ -230,15 +230,15 @@ void MixerScript::apply(const ScriptTrim& trim, bool continuesEdit) {
     scene = sceneWithInputs(std::move(scene), recording_, trim);
     if (const auto error = validate(scene); !error.empty())
         return model_.report("The script: " + utf8(error));
-    auto next = std::make_shared<const Scene>(std::move(scene));
-    std::erase_if(trimsOfScenes_, [](const auto& entry) { return entry.first.expired(); });
-    trimsOfScenes_.emplace_back(next, trim);
+    auto editedScene = std::make_shared<const Scene>(std::move(scene));
+    std::erase_if(sceneTrims_, [](const auto& entry) { return entry.first.expired(); });
+    sceneTrims_.emplace_back(editedScene, trim);
     model_.change(
-        scriptEditName, [&next](Mix& mix) { mix.scene = next; }, continuesEdit);
+        scriptEditName, [&editedScene](Mix& mix) { mix.scene = editedScene; }, continuesEdit);
 }
 
 const RecordedInputs* MixerScript::recording() const {
-    const bool isRecorded = !isRecording_ && std::ranges::any_of(trimsOfScenes_, [this](const auto& entry) {
+    const bool isRecorded = !isRecording_ && std::ranges::any_of(sceneTrims_, [this](const auto& entry) {
         return entry.first.lock() == model_.mix().scene;
     });
     return isRecorded ? &recording_ : nullptr;
@@ -246,8 +246,8 @@ const RecordedInputs* MixerScript::recording() const {
 
 ScriptTrim MixerScript::trim() const {
     const auto found = std::ranges::find_if(
-        trimsOfScenes_, [this](const auto& entry) { return entry.first.lock() == model_.mix().scene; });
-    return found == trimsOfScenes_.end() ? ScriptTrim{} : found->second;
+        sceneTrims_, [this](const auto& entry) { return entry.first.lock() == model_.mix().scene; });
+    return found == sceneTrims_.end() ? ScriptTrim{} : found->second;
 }
 
 void MixerScript::setTrim(const ScriptTrim& trim, bool continuesEdit) {
@@ -273,7 +273,7 @@ double contactEnergyG2(const Mix& mix, std::span<const CollisionEvent> events) {
     return sumG2 * static_cast<double>(masterGain(mix)) * static_cast<double>(masterGain(mix));
 }
 
-bool MixerCompare::isOn() const {
+bool MixerCompare::isComparing() const {
     return otherMix_ && model_.undoManager().getRedoDescription() != compareEditName;
 }
 
@@ -285,21 +285,21 @@ Mix MixerCompare::userMix() const {
 }
 
 void MixerCompare::toggle() {
-    if (!isOn()) {
+    if (!isComparing()) {
         end();
         appliedLevelDb_ = model_.mix().levelDb;
         otherMix_ = model_.mix();
     }
-    const Mix before = userMix();
-    Mix next = withWorldOf(*otherMix_, model_.mix());
+    const Mix oldMix = userMix();
+    Mix newMix = copyWorld(*otherMix_, model_.mix());
     const auto events = contactsToMatch(model_);
-    const double beforeG2 = contactEnergyG2(before, events), nextG2 = contactEnergyG2(next, events);
-    loweredDb_ = beforeG2 > 0.0 && nextG2 > beforeG2 ? 10.0 * std::log10(nextG2 / beforeG2) : 0.0;
-    if (next.levelDb > minStripDb) next.levelDb = std::max(minStripDb, next.levelDb - loweredDb_);
-    appliedLevelDb_ = next.levelDb;
+    const double oldG2 = contactEnergyG2(oldMix, events), newG2 = contactEnergyG2(newMix, events);
+    loweredDb_ = oldG2 > 0.0 && newG2 > oldG2 ? 10.0 * std::log10(newG2 / oldG2) : 0.0;
+    if (newMix.levelDb > minStripDb) newMix.levelDb = std::max(minStripDb, newMix.levelDb - loweredDb_);
+    appliedLevelDb_ = newMix.levelDb;
     isBActive_ = !isBActive_;
-    otherMix_ = before;
-    model_.edit(compareEditName, next, true); // changes back and forth are one step
+    otherMix_ = oldMix;
+    model_.edit(compareEditName, newMix, true); // changes back and forth are one step
 }
 
 void MixerCompare::end() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's world: its speed (PaceWatch), input and undoable edits (MixerWorld, MixerHistory), the recorded
-// script (MixerScript), and the comparison of two mixes (MixerCompare).
+// The mixer's world: its speed (RealTimeMonitor), input and undoable edits (MixerWorld, MixerHistory), the
+// recorded script (MixerScript), and the comparison of two mixes (MixerCompare).
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Live/Documents/Mix.h"
@@ -23,7 +23,7 @@ namespace physvib {
 class MixerModel;
 
 /// Measures whether the simulation keeps up with real time. To be polled a few times a second; one thread.
-class PaceWatch {
+class RealTimeMonitor {
 public:
     static constexpr std::int64_t intervalNs = 500'000'000;
     static constexpr double minShare = 0.9; ///< of real time; below it the world is too slow
@@ -55,11 +55,11 @@ struct MixerHistory {
     juce::UndoManager undo{1000, 30};
 
     bool isSame(const std::shared_ptr<const Scene>& a, const std::shared_ptr<const Scene>& b) const {
-        return latest(a) == latest(b);
+        return newestScene(a) == newestScene(b);
     }
 
 private:
-    const Scene* latest(std::shared_ptr<const Scene> scene) const {
+    const Scene* newestScene(std::shared_ptr<const Scene> scene) const {
         for (const auto& [before, after] : drawnScenes) // in the order in which they were drawn
             if (before == scene) scene = after;
         return scene.get();
@@ -112,7 +112,7 @@ private:
     SceneDrawing drawing_;
     std::string editError_; // why the last edit failed; empty: it did not
     std::uint64_t editCount_ = 0;
-    PaceWatch pace_;
+    RealTimeMonitor pace_;
     bool isOverloaded_ = false;
 };
 
@@ -149,11 +149,11 @@ private:
     MixerModel& model_;
     bool isRecording_ = false;
     double seconds_ = 0.0;
-    std::size_t inputCount_ = 0, runsBefore_ = 0;
+    std::size_t inputCount_ = 0, runIndex_ = 0;
     std::uint64_t worldEditCount_ = 0;
     std::shared_ptr<const Scene> recordedScene_;
     RecordedInputs recording_;
-    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> trimsOfScenes_; // for undo
+    std::vector<std::pair<std::weak_ptr<const Scene>, ScriptTrim>> sceneTrims_; // for undo
 };
 
 /// The energy of these events in a mix, in g^2: the sum of their squared levels at all actuators, after
@@ -173,7 +173,7 @@ public:
     /// Keeps the state that plays, and discards the other.
     void end();
     /// Whether there are two states; false after the switch between them was undone.
-    bool isOn() const;
+    bool isComparing() const;
     char activeState() const noexcept { return isBActive_ ? 'B' : 'A'; }
     double loweredDb() const noexcept { return loweredDb_; } ///< by how much the state that plays is lowered
 

@@ -7,10 +7,10 @@
 namespace physvib {
 namespace {
 
-constexpr int actuatorRowPixels = 34;
+constexpr int actuatorRowPixels = 34, titlePixels = 18, buttonPixels = 28;
 
 /// Index of the preset with the geometry of this layout, whatever its name; -1: none.
-int presetIndexOf(const ActuatorLayout& layout) {
+int findPreset(const ActuatorLayout& layout) {
     const auto hasGeometry = [&layout](std::string_view name) {
         return isSame(presetLayout(name).geometry, layout);
     };
@@ -19,20 +19,20 @@ int presetIndexOf(const ActuatorLayout& layout) {
 }
 
 juce::Font nameFont() { return text::font(text::medium, juce::Font::bold); }
-juce::String placeText(const ActuatorPlace& at) {
-    return number(1e3 * at.xMetres, 0) + ", " + number(1e3 * at.yMetres, 0) + " mm";
+juce::String placeText(const ActuatorPlace& place) {
+    return number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm";
 }
 juce::String profileText(const ActuatorDescription& actuator) {
     return actuator.actuator == "none" ? juce::String{"no profile"} : utf8(actuator.actuator);
 }
 
 /// Pixel widths of the longest name, place and profile, each with the gap after it.
-std::array<int, 3> columnWidthsOf(const LayoutDescription& layout) {
+std::array<int, 3> measureColumns(const LayoutDescription& layout) {
     constexpr int columnGap = 12;
     const auto font = text::font(text::medium);
     std::array<int, 3> widths{};
-    const auto widen = [&widths](std::size_t column, const juce::Font& cellFont, const juce::String& words) {
-        widths[column] = std::max(widths[column], text::pixelWidth(cellFont, words) + columnGap);
+    const auto widen = [&widths](std::size_t column, const juce::Font& cellFont, const juce::String& cell) {
+        widths[column] = std::max(widths[column], text::pixelWidth(cellFont, cell) + columnGap);
     };
     for (std::size_t i = 0; i < layout.actuators.size(); ++i) {
         widen(0, nameFont(), utf8(layout.actuators[i].label));
@@ -44,7 +44,7 @@ std::array<int, 3> columnWidthsOf(const LayoutDescription& layout) {
 
 /// Pixel widths of these columns in a row; the full scale gets the rest. If the row is too narrow, names and
 /// profiles share what the numbers leave.
-std::array<int, 3> columnsIn(int width, const std::array<int, 3>& widths) {
+std::array<int, 3> fitColumns(int width, const std::array<int, 3>& widths) {
     constexpr int fullScaleWidth = 66, columnCount = 3;
     auto [name, place, profile] = widths;
     const int remaining = width - fullScaleWidth - place;
@@ -87,12 +87,12 @@ void ActuatorsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int h
     g.setColour(colour);
     g.fillEllipse(area.removeFromLeft(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
     area.removeFromLeft(12);
-    const auto cell = [&](const juce::String& words, int cellWidth, Shade which,
-                          juce::Justification where = juce::Justification::centredLeft) {
-        g.setColour(shade(*this, which));
-        g.drawText(words, area.removeFromLeft(cellWidth), where, true);
+    const auto cell = [&](const juce::String& cellText, int cellWidth, Shade tone,
+                          juce::Justification side = juce::Justification::centredLeft) {
+        g.setColour(shade(*this, tone));
+        g.drawText(cellText, area.removeFromLeft(cellWidth), side, true);
     };
-    const auto columns = columnsIn(area.getWidth(), columnWidths_);
+    const auto columns = fitColumns(area.getWidth(), columnWidths_);
     g.setFont(nameFont());
     cell(utf8(description.label), columns[0], Shade::text);
     g.setFont(text::font(text::medium));
@@ -134,14 +134,14 @@ ActuatorsTab::ActuatorsTab(MixerModel& model, WorldView& world)
     mapToggle_.setTitle("Map of the chosen actuator");
     mapToggle_.onClick = [this] { visibilityChanged(); };
     detach_ = makeLinkButton("Detach", "Detach the chosen actuator (Delete)", [this] {
-        if (selected_ >= 0) model_.detach(selected_);
+        if (selectedRow_ >= 0) model_.detach(selectedRow_);
     });
     edit_ = makeLinkButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"),
                            "Name, profile and full scale of the chosen actuator (Return)", [this] {
-                               if (selected_ >= 0) editRow(selected_);
+                               if (selectedRow_ >= 0) editRow(selectedRow_);
                            });
     hint_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
-    addAll(*this, {&newActuator_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_,
+    addAll(*this, {&newActuator_, &presetLabel_, &preset_, &lawLabel_, &law_, &exponentLabel_, &exponent_,
                    &list_, edit_.get(), detach_.get(), &mapToggle_, &hint_});
     world_.onSelect = [this](int actuator) {
         if (actuator >= 0) list_.selectRow(actuator);
@@ -150,11 +150,11 @@ ActuatorsTab::ActuatorsTab(MixerModel& model, WorldView& world)
 }
 
 void ActuatorsTab::selectedRowsChanged(int actuator) {
-    selected_ = actuator;
+    selectedRow_ = actuator;
     world_.select(actuator);
     visibilityChanged();
-    detach_->setEnabled(selected_ >= 0 && model_.mix().count() > 1);
-    edit_->setEnabled(selected_ >= 0);
+    detach_->setEnabled(selectedRow_ >= 0 && model_.mix().count() > 1);
+    edit_->setEnabled(selectedRow_ >= 0);
 }
 
 void ActuatorsTab::editRow(int actuator) {
@@ -179,19 +179,19 @@ void ActuatorsTab::editRow(int actuator) {
                  });
 }
 
-void ActuatorsTab::applyRow(std::size_t i, const std::string& label, const std::string& profile,
+void ActuatorsTab::applyRow(std::size_t row, const std::string& label, const std::string& profile,
                             double fullScaleG) {
     const auto& actuators = model_.mix().layout.actuators;
-    if (i >= actuators.size()) return; // it was detached meanwhile
+    if (row >= actuators.size()) return; // it was detached meanwhile
     for (std::size_t k = 0; k < actuators.size(); ++k)
-        if (label.empty() || (k != i && actuators[k].label == label))
+        if (label.empty() || (k != row && actuators[k].label == label))
             return model_.report("Label: expected one that no other actuator has");
     if (!(fullScaleG > 0.0 && fullScaleG <= 100.0))
         return model_.report("Full scale: expected a number of g above 0, at most 100");
     model_.change("Actuator " + utf8(label), [&](Mix& mix) {
-        mix.layout.actuators[i].label = label;
-        mix.layout.actuators[i].actuator = profile;
-        mix.layout.actuators[i].fullScaleG = fullScaleG;
+        mix.layout.actuators[row].label = label;
+        mix.layout.actuators[row].actuator = profile;
+        mix.layout.actuators[row].fullScaleG = fullScaleG;
     });
 }
 
@@ -207,13 +207,13 @@ void ActuatorsTab::applyPreset() {
 
 void ActuatorsTab::mixChanged() {
     const auto& mix = model_.mix();
-    preset_.setSelectedItemIndex(presetIndexOf(mix.layout.geometry), dontNotify);
+    preset_.setSelectedItemIndex(findPreset(mix.layout.geometry), dontNotify);
     law_.setSelectedItemIndex(static_cast<int>(mix.law), dontNotify);
     if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, dontNotify);
-    columnWidths_ = columnWidthsOf(mix.layout);
+    columnWidths_ = measureColumns(mix.layout);
     list_.updateContent();
     list_.repaint();
-    if (selected_ >= mix.count()) list_.deselectAllRows();
+    if (selectedRow_ >= mix.count()) list_.deselectAllRows();
     selectedRowsChanged(list_.getSelectedRow());
 }
 
@@ -223,7 +223,7 @@ void ActuatorsTab::resized() {
     const int space = isLow ? 6 : 12;
     newActuator_.setBounds(area.removeFromTop(isLow ? 34 : 44));
     area.removeFromTop(space);
-    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
+    auto names = area.removeFromTop(titlePixels), row = area.removeFromTop(rowHeight);
     const int third = (row.getWidth() - 2 * gap) / 3;
     const auto place = [&](juce::Label& name, juce::Component& control, int w) {
         name.setBounds(names.removeFromLeft(w));
@@ -231,12 +231,12 @@ void ActuatorsTab::resized() {
         names.removeFromLeft(gap);
         row.removeFromLeft(gap);
     };
-    place(presetName_, preset_, third);
-    place(lawName_, law_, third - 20);
-    place(exponentName_, exponent_, row.getWidth());
+    place(presetLabel_, preset_, third);
+    place(lawLabel_, law_, third - 20);
+    place(exponentLabel_, exponent_, row.getWidth());
     area.removeFromTop(space);
-    auto bottom = area.removeFromBottom(28);
-    mapToggle_.setBounds(area.removeFromBottom(28));
+    auto bottom = area.removeFromBottom(buttonPixels);
+    mapToggle_.setBounds(area.removeFromBottom(buttonPixels));
     detach_->setBounds(bottom.removeFromRight(80));
     edit_->setBounds(bottom.removeFromRight(140));
     hint_.setBounds(bottom);

@@ -58,7 +58,7 @@ private:
 
 juce::String timeText(std::int64_t ns) { return number(1e-9 * static_cast<double>(ns), 3) + " s"; }
 /// The material's name; for a rolling or sliding contact also its kind and its number of grains.
-juce::String nameOf(const Scene& scene, const RecentContact& contact) {
+juce::String contactName(const Scene& scene, const RecentContact& contact) {
     const auto name = materialName(scene, contact.event);
     const auto kind = contact.event.source.kind;
     if (kind == ContactKind::hit) return name;
@@ -93,17 +93,17 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
         gains = {};
         panner.gainsAt(event, gains);
     };
-    const auto clip = clipOfHits(hits, settings);
+    const auto clip = makeHitClip(hits, settings);
     if (!clip) return Failure{clip.error};
-    const auto parts = partsOf(clip.value, path, format);
+    const auto parts = splitClip(clip.value, path, format);
     WrittenHits written;
     for (const ClipPart& part : parts) {
         if (parts.size() > 1 && juce::File{part.path}.exists())
             return Failure{part.path + ": is there already; a file for each actuator replaces none"};
         written.paths.push_back(part.path);
     }
-    if (const auto done = writeParts(parts, format); !done) return Failure{done.error};
-    written.losses = lossesOf(parts, format);
+    if (const auto result = writeParts(parts, format); !result) return Failure{result.error};
+    written.losses = listLosses(parts, format);
     return written;
 }
 
@@ -121,8 +121,8 @@ EventsTab::EventsTab(MixerModel& model)
     std::vector<std::string_view> multichannel, mono;
     for (const ClipFormatInfo& row : clipFormats) (row.isMono ? mono : multichannel).push_back(row.ending);
     describe(format_, "Dragged as",
-             hitFileExtensions()[0] + ": a channel for each actuator. " + utf8(listed(multichannel)) +
-                 ": channels and places. " + utf8(listed(mono)) + ": a file for each actuator");
+             hitFileExtensions()[0] + ": a channel for each actuator. " + utf8(nameList(multichannel)) +
+                 ": channels and places. " + utf8(nameList(mono)) + ": a file for each actuator");
     format_.setSelectedItemIndex(files_->formatIndex(), dontNotify);
     format_.onChange = [this] { files_->setFormatIndex(format_.getSelectedItemIndex()); };
     save_ = makeLinkButton("Save as clip" + ellipsis(), "Save the chosen contacts as a clip (Return)",
@@ -134,10 +134,10 @@ EventsTab::EventsTab(MixerModel& model)
 // Rows do not change while a mouse button is down.
 void EventsTab::refresh(const MixerSnapshot& snapshot) {
     const double now = nowMs();
-    if (snapshot.session.render.played == playedCount_ || now - shownAtMs_ < listIntervalMs ||
+    if (snapshot.session.render.played == playedCount_ || now - updatedAtMs_ < listIntervalMs ||
         list_.isMouseButtonDown(true))
         return;
-    shownAtMs_ = now;
+    updatedAtMs_ = now;
     playedCount_ = snapshot.session.render.played;
     updateRows();
 }
@@ -151,14 +151,14 @@ void EventsTab::updateRows() {
         return c.id < oldestId &&
                (isContactSelected(c) || (!selectedIds_.empty() && items.size() < maxListedContacts));
     });
-    const int rowBefore = rowOf(lastClickedId_);
+    const int rowBefore = findRow(lastClickedId_);
     contacts_ = std::move(items);
     {
         const juce::ScopedValueSetter<bool> updating{isUpdatingRows_, true};
         list_.updateContent();
         restoreSelection();
     }
-    if (const int row = rowOf(lastClickedId_); rowBefore >= 0 && row >= 0) // its place on the screen stays
+    if (const int row = findRow(lastClickedId_); rowBefore >= 0 && row >= 0) // its place on the screen stays
         list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
                                                     (row - rowBefore) * eventRowPixels);
     showSelection();
@@ -173,11 +173,11 @@ void EventsTab::restoreSelection() {
             isContactSelected(contact) && contact.id != lastClickedId_)
             rows.addRange({row, row + 1});
     list_.setSelectedRows(rows, dontNotify);
-    if (const int last = rowOf(lastClickedId_); last >= 0)
+    if (const int last = findRow(lastClickedId_); last >= 0)
         list_.selectRow(last, true, false); // Shift extends the selection from it
 }
 
-int EventsTab::rowOf(std::uint64_t contactId) const {
+int EventsTab::findRow(std::uint64_t contactId) const {
     const auto found = std::ranges::find(contacts_, contactId, &RecentContact::id);
     return found == contacts_.end() ? -1 : static_cast<int>(found - contacts_.begin());
 }
@@ -213,7 +213,7 @@ juce::String EventsTab::getNameForRow(int row) {
     const auto& contact = nth(contacts_, row);
     const auto& hit = contact.event;
     const auto& scene = model_.world().scene();
-    return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
+    return contactName(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
            number(strongestActuatorFor(model_, hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
@@ -225,17 +225,17 @@ void EventsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
     if (isSelected) drawSelectedRow(g, *this, width, height);
     const Columns columns{{width, height}};
     const auto strongest = strongestActuatorFor(model, hit);
-    const int material = materialIndexOf(model.world().scene(), hit);
+    const int material = findMaterialIndex(model.world().scene(), hit);
     g.setColour(material < 0 ? palette::grey : palette::material(model.world().scene().materials, material));
     g.fillEllipse(columns.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
-    const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
-        g.setColour(shade(*this, which));
-        g.drawText(words, area,
+    const auto cell = [&](const juce::String& label, juce::Rectangle<int> area, Shade tone, bool isNumber) {
+        g.setColour(shade(*this, tone));
+        g.drawText(label, area,
                    isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     };
     g.setFont(text::font(text::small));
     cell(timeText(hit.timeNs), columns.time, Shade::muted, false);
-    cell(nameOf(model.world().scene(), contact), columns.name, Shade::text, false);
+    cell(contactName(model.world().scene(), contact), columns.name, Shade::text, false);
     const bool hasModes = !isClip(hit.sound);
     cell(hasModes ? number(hit.frequencyHz, 1) : "clip", columns.frequency, Shade::text, true);
     cell(hasModes ? number(hit.decayPerSecond, 1) : "", columns.decay, Shade::text, true);
@@ -250,8 +250,8 @@ void EventsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
 void EventsTab::paint(juce::Graphics& g) {
     const Columns columns{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
     setInk(g, *this, Shade::muted, text::small);
-    const auto drawTitle = [&](const juce::String& words, juce::Rectangle<int> area,
-                               juce::Justification where) { g.drawText(words, area, where, true); };
+    const auto drawTitle = [&](const juce::String& title, juce::Rectangle<int> area,
+                               juce::Justification side) { g.drawText(title, area, side, true); };
     drawTitle("Contact", columns.time, juce::Justification::centredLeft);
     drawTitle("Material", columns.name, juce::Justification::centredLeft);
     drawTitle("f Hz", columns.frequency, juce::Justification::centredRight);
@@ -266,11 +266,11 @@ void EventsTab::resized() {
     auto foot = area.removeFromBottom(footPixels);
     list_.setBounds(area);
     foot.removeFromTop(footPixels - formatPixels);
-    const int button = isNarrow() ? 98 : 110, between = isNarrow() ? 4 : gap;
-    save_->setBounds(foot.removeFromRight(button));
-    foot.removeFromRight(between);
-    format_.setBounds(foot.removeFromRight(button));
-    foot.removeFromRight(between);
+    const int buttonWidth = isNarrow() ? 98 : 110, buttonGap = isNarrow() ? 4 : gap;
+    save_->setBounds(foot.removeFromRight(buttonWidth));
+    foot.removeFromRight(buttonGap);
+    format_.setBounds(foot.removeFromRight(buttonWidth));
+    foot.removeFromRight(buttonGap);
     selectionLabel_.setBounds(foot.withTrimmedLeft(5));
     showSelection();
 }
@@ -304,7 +304,7 @@ void EventsTab::saveAs() {
                [this](const juce::File& file) { saveTo(file); });
 }
 
-std::vector<juce::File> EventsTab::write(const juce::File& file, bool announcesResult) {
+std::vector<juce::File> EventsTab::writeSelection(const juce::File& file, bool announcesResult) {
     std::vector<CollisionEvent> hits;
     for (const RecentContact& contact : contacts_)
         if (isContactSelected(contact)) model_.recentContacts().appendEvents(contact, hits);
@@ -313,12 +313,12 @@ std::vector<juce::File> EventsTab::write(const juce::File& file, bool announcesR
     if (!written) return model_.report(utf8(written.error)), std::vector<juce::File>{};
     std::vector<juce::File> files;
     for (const auto& path : written.value.paths) files.emplace_back(utf8(path));
-    juce::StringArray words{"Saved " + files.front().getFullPathName() +
+    juce::StringArray notes{"Saved " + files.front().getFullPathName() +
                             (files.size() > 1
                                  ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more"
                                  : juce::String{})};
-    for (const auto& loss : written.value.losses) words.add(utf8(loss));
-    if (announcesResult) model_.announce(words.joinIntoString("; "));
+    for (const auto& loss : written.value.losses) notes.add(utf8(loss));
+    if (announcesResult) model_.announce(notes.joinIntoString("; "));
     return files;
 }
 
@@ -328,7 +328,7 @@ juce::StringArray EventsTab::filesToDrag() {
     if (selectedIds_.empty()) return addresses;
     const auto folder = files_->makeFolder();
     if (!folder) return model_.report(utf8(folder.error)), addresses;
-    for (const auto& file : write(folder.value.getChildFile(fileName()), false))
+    for (const auto& file : writeSelection(folder.value.getChildFile(fileName()), false))
         addresses.add(juce::URL{file}.toString(false));
     return addresses;
 }
@@ -343,23 +343,23 @@ Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, 
     shiftToZero(hits);
     const auto panner = mix.panner();
     const auto name = pathOf(path);
-    const HitExport chosen{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
-                           mix.layout, mix.layout.name};
-    if (const auto format = clipFormatOf(name)) return writeClip(chosen, panner, name, *format);
+    const HitExport hitExport{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
+                              mix.layout, mix.layout.name};
+    if (const auto format = findClipFormat(name)) return writeClip(hitExport, panner, name, *format);
     if (!path.hasFileExtension(hitFileExtensions()[0]))
         return Failure{name + ": expected a name that ends in " +
                        hitFileExtensions().joinIntoString(", ").toStdString()};
-    const std::string error = writeHitsWav(chosen, panner, sampleRateHz, name, "physvib " PHYSVIB_VERSION);
+    const std::string error = writeHitsWav(hitExport, panner, sampleRateHz, name, "physvib " PHYSVIB_VERSION);
     return error.empty() ? Result<WrittenHits>{WrittenHits{{name}, {}}} : Result<WrittenHits>{Failure{error}};
 }
 
 Result<juce::File> DraggedFiles::makeFolder() {
     const auto tempFolder = juce::File::getSpecialLocation(juce::File::tempDirectory);
     if (!folder_.isDirectory()) {
-        const auto fresh = tempFolder.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
-        if (!createPrivateFolder(pathOf(fresh)))
+        const auto newFolder = tempFolder.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
+        if (!createPrivateFolder(pathOf(newFolder)))
             return Failure{pathOf(tempFolder) + ": expected a folder to write what is dragged into"};
-        folder_ = fresh;
+        folder_ = newFolder;
     }
     const auto folder = folder_.getChildFile(juce::String{++dragCount_});
     if (const auto result = folder.createDirectory(); result.failed())

@@ -62,10 +62,10 @@ public:
     /// Saves the selected contacts to the file in the format of its extension; without an extension, in the
     /// format of drags. The mixer reports the result.
     void saveTo(const juce::File& file) {
-        write(file.getFileExtension().isEmpty()
-                  ? file.withFileExtension(hitFileExtensions()[files_->formatIndex()])
-                  : file,
-              true);
+        writeSelection(file.getFileExtension().isEmpty()
+                           ? file.withFileExtension(hitFileExtensions()[files_->formatIndex()])
+                           : file,
+                       true);
     }
 
 private:
@@ -81,14 +81,14 @@ private:
     juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragDescription; }
     void updateRows();
     void restoreSelection();
-    int rowOf(std::uint64_t contactId) const;
+    int findRow(std::uint64_t contactId) const;
     bool isContactSelected(const RecentContact& contact) const { return selectedIds_.contains(contact.id); }
     void showSelection();
     bool isNarrow() const { return getWidth() < 420; }
     void showMenu();
     void saveAs();
     juce::String fileName() const;
-    std::vector<juce::File> write(const juce::File& file, bool announcesResult);
+    std::vector<juce::File> writeSelection(const juce::File& file, bool announcesResult);
 
     MixerModel& model_;
     std::vector<RecentContact> contacts_;
@@ -101,7 +101,7 @@ private:
     std::unique_ptr<juce::TextButton> save_;
     juce::SharedResourcePointer<DraggedFiles> files_;
     std::uint64_t playedCount_ = 0;
-    double shownAtMs_ = 0.0;
+    double updatedAtMs_ = 0.0;
 };
 
 } // namespace physvib

@@ -25,7 +25,8 @@ void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     juce::Rectangle<int> names, row;
     for (int k = 0; const Cell& cell : cells) {
         if (k++ % columns == 0)
-            names = area.removeFromTop(28).withTrimmedTop(10), row = area.removeFromTop(rowHeight);
+            names = area.removeFromTop(OutputTab::cellTitleHeight).withTrimmedTop(10),
+            row = area.removeFromTop(rowHeight);
         cell.name.setBounds(names.removeFromLeft(columnWidth));
         cell.box.setBounds(row.removeFromLeft(columnWidth));
         names.removeFromLeft(gap);
@@ -46,11 +47,11 @@ constexpr int nobodyId = 1, lastReceiverId = 2, otherReceiverId = 3; // item ids
 
 /// The address with 0.0.0.0 replaced by those at which others reach this computer.
 juce::String reachableAddress(const std::string& address) {
-    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
-    if (!words.startsWith("0.0.0.0")) return words;
+    const auto text = utf8(address), port = text.fromLastOccurrenceOf(":", true, false);
+    if (!text.startsWith("0.0.0.0")) return text;
     juce::StringArray all;
     for (const auto& local : localAddresses()) all.add(utf8(local) + port);
-    return all.isEmpty() ? words : all.joinIntoString(" or ");
+    return all.isEmpty() ? text : all.joinIntoString(" or ");
 }
 
 } // namespace
@@ -89,10 +90,10 @@ OutputTab::OutputTab(MixerModel& model)
     for (const int frames : blockSizes) block_.addItem(juce::String{frames}, frames);
     scan_ = makeLinkButton("Rescan", "Rescan devices", [this] { scan(); });
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    addAll(*this, {&deviceName_,       &device_,       scan_.get(),  &rateName_,    &rate_,
-                   &blockName_,        &block_,        &oscName_,    &osc_,         &receiverName_,
-                   &receiver_,         &phoneName_,    &phone_,      &monitorName_, &monitor_,
-                   &monitorLevelName_, &monitorLevel_, &markerName_, &marker_,      &statusTable_});
+    addAll(*this, {&deviceLabel_,       &device_,       scan_.get(),   &rateLabel_,    &rate_,
+                   &blockLabel_,        &block_,        &oscLabel_,    &osc_,          &receiverLabel_,
+                   &receiver_,          &phoneLabel_,   &phone_,       &monitorLabel_, &monitor_,
+                   &monitorLevelLabel_, &monitorLevel_, &markerLabel_, &marker_,       &statusTable_});
     mixChanged();
 }
 
@@ -112,9 +113,9 @@ void OutputTab::findSinks() {
 void OutputTab::listSinks() {
     sinkRows_.clear();
     device_.addSectionHeading("Beside it");
-    const auto add = [this](const SinkKind& kind, const std::string& address, const juce::String& words,
+    const auto add = [this](const SinkKind& kind, const std::string& address, const juce::String& label,
                             bool isAvailable, bool isInUse) {
-        juce::PopupMenu::Item item{juce::String{kind.title.data()} + ": " + words +
+        juce::PopupMenu::Item item{juce::String{kind.title.data()} + ": " + label +
                                    (isInUse ? ", in use" : "")};
         item.itemID = firstSinkId + static_cast<int>(sinkRows_.size());
         if (!isAvailable) item.colour = shade(*this, Shade::muted);
@@ -124,18 +125,19 @@ void OutputTab::listSinks() {
     sinks_.resize(sinkKinds().size());
     for (std::size_t k = 0; k < sinks_.size(); ++k) {
         const SinkKind& kind = sinkKinds()[k];
-        const auto chosen = model_.device().choice().sinkAddress(kind);
-        bool isMissing = !chosen.empty();
+        const auto address = model_.device().choice().sinkAddress(kind);
+        bool isMissing = !address.empty();
         for (const SinkUnit& unit : sinks_[k]) {
-            const bool isInUse = isMissing && (chosen == unit.address || chosen == kind.anyAddress);
+            const bool isInUse = isMissing && (address == unit.address || address == kind.anyAddress);
             add(kind, unit.address,
-                utf8(unit.address) + (unit.about.empty() ? juce::String{} : "  " + utf8(unit.about)), true,
+                utf8(unit.address) + (unit.label.empty() ? juce::String{} : "  " + utf8(unit.label)), true,
                 isInUse);
             isMissing = isMissing && !isInUse;
         }
         if (isMissing)
-            add(kind, chosen, (chosen == kind.anyAddress ? "none" : utf8(chosen) + " is not") + " there yet",
-                false, true);
+            add(kind, address,
+                (address == kind.anyAddress ? "none" : utf8(address) + " is not") + " there yet", false,
+                true);
         else if (sinks_[k].empty())
             add(kind, std::string{kind.anyAddress}, "none is plugged in", false, false);
         if (!kind.otherTitle.empty())
@@ -153,7 +155,7 @@ void OutputTab::chooseSink(const SinkRow& row) {
             [this, &kind](const juce::String& address) { setSink(kind, address.toStdString()); });
     if (row.isAvailable) return setSink(kind, row.address);
     model_.messages().show(
-        {juce::String{kind.title.data()} + ": none is plugged in. " + kind.about.data(),
+        {juce::String{kind.title.data()} + ": none is plugged in. " + kind.tooltip.data(),
          true,
          {"Use it once it is there", [this, &kind] { setSink(kind, std::string{kind.anyAddress}); }},
          "absent"});
@@ -168,9 +170,9 @@ void OutputTab::setSink(const SinkKind& kind, const std::string& address) {
 
 void OutputTab::open() {
     if (const auto row = device_.getSelectedId() - firstSinkId; row >= 0) {
-        const SinkRow chosen = nth(sinkRows_, row);
+        const SinkRow chosenRow = nth(sinkRows_, row);
         mixChanged(); // shows the unchanged choice: the user may yet cancel
-        return chooseSink(chosen);
+        return chooseSink(chosenRow);
     }
     const int index = device_.getSelectedId() - 1;
     DeviceChoice choice = model_.device().choice();
@@ -187,12 +189,12 @@ void OutputTab::open() {
 
 juce::String OutputTab::actuatorLabelsAt(int output, bool marksMuted) const {
     const auto& mix = model_.mix();
-    juce::String owners;
+    juce::String ownerLabels;
     for (std::size_t j = 0; j < mix.strips.size(); ++j)
         if (mix.strips[j].output == output)
-            owners << " " << labelOf(mix, j)
-                   << (marksMuted && mix.isSilent(static_cast<int>(j)) ? " (muted)" : "");
-    return owners;
+            ownerLabels << " " << labelOf(mix, j)
+                        << (marksMuted && mix.isSilent(static_cast<int>(j)) ? " (muted)" : "");
+    return ownerLabels;
 }
 
 // Lists output pairs for headphones, with the labels of actuators that would lose their output.
@@ -205,19 +207,19 @@ void OutputTab::fillMonitorLists() {
     for (int k = 0; k < model_.device().outputCount(); ++k) {
         if (actuatorLabelsAt(k).isEmpty()) marker_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
         if (k % 2 != 0 || k + 1 >= model_.device().outputCount()) continue;
-        const auto owners = actuatorLabelsAt(k) + actuatorLabelsAt(k + 1);
+        const auto ownerLabels = actuatorLabelsAt(k) + actuatorLabelsAt(k + 1);
         monitor_.addItem(juce::String{k + 1} + " and " + juce::String{k + 2} +
-                             (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
+                             (ownerLabels.isEmpty() ? juce::String{} : ", instead of" + ownerLabels),
                          noneId + 1 + k);
     }
     monitor_.setSelectedId(choice.monitorOutputs.empty() ? noneId : noneId + 1 + choice.monitorOutputs[0],
                            dontNotify);
     if (choice.monitorOutputs.size() == 2 && model_.device().listening().settings().contacts.empty()) {
-        const auto owners =
+        const auto ownerLabels =
             actuatorLabelsAt(choice.monitorOutputs[0]) + actuatorLabelsAt(choice.monitorOutputs[1]);
         monitor_.setText("off: outputs " + juce::String{choice.monitorOutputs[0] + 1} + " and " +
                              juce::String{choice.monitorOutputs[1] + 1} +
-                             (owners.isEmpty() ? juce::String{} : ", which are of" + owners),
+                             (ownerLabels.isEmpty() ? juce::String{} : ", which are of" + ownerLabels),
                          dontNotify);
     }
     monitorLevel_.setSelectedId(zeroDbId - juce::roundToInt(choice.monitorDb), dontNotify);
@@ -236,23 +238,22 @@ void OutputTab::chooseMonitor() {
 }
 
 juce::String OutputTab::monitorText() const {
-    const auto& applied = model_.device().listening().settings();
-    juce::String words;
+    const auto& listening = model_.device().listening().settings();
+    juce::String text;
     if (!model_.device().hasNoDevice() && model_.device().outputCount() == 0)
         return "by nobody: the device is not there";
     if (model_.device().choice().isHeadphones)
         for (int ear = 0; ear < DeviceChoice::earCount; ++ear)
-            words << (ear == 0 ? "left:" : ", right:")
-                  << (actuatorLabelsAt(ear).isEmpty() ? juce::String{" nobody"}
-                                                      : actuatorLabelsAt(ear, true));
-    else if (applied.contacts.size() == 2)
-        words << "left on " << applied.contacts[0] + 1 << ", right on " << applied.contacts[1] + 1;
+            text << (ear == 0 ? "left:" : ", right:")
+                 << (actuatorLabelsAt(ear).isEmpty() ? juce::String{" nobody"} : actuatorLabelsAt(ear, true));
+    else if (listening.contacts.size() == 2)
+        text << "left on " << listening.contacts[0] + 1 << ", right on " << listening.contacts[1] + 1;
     else if (!model_.device().choice().monitorOutputs.empty())
-        words << "not there: an actuator, or no output";
+        text << "not there: an actuator, or no output";
     else
-        words << "by nobody";
-    if (!applied.marks.empty()) words << "; onsets marked on " << applied.marks[0] + 1;
-    return words;
+        text << "by nobody";
+    if (!listening.marks.empty()) text << "; onsets marked on " << listening.marks[0] + 1;
+    return text;
 }
 
 void OutputTab::askForText(const juce::String& title, const juce::String& field, const juce::String& initial,
@@ -267,9 +268,9 @@ std::vector<StatusRow> OutputTab::sinkStatusRows() const {
     std::vector<StatusRow> rows;
     for (const SinkState& sink : model_.session().sinks().states()) {
         const bool lacksChannels = sink.isReady && sink.channels > 0 && model_.mix().count() > sink.channels;
-        juce::String where = utf8(sink.where);
-        if (lacksChannels) where << "; the first " << sink.channels << " actuators";
-        rows.push_back({displayTitle(sink.name), where, sink.isReady ? Shade::text : Shade::highlight});
+        juce::String sinkText = utf8(sink.label);
+        if (lacksChannels) sinkText << "; the first " << sink.channels << " actuators";
+        rows.push_back({displayTitle(sink.name), sinkText, sink.isReady ? Shade::text : Shade::highlight});
     }
     if (rows.empty()) rows.push_back({"Board", "none", Shade::muted});
     return rows;
@@ -278,7 +279,7 @@ std::vector<StatusRow> OutputTab::sinkStatusRows() const {
 void OutputTab::mixChanged() {
     const auto& choice = model_.device().choice();
     device_.clear(dontNotify);
-    int chosen = 0;
+    int chosenId = 0;
     const bool isWithoutDevice = choice.name.starts_with(nullDeviceType);
     if (!isWithoutDevice) headphoneDevice_ = choice.name;
     for (int id = 1; const auto& device : devices_) {
@@ -287,7 +288,7 @@ void OutputTab::mixChanged() {
                             ? juce::String{noDeviceTitle}
                             : utf8(name) + " (" + juce::String{device.channels} + " outputs)",
                         id);
-        if (name == choice.name) chosen = id;
+        if (name == choice.name) chosenId = id;
         if (headphoneDevice_.empty() && device.type != nullDeviceType &&
             device.channels >= DeviceChoice::earCount)
             headphoneDevice_ = name;
@@ -296,12 +297,12 @@ void OutputTab::mixChanged() {
     const int headphonesId = static_cast<int>(devices_.size()) + 1;
     if (!headphoneDevice_.empty())
         device_.addItem("Headphones: " + utf8(headphoneDevice_) + " (L and R)", headphonesId);
-    if (choice.isHeadphones && !isWithoutDevice) chosen = headphonesId;
+    if (choice.isHeadphones && !isWithoutDevice) chosenId = headphonesId;
     listSinks();
-    device_.setSelectedId(chosen, dontNotify);
-    auto title = !isWithoutDevice ? (chosen > 0 ? device_.getText() : utf8(choice.name))
+    device_.setSelectedId(chosenId, dontNotify);
+    auto title = !isWithoutDevice ? (chosenId > 0 ? device_.getText() : utf8(choice.name))
                                   : juce::String{choice.sinks.empty() ? noDeviceTitle : "No device"};
-    for (const SinkName& sink : choice.sinks) title << " + " << kindOf(sink).title.data();
+    for (const SinkName& sink : choice.sinks) title << " + " << findSinkKind(sink).title.data();
     device_.setText(title, dontNotify);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, dontNotify);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, dontNotify);
@@ -313,7 +314,7 @@ void OutputTab::refresh(const MixerSnapshot& snapshot) {
     const auto& output = model_.output();
     const double rateHz = std::max(1, output.sampleRateHz());
     const bool isWithoutDevice = model_.device().hasNoDevice();
-    const auto& r = snapshot.session.render;
+    const auto& render = snapshot.session.render;
     const int count = model_.mix().count();
     int connected = 0;
     for (int j = 0; j < count; ++j) connected += output.hasOutput(j) ? 1 : 0;
@@ -348,8 +349,8 @@ void OutputTab::refresh(const MixerSnapshot& snapshot) {
          isWithoutDevice || connected < count ? Shade::highlight : Shade::text},
         {"Load", number(100.0 * snapshot.device.load, 1) + " % of a block, " +
                      number(100.0 * snapshot.device.worstLoad, 1) + " % at most"},
-        {"Late", countText(r.late, "hit") + ", " + number(stalledMs, 0) + " ms of stalls",
-         r.late > 0 ? Shade::highlight : Shade::text},
+        {"Late", countText(render.late, "hit") + ", " + number(stalledMs, 0) + " ms of stalls",
+         render.late > 0 ? Shade::highlight : Shade::text},
         {"Xruns", snapshot.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                                   : juce::String{snapshot.device.deviceXruns}},
         {"Opened again", countText(snapshot.device.losses, "time")}};
@@ -366,21 +367,21 @@ void OutputTab::refresh(const MixerSnapshot& snapshot) {
 
 void OutputTab::resized() {
     auto area = getLocalBounds();
-    deviceName_.setBounds(area.removeFromTop(18));
+    deviceLabel_.setBounds(area.removeFromTop(titleHeight));
     auto row = area.removeFromTop(rowHeight);
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const std::vector<Cell> cells{{rateName_, rate_},
-                                  {blockName_, block_},
-                                  {markerName_, marker_},
-                                  {monitorName_, monitor_},
-                                  {monitorLevelName_, monitorLevel_},
-                                  {oscName_, osc_},
-                                  {receiverName_, receiver_},
-                                  {phoneName_, phone_}};
+    const std::vector<Cell> cells{{rateLabel_, rate_},
+                                  {blockLabel_, block_},
+                                  {markerLabel_, marker_},
+                                  {monitorLabel_, monitor_},
+                                  {monitorLevelLabel_, monitorLevel_},
+                                  {oscLabel_, osc_},
+                                  {receiverLabel_, receiver_},
+                                  {phoneLabel_, phone_}};
     placeGrid(area, cells);
-    area.removeFromTop(12);
+    area.removeFromTop(tableGap);
     statusTable_.setBounds(area);
 }
 
@@ -445,23 +446,23 @@ void OutputTab::showOsc() {
     phone_.setSelectedItemIndex(static_cast<int>(orientation - phoneOrientations.begin()), dontNotify);
 }
 
-juce::String OutputTab::oscText(Shade& state) const {
+juce::String OutputTab::oscText(Shade& tone) const {
     const auto osc = model_.inputs().status();
-    state = osc ? Shade::text : Shade::muted;
+    tone = osc ? Shade::text : Shade::muted;
     if (!osc) return "none";
-    const OscCounts& c = osc->counts;
+    const OscCounts& counts = osc->counts;
     const auto count = [](std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; };
-    if (c.failures() + c.lost + c.late + osc->unsent > 0) state = Shade::highlight;
+    if (counts.failures() + counts.lost + counts.late + osc->unsent > 0) tone = Shade::highlight;
     juce::StringArray parts;
     if (!osc->address.empty())
-        parts.add(reachableAddress(osc->address) + ": " + count(c.messages - c.refused) + " good, " +
-                  count(c.failures()) + " bad, " + count(c.late) + " late" +
-                  (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
+        parts.add(reachableAddress(osc->address) + ": " + count(counts.messages - counts.refused) +
+                  " good, " + count(counts.failures()) + " bad, " + count(counts.late) + " late" +
+                  (counts.lost > 0 ? ", " + count(counts.lost) + " lost" : juce::String{}));
     if (!model_.inputs().choice().receiver.empty())
         parts.add("to " + utf8(model_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" +
                   (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
-    const auto words = parts.joinIntoString("; ");
-    return c.lastError.empty() ? words : words + "; " + utf8(c.lastError);
+    const auto text = parts.joinIntoString("; ");
+    return counts.lastError.empty() ? text : text + "; " + utf8(counts.lastError);
 }
 
 } // namespace physvib

@@ -50,7 +50,7 @@ private:
     MixerModel& model_;
     StatusTable statusTable_{"Telemetry", 2};
     std::deque<float> loads_; // load of recent blocks
-    double shownAtMs_ = 0.0;
+    double updatedAtMs_ = 0.0;
 };
 
 /// Status of session, device and board as text; `medianLoad` is a share of a block's duration.
@@ -64,10 +64,10 @@ public:
     void mixChanged() override;
     void refresh(const MixerSnapshot& snapshot) override;
     void resized() override;
-    int minHeight(int width) const override {
-        constexpr int controls = 18 + rowHeight + 3 * (28 + rowHeight) + 12; // as resized() places them
-        return controls + statusTable_.heightFor(width);
-    }
+    static constexpr int titleHeight = 18, cellTitleHeight = 28, tableGap = 12;
+    static constexpr int controlsHeight =
+        titleHeight + rowHeight + 3 * (cellTitleHeight + rowHeight) + tableGap; // three rows of cells
+    int minHeight(int width) const override { return controlsHeight + statusTable_.heightFor(width); }
     void visibilityChanged() override {
         if (isVisible() && !isScanned_) scan();
     }
@@ -95,16 +95,16 @@ private:
     void askForText(const juce::String& title, const juce::String& field, const juce::String& initial,
                     std::function<void(const juce::String&)> onAccept);
     std::vector<StatusRow> sinkStatusRows() const;
-    juce::String oscText(Shade& shade) const;
+    juce::String oscText(Shade& tone) const;
     void fillMonitorLists();
     void chooseMonitor();
     juce::String actuatorLabelsAt(int output, bool marksMuted = false) const;
     juce::String monitorText() const;
 
     juce::ComboBox device_, rate_, block_, osc_, receiver_, phone_, monitor_, monitorLevel_, marker_;
-    Caption deviceName_{"Outputs"}, rateName_{"Rate"}, blockName_{"Block of"}, oscName_{"Messages by OSC"},
-        receiverName_{"Hits by OSC to"}, phoneName_{"A phone's top is"}, monitorName_{"Monitor outputs"},
-        monitorLevelName_{"Monitor level"}, markerName_{"Trigger output"};
+    Caption deviceLabel_{"Outputs"}, rateLabel_{"Rate"}, blockLabel_{"Block of"},
+        oscLabel_{"Messages by OSC"}, receiverLabel_{"Hits by OSC to"}, phoneLabel_{"A phone's top is"},
+        monitorLabel_{"Monitor outputs"}, monitorLevelLabel_{"Monitor level"}, markerLabel_{"Trigger output"};
     std::unique_ptr<juce::TextButton> scan_;
     StatusTable statusTable_{"What follows from it", 1};
     std::vector<AudioDeviceName> devices_;
@@ -125,7 +125,7 @@ public:
     void resized() override;
     int minHeight(int) const override { return 224; } // two rows of the list
     void visibilityChanged() override {
-        world_.showGainMap(isVisible() && mapToggle_.getToggleState() ? selected_ : -1);
+        world_.showGainMap(isVisible() && mapToggle_.getToggleState() ? selectedRow_ : -1);
     }
 
 private:
@@ -143,18 +143,18 @@ private:
     void returnKeyPressed(int row) override { editRow(row); }
     juce::String getNameForRow(int row) override;
     void applyPreset();
-    void applyRow(std::size_t i, const std::string& label, const std::string& profile, double fullScaleG);
+    void applyRow(std::size_t row, const std::string& label, const std::string& profile, double fullScaleG);
 
     MixerModel& model_;
     WorldView& world_;
-    int selected_ = -1;
+    int selectedRow_ = -1;
     std::array<int, 3> columnWidths_{}; // name, place and profile
     NewActuatorButton newActuator_{
         model_, "New actuator",
         "Drag it onto the field to attach it there; pressed, it is attached in the middle"};
     juce::ComboBox preset_, law_;
     juce::Slider exponent_;
-    Caption presetName_{"Preset"}, lawName_{"Law"}, exponentName_{"Exponent"},
+    Caption presetLabel_{"Preset"}, lawLabel_{"Law"}, exponentLabel_{"Exponent"},
         hint_{"Drag a badge to move it; out of the field: detached."};
     juce::ToggleButton mapToggle_{"Show on the field what it plays of a hit at each place"};
     juce::ListBox list_{"Actuators", this};

@@ -16,7 +16,7 @@ namespace {
 constexpr int takeRowPixels = 24, takeFootPixels = 32, trimmerPixels = 44, maxButtonWidth = 76;
 constexpr double folderCheckMs = 1000.0;
 
-juce::File eventsFileOf(const juce::File& wav) { return wav.withFileExtension("csv"); }
+juce::File toEventsFile(const juce::File& wav) { return wav.withFileExtension("csv"); }
 
 bool discardFile(const juce::File& file) { return file.moveToTrash() || file.deleteFile(); } // or deletes it
 
@@ -39,7 +39,7 @@ constexpr double fadeSeconds = 0.005;
 /// Finds the peak in each of levelCount sections of a streamed recording.
 struct LevelReader final : SoundReceiver {
     explicit LevelReader(std::function<bool()> shouldContinue)
-        : continues{std::move(shouldContinue)} {}
+        : mayContinue{std::move(shouldContinue)} {}
     std::string begin(const SoundFormat& soundFormat) override {
         format = soundFormat;
         return format.frames > 0 ? std::string{} : "no samples";
@@ -49,15 +49,15 @@ struct LevelReader final : SoundReceiver {
             float& level = nth(levels, frame * levelCount / format.frames);
             for (int c = 0; c < format.channels; ++c) level = std::max(level, std::abs(channels[c][k]));
         }
-        return continues() ? std::string{} : "cancelled";
+        return mayContinue() ? std::string{} : "cancelled";
     }
     std::vector<float> levels = std::vector<float>(levelCount);
-    const std::function<bool()> continues;
+    const std::function<bool()> mayContinue;
     SoundFormat format;
     std::int64_t frame = 0;
 };
 
-Provenance provenanceOf(const juce::File& take) {
+Provenance makeProvenance(const juce::File& take) {
     return {PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
 }
 
@@ -74,18 +74,18 @@ public:
         return error.empty() ? sink_->finish() : error;
     }
     std::string begin(const SoundFormat& format) override {
-        const auto frameOf = [&](double s) {
+        const auto toFrame = [&](double s) {
             return std::clamp<std::int64_t>(std::llround(s * static_cast<double>(format.sampleRateHz)), 0,
                                             format.frames);
         };
-        startFrame_ = frameOf(seconds_.getStart());
-        endFrame_ = frameOf(seconds_.getEnd());
+        startFrame_ = toFrame(seconds_.getStart());
+        endFrame_ = toFrame(seconds_.getEnd());
         totalFrames_ = format.frames;
-        fadeFrames_ = std::max<std::int64_t>(1, frameOf(fadeSeconds));
+        fadeFrames_ = std::max<std::int64_t>(1, toFrame(fadeSeconds));
         rateHz_ = static_cast<int>(format.sampleRateHz);
         block_.resize(static_cast<std::size_t>(format.channels));
         sink_.emplace(pathOf(target_), static_cast<int>(format.channels), rateHz_,
-                      provenanceLine(provenanceOf(take_)));
+                      provenanceLine(makeProvenance(take_)));
         return sink_->error();
     }
     std::string receive(const float* const* channels, int frames) override {
@@ -99,9 +99,9 @@ public:
         sink_->write(pointers.data(), static_cast<int>(block_[0].size()));
         return sink_->error();
     }
-    std::int64_t nsOf(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
-    std::int64_t startNs() const { return nsOf(startFrame_); }
-    std::int64_t endNs() const { return nsOf(endFrame_); }
+    std::int64_t toNs(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
+    std::int64_t startNs() const { return toNs(startFrame_); }
+    std::int64_t endNs() const { return toNs(endFrame_); }
 
 private:
     float gainAt(std::int64_t frame) const {
@@ -129,16 +129,16 @@ bool isEmptyList(std::string_view csv) {
 /// Reads the events of a take. A list without rows is valid here: nothing was played.
 Result<EventList> readTakeEvents(const juce::File& file) {
     const std::string path = pathOf(file);
-    auto read = loadEventsCsv(path);
-    if (read) return read;
+    auto list = loadEventsCsv(path);
+    if (list) return list;
     const auto text = readFile(path, limits::maxEventsFileBytes);
-    return text && isEmptyList(text.value) ? Result<EventList>{EventList{}} : read;
+    return text && isEmptyList(text.value) ? Result<EventList>{EventList{}} : list;
 }
 
 /// Writes the part and its events. Empty, or an error; nothing is written if the events are unreadable.
 std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& target) {
-    const bool hasList = eventsFileOf(take).existsAsFile();
-    auto list = hasList ? readTakeEvents(eventsFileOf(take)) : Result<EventList>{EventList{}};
+    const bool hasList = toEventsFile(take).existsAsFile();
+    auto list = hasList ? readTakeEvents(toEventsFile(take)) : Result<EventList>{EventList{}};
     if (!list) return list.error;
     PartWriter part{take, seconds, target};
     if (auto error = part.write(); !error.empty() || !hasList) return error;
@@ -147,8 +147,8 @@ std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, 
         return e.timeNs < part.startNs() || e.timeNs >= part.endNs();
     });
     for (auto& event : events) event.timeNs -= part.startNs();
-    return writeFile(pathOf(eventsFileOf(target)),
-                     eventsCsv(events, list.value.field, provenanceOf(take), list.value.names));
+    return writeFile(pathOf(toEventsFile(target)),
+                     eventsCsv(events, list.value.field, makeProvenance(take), list.value.names));
 }
 
 constexpr const char *startField = "from_s", *endField = "to_s", *takeLengthField = "of_s";
@@ -158,13 +158,13 @@ constexpr double lengthToleranceSeconds = 1e-6; // of lengths that are read from
 juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }
 
 /// File with the selected part of a take: the recording and its events stay unchanged.
-juce::File partFileOf(const juce::File& take) {
+juce::File toPartFile(const juce::File& take) {
     return partsFolder(take).getChildFile(take.getFileNameWithoutExtension() + ".json");
 }
 
 /// Writes the part file, or deletes it if all of the take is selected. Empty, or one line of error.
 std::string savePart(const juce::File& take, double seconds, juce::Range<double> part) {
-    const auto file = partFileOf(take);
+    const auto file = toPartFile(take);
     if (part == juce::Range{0.0, seconds})
         return !file.existsAsFile() || file.deleteFile() ? std::string{}
                                                          : pathOf(file) + ": cannot be deleted";
@@ -189,8 +189,8 @@ TakesTab::TakesTab(MixerModel& model)
     setTitle("Takes");
     list_.setTitle("List of takes");
     list_.setRowHeight(takeRowPixels);
-    const auto button = [this](auto& member, const char* words, const char* name, void (TakesTab::*act)()) {
-        member = makeLinkButton(words, name, [this, act] { (this->*act)(); });
+    const auto button = [this](auto& member, const char* label, const char* name, void (TakesTab::*act)()) {
+        member = makeLinkButton(label, name, [this, act] { (this->*act)(); });
         addAndMakeVisible(*member);
     };
     button(playButton_, "Play", "Play the take on the device", &TakesTab::play);
@@ -204,14 +204,14 @@ TakesTab::TakesTab(MixerModel& model)
     trimmer_.onChange = [this](juce::Range<double> part) {
         if (!selectedTake()) return;
         selectedTake()->part = part;
-        showChosen();
+        showSelection();
         list_.repaint();
     };
     trimmer_.onEnd = [this] {
         if (!selectedTake()) return;
         model_.reportIfError(savePart(selectedTake()->file, selectedTake()->seconds, selectedTake()->part));
     };
-    showChosen();
+    showSelection();
 }
 
 TakesTab::Take* TakesTab::selectedTake() {
@@ -235,7 +235,7 @@ void TakesTab::refresh(const MixerSnapshot&) {
 void TakesTab::rescan() {
     if (!isVisible()) return;
     folderChangedAt_ = folder_->location().getLastModificationTime();
-    const auto before = selectedTake() ? selectedTake()->file : juce::File{};
+    const auto selectedFile = selectedTake() ? selectedTake()->file : juce::File{};
     juce::WavAudioFormat wav;
     takes_.clear();
     for (const auto& file : folder_->location().findChildFiles(juce::File::findFiles, false, "*.wav")) {
@@ -248,17 +248,17 @@ void TakesTab::rescan() {
     }
     std::ranges::sort(takes_, [](const Take& a, const Take& b) { return b.modifiedAt < a.modifiedAt; });
     list_.updateContent();
-    const auto same = std::ranges::find(takes_, before, &Take::file);
+    const auto same = std::ranges::find(takes_, selectedFile, &Take::file);
     if (same != takes_.end())
         list_.selectRow(static_cast<int>(same - takes_.begin()));
     else
         list_.deselectAllRows();
     emptyHint_.setVisible(takes_.empty());
     list_.repaint();
-    showChosen();
+    showSelection();
 }
 
-void TakesTab::showChosen() {
+void TakesTab::showSelection() {
     for (auto* button : {playButton_.get(), trimButton_.get(), exportButton_.get(), eraseButton_.get()})
         button->setEnabled(selectedTake() != nullptr);
     trimButton_->setButtonText(selectedTake() && selectedTake()->isTrimmed() ? "Whole" : "Trim");
@@ -310,19 +310,19 @@ void TakesTab::askExport() {
 
 void TakesTab::exportTo(const juce::File& file) {
     if (!selectedTake() || file == selectedTake()->file) return;
-    const auto from = selectedTake()->file;
-    const auto events = eventsFileOf(file);
+    const auto source = selectedTake()->file;
+    const auto events = toEventsFile(file);
     if (events.existsAsFile() && !file.existsAsFile())
         return model_.report(events.getFullPathName() + ": is there already, without " + file.getFileName() +
                              "; expected another name");
     juce::String error;
     if (selectedTake()->isTrimmed())
-        error = utf8(exportTakePart(from, selectedTake()->part, file));
-    else if (!from.copyFileTo(file) ||
-             (eventsFileOf(from).existsAsFile() && !eventsFileOf(from).copyFileTo(events)))
+        error = utf8(exportTakePart(source, selectedTake()->part, file));
+    else if (!source.copyFileTo(file) ||
+             (toEventsFile(source).existsAsFile() && !toEventsFile(source).copyFileTo(events)))
         error = file.getFullPathName() + ": cannot be written";
     // deletes the events of the recording that was replaced
-    if (error.isEmpty() && !eventsFileOf(from).existsAsFile() && events.existsAsFile() &&
+    if (error.isEmpty() && !toEventsFile(source).existsAsFile() && events.existsAsFile() &&
         !discardFile(events))
         error = events.getFullPathName() + ": is of another recording and cannot be deleted";
     if (error.isNotEmpty()) return model_.report(error);
@@ -340,7 +340,7 @@ void TakesTab::erase() {
     if (!selectedTake()) return;
     const auto [file, seconds] = std::pair{selectedTake()->file, selectedTake()->seconds};
     const bool isRemoved = discardFile(file);
-    if (eventsFileOf(file).existsAsFile()) discardFile(eventsFileOf(file));
+    if (toEventsFile(file).existsAsFile()) discardFile(toEventsFile(file));
     if (isRemoved)
         (void)savePart(file, seconds, {0.0, seconds}); // deletes the file of the part
     else
@@ -350,8 +350,8 @@ void TakesTab::erase() {
 
 juce::String TakesTab::getNameForRow(int row) {
     if (row < 0 || row >= static_cast<int>(takes_.size())) return {};
-    const Take& t = nth(takes_, row);
-    return t.file.getFileNameWithoutExtension() + ", " + t.length();
+    const Take& take = nth(takes_, row);
+    return take.file.getFileNameWithoutExtension() + ", " + take.length();
 }
 
 void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -359,17 +359,17 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     auto area = juce::Rectangle<int>{width, height};
     if (isSelected) drawSelectedRow(g, *this, width, height, 0.22f);
     area.reduce(10, 0);
-    const Take& t = nth(takes_, row);
+    const Take& take = nth(takes_, row);
     setInk(g, *this, Shade::muted, text::small);
-    const auto cell = [&](const juce::String& words, int cellWidth) {
-        g.drawText(words, area.removeFromRight(cellWidth), juce::Justification::centredRight, true);
+    const auto cell = [&](const juce::String& cellText, int cellWidth) {
+        g.drawText(cellText, area.removeFromRight(cellWidth), juce::Justification::centredRight, true);
     };
-    cell(t.modifiedAt.formatted("%Y-%m-%d %H:%M"), 120);
-    if (width > 400) cell(countText(t.channels, "channel"), 90);
+    cell(take.modifiedAt.formatted("%Y-%m-%d %H:%M"), 120);
+    if (width > 400) cell(countText(take.channels, "channel"), 90);
     g.setColour(shade(*this, Shade::text));
-    cell(t.length(), t.isTrimmed() ? 110 : 70);
+    cell(take.length(), take.isTrimmed() ? 110 : 70);
     g.setFont(text::font(text::medium));
-    g.drawText(t.file.getFileNameWithoutExtension(), area, juce::Justification::centredLeft, true);
+    g.drawText(take.file.getFileNameWithoutExtension(), area, juce::Justification::centredLeft, true);
 }
 
 void TakesTab::resized() {
@@ -410,11 +410,11 @@ void TakeTrimmer::setTake(const juce::File& take, double seconds, juce::Range<do
     trimsSilenceWhenRead_ = false;
     const int readNumber = ++requestedReadNumber_;
     reader_.addJob([this, take, readNumber] {
-        LevelReader read{[&] { return readNumber == requestedReadNumber_; }};
-        const bool isRead = streamRecording(pathOf(take), read).empty();
+        LevelReader levelReader{[&] { return readNumber == requestedReadNumber_; }};
+        const bool isRead = streamRecording(pathOf(take), levelReader).empty();
         const std::lock_guard lock{mutex_};
         if (readNumber != requestedReadNumber_) return;
-        newLevels_ = isRead ? std::move(read.levels) : std::vector<float>{};
+        newLevels_ = isRead ? std::move(levelReader.levels) : std::vector<float>{};
         triggerAsyncUpdate();
     });
 }
@@ -469,20 +469,20 @@ bool TakeTrimmer::keyPressed(const juce::KeyPress& key) {
 
 void TakeTrimmer::paint(juce::Graphics& g) {
     fillRound(g, *this, Shade::well, getLocalBounds().toFloat(), 3.0f);
-    const float middleY = 0.5f * static_cast<float>(getHeight()), from = pixelOf(part_.getStart()),
-                to = pixelOf(part_.getEnd());
+    const float middleY = 0.5f * static_cast<float>(getHeight()), startX = toPixel(part_.getStart()),
+                endX = toPixel(part_.getEnd());
     for (std::size_t k = 0; k < levels_.size(); ++k) {
         const float x = static_cast<float>(k) * static_cast<float>(getWidth()) / levelCount,
                     half = std::max(0.5f, levels_[k] * (middleY - 2.0f));
-        g.setColour(shade(*this, x >= from && x < to ? Shade::accent : Shade::line));
+        g.setColour(shade(*this, x >= startX && x < endX ? Shade::accent : Shade::line));
         g.fillRect(x, middleY - half, static_cast<float>(getWidth()) / levelCount + 0.2f, 2.0f * half);
     }
     g.setColour(shade(*this, Shade::highlight));
-    for (const float x : {from, to})
+    for (const float x : {startX, endX})
         g.fillRect(juce::jlimit(0.0f, static_cast<float>(getWidth()) - 3.0f, x - 1.5f), 0.0f, 3.0f,
                    2.0f * middleY);
     g.setColour(shade(*this, Shade::text));
-    if (playheadSeconds_ >= 0.0) g.fillRect(pixelOf(playheadSeconds_), 0.0f, 1.0f, 2.0f * middleY);
+    if (playheadSeconds_ >= 0.0) g.fillRect(toPixel(playheadSeconds_), 0.0f, 1.0f, 2.0f * middleY);
 }
 
 juce::Range<double> perceptiblePart(const std::vector<float>& levels, double seconds) {
@@ -490,20 +490,20 @@ juce::Range<double> perceptiblePart(const std::vector<float>& levels, double sec
     const auto first = std::ranges::find_if(levels, isPerceptible);
     if (first == levels.end()) return {0.0, seconds};
     const auto last = std::find_if(levels.rbegin(), levels.rend(), isPerceptible).base();
-    const auto secondsOf = [&](auto level) {
+    const auto toSeconds = [&](auto level) {
         return seconds * static_cast<double>(level - levels.begin()) / static_cast<double>(levels.size());
     };
-    return {secondsOf(first), secondsOf(last)};
+    return {toSeconds(first), toSeconds(last)};
 }
 
 // The file also has the length of its take, because a later recording may have the name of a deleted one.
 juce::Range<double> loadPart(const juce::File& take, double seconds) {
     const juce::Range<double> all{0.0, seconds};
-    const auto json = juce::JSON::parse(partFileOf(take).loadFileAsString());
+    const auto json = juce::JSON::parse(toPartFile(take).loadFileAsString());
     const auto field = [&](const char* name) { return static_cast<double>(json.getProperty(name, -1.0)); };
-    const double from = field(startField), to = field(endField);
+    const double start = field(startField), end = field(endField);
     const bool isOfThisTake = std::abs(field(takeLengthField) - seconds) <= lengthToleranceSeconds;
-    return isOfThisTake && from >= 0.0 && from < to && to <= seconds ? juce::Range{from, to} : all;
+    return isOfThisTake && start >= 0.0 && start < end && end <= seconds ? juce::Range{start, end} : all;
 }
 
 } // namespace physvib

@@ -29,7 +29,7 @@ public:
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override {
-        isDraggingEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
+        isDraggingEnd_ = e.position.x > 0.5f * (toPixel(part_.getStart()) + toPixel(part_.getEnd()));
     }
     void mouseDrag(const juce::MouseEvent& e) override { moveEdgeTo(seconds_ * e.position.x / getWidth()); }
     void mouseUp(const juce::MouseEvent& e) override {
@@ -45,7 +45,7 @@ private:
     void notifyEnd() {
         if (onEnd) onEnd();
     }
-    float pixelOf(double seconds) const {
+    float toPixel(double seconds) const {
         return static_cast<float>(seconds / std::max(seconds_, 1e-9) * getWidth());
     }
     void handleAsyncUpdate() override;
@@ -71,7 +71,7 @@ public:
     void resized() override;
 
     void rescan(); ///< reads the folder again
-    int chosen() const { return list_.getSelectedRow(); }
+    int selectedRow() const { return list_.getSelectedRow(); }
     void choose(int row) { list_.selectRow(row); }
     /// Plays the selected take as a clip of the session, each channel on the actuator of its number. Stops
     /// what plays; the same take does not start again then.
@@ -95,13 +95,13 @@ private:
     };
     int getNumRows() override { return static_cast<int>(takes_.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-    void selectedRowsChanged(int) override { showChosen(); }
+    void selectedRowsChanged(int) override { showSelection(); }
     void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { play(); }
     void returnKeyPressed(int) override { play(); }
     void deleteKeyPressed(int) override { askErase(); }
     juce::String getNameForRow(int row) override;
     Take* selectedTake();
-    void showChosen();
+    void showSelection();
     void askExport();
     void askErase();
 

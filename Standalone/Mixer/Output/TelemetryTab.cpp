@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t maxLoads = 300;      // ten seconds of updates
 constexpr double updateIntervalMs = 500.0; // figures that change faster are illegible
 
-juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
+juce::String toText(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
 juce::String hits(std::uint64_t n) { return countText(n, "hit"); }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
 Shade lossShade(std::uint64_t n) { return n > 0 ? Shade::highlight : Shade::text; }
@@ -41,10 +41,10 @@ StatusRow guardRow(const AudioOutputStatus& device) {
 }
 
 StatusRow exposureRow(double a8) {
-    const auto words = "A(8) " + number(a8, 2) + " m/s^2 (action value " +
-                       number(exposureActionMetresPerSecond2, 1) + ", limit " +
-                       number(exposureLimitMetresPerSecond2, 0) + ")";
-    return {"Exposure", words,
+    const auto text = "A(8) " + number(a8, 2) + " m/s^2 (action value " +
+                      number(exposureActionMetresPerSecond2, 1) + ", limit " +
+                      number(exposureLimitMetresPerSecond2, 0) + ")";
+    return {"Exposure", text,
             a8 >= exposureLimitMetresPerSecond2    ? Shade::limit
             : a8 >= exposureActionMetresPerSecond2 ? Shade::highlight
                                                    : Shade::text};
@@ -53,10 +53,10 @@ StatusRow exposureRow(double a8) {
 constexpr int minRowPixels = 18, maxRowPixels = 26, nameGap = 14;
 
 /// The number of lines that the text needs at that width, broken between words.
-int linesOf(const juce::String& words, const juce::Font& font, int width) {
-    if (text::pixelWidth(font, words) <= width) return 1;
+int countLines(const juce::String& value, const juce::Font& font, int width) {
+    if (text::pixelWidth(font, value) <= width) return 1;
     juce::AttributedString all;
-    all.append(words, font);
+    all.append(value, font);
     juce::TextLayout layout;
     layout.createLayout(all, static_cast<float>(std::max(1, width)));
     return std::max(1, layout.getNumLines());
@@ -67,35 +67,37 @@ int linesOf(const juce::String& words, const juce::Font& font, int width) {
 std::vector<StatusRow> telemetryRows(const MixerModel& model, const MixerSnapshot& snapshot,
                                      float medianLoad) {
     const auto& output = model.output();
-    const auto& r = snapshot.session.render;
+    const auto& render = snapshot.session.render;
     const auto& session = model.session();
-    const auto refused = snapshot.session.refused + r.rejected;
-    const double reduction = toDecibels(std::max(static_cast<double>(r.limiterGain), 1e-6));
+    const auto refused = snapshot.session.refused + render.rejected;
+    const double reduction = toDecibels(std::max(static_cast<double>(render.limiterGain), 1e-6));
     std::vector<StatusRow> rows{
-        {"Played", hits(r.played) + ", " + juce::String{r.pending} + " waiting"},
-        {"Late", hits(r.late), lossShade(r.late)},
+        {"Played", hits(render.played) + ", " + juce::String{render.pending} + " waiting"},
+        {"Late", hits(render.late), lossShade(render.late)},
         {"Dropped", hits(session.world().drops()) + " in a step", lossShade(session.world().drops())},
-        {"Refused", count(snapshot.session.refused) + " without room, " + count(r.rejected) + " unplayable",
+        {"Refused",
+         toText(snapshot.session.refused) + " without room, " + toText(render.rejected) + " unplayable",
          lossShade(refused)},
-        {"Elsewhere", hits(r.withoutPart) + " of a part without an actuator", lossShade(r.withoutPart)},
+        {"Elsewhere", hits(render.withoutPart) + " of a part without an actuator",
+         lossShade(render.withoutPart)},
         marginRow(snapshot, output.sampleRateHz()),
         {"Stalls", number(1e-6 * static_cast<double>(session.world().stalledNs()), 0) + " ms of the world"},
-        {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early",
-         lossShade(r.stolen)},
+        {"Modes", juce::String{render.liveModes} + " ringing, " + toText(render.stolen) + " ended early",
+         lossShade(render.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
         guardRow(snapshot.device),
         exposureRow(snapshot.dailyExposure),
         clockRow(model, snapshot),
         {"Render call", "median " + percent(medianLoad) + ", worst " + percent(snapshot.device.worstLoad),
          snapshot.device.worstLoad > 1.0f ? Shade::highlight : Shade::text},
-        {"Blocks", count(snapshot.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
+        {"Blocks", toText(snapshot.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
         {"Xruns",
          snapshot.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                          : juce::String{snapshot.device.deviceXruns},
          snapshot.device.deviceXruns > 0 ? Shade::highlight : Shade::text},
-        {"Not told", hits(r.unsent) + ", " + count(model.signals().framesLost()) + " frames",
-         lossShade(r.unsent)},
-        {"Not finite", count(r.nonFinite) + " samples", lossShade(r.nonFinite)}};
+        {"Not told", hits(render.unsent) + ", " + toText(model.signals().framesLost()) + " frames",
+         lossShade(render.unsent)},
+        {"Not finite", toText(render.nonFinite) + " samples", lossShade(render.nonFinite)}};
     const auto sinks = model.session().sinks().states();
     if (sinks.empty()) rows.push_back({"Board", "none", Shade::muted});
     for (const SinkState& sink : sinks)
@@ -122,8 +124,8 @@ void TelemetryTab::refresh(const MixerSnapshot& snapshot) {
     if (snapshot.device.isRunning) loads_.push_back(snapshot.device.load);
     if (loads_.size() > maxLoads) loads_.pop_front();
     const double now = nowMs();
-    if (now - shownAtMs_ < updateIntervalMs) return;
-    shownAtMs_ = now;
+    if (now - updatedAtMs_ < updateIntervalMs) return;
+    updatedAtMs_ = now;
     statusTable_.set(telemetryRows(model_, snapshot, medianLoad()));
 }
 
@@ -147,7 +149,7 @@ StatusTable::Layout StatusTable::layoutFor(int width) const {
     const int count = static_cast<int>(rows_.size());
     layout.rows = (count + layout.columns - 1) / layout.columns;
     for (const auto& row : rows_)
-        layout.rowLines.push_back(layout.columns > 1 ? 1 : linesOf(row.value, font, room(1)));
+        layout.rowLines.push_back(layout.columns > 1 ? 1 : countLines(row.value, font, room(1)));
     layout.lines =
         layout.columns > 1 ? layout.rows : std::accumulate(layout.rowLines.begin(), layout.rowLines.end(), 0);
     return layout;
@@ -158,9 +160,9 @@ int StatusTable::heightFor(int width) const { return layoutFor(width).lines * mi
 void StatusTable::set(std::vector<StatusRow> rows) {
     if (rows == rows_) return;
     rows_ = std::move(rows);
-    juce::StringArray words;
-    for (const auto& row : rows_) words.add(row.name + ": " + row.value);
-    setDescription(words.joinIntoString("; "));
+    juce::StringArray lines;
+    for (const auto& row : rows_) lines.add(row.name + ": " + row.value);
+    setDescription(lines.joinIntoString("; "));
     repaint();
 }
 

@@ -46,14 +46,14 @@ void LanesTab::mixChanged() {
 
 // Returns a round duration that covers the scene so far and all points of the lanes.
 double LanesTab::spanSeconds() const {
-    double needed = model_.signals().runTrace().seconds();
-    const auto include = [&needed](const GainLane& lane) {
-        if (!lane.empty()) needed = std::max(needed, lane.back().seconds);
+    double neededSeconds = model_.signals().runTrace().seconds();
+    const auto include = [&neededSeconds](const GainLane& lane) {
+        if (!lane.empty()) neededSeconds = std::max(neededSeconds, lane.back().seconds);
     };
     for (const Strip& strip : model_.mix().strips) include(strip.lane);
     for (const StripGroup& group : model_.mix().groups) include(group.lane);
     double span = 10.0;
-    for (int k = 0; span < needed; ++k) span *= k % 3 == 1 ? 1.5 : 2.0; // 20, 30, 60, 120, 180, 360...
+    for (int k = 0; span < neededSeconds; ++k) span *= k % 3 == 1 ? 1.5 : 2.0; // 20, 30, 60, 120, 180, 360...
     return span;
 }
 
@@ -71,9 +71,9 @@ void LanesTab::Rows::paint(juce::Graphics& g) {
     for (std::size_t i = 0; i < std::min(lanes.size(), mix.strips.size() + mix.groups.size()); ++i) {
         const bool isStrip = i < mix.strips.size();
         g.setColour(isStrip ? actuatorColour(*this, static_cast<int>(i)) : shade(*this, Shade::text));
-        const auto words =
+        const auto label =
             utf8(isStrip ? mix.layout.actuators[i].label : mix.groups[i - mix.strips.size()].name);
-        g.drawFittedText(words, lanes[i]->getBounds().withX(0).withWidth(labelWidth - 8),
+        g.drawFittedText(label, lanes[i]->getBounds().withX(0).withWidth(labelWidth - 8),
                          juce::Justification::centredLeft, 1, 1.0f);
     }
 }
@@ -85,10 +85,10 @@ void LanesTab::paint(juce::Graphics& g) {
     g.drawText(number(std::max(10.0, spanSeconds_), 0) + " s of the scene", axis,
                juce::Justification::centredRight, false);
     const auto room = axis.withTrimmedLeft(20).withTrimmedRight(110);
-    for (const char* words : {"Click adds a point. Record (Ctrl+R), and the faders you move are written.",
-                              "Click adds a point. Ctrl+R records faders.", "Click adds a point."})
-        if (text::pixelWidth(g.getCurrentFont(), words) <= room.getWidth())
-            return g.drawText(words, room, juce::Justification::centred, false);
+    for (const char* hint : {"Click adds a point. Record (Ctrl+R), and the faders you move are written.",
+                             "Click adds a point. Ctrl+R records faders.", "Click adds a point."})
+        if (text::pixelWidth(g.getCurrentFont(), hint) <= room.getWidth())
+            return g.drawText(hint, room, juce::Justification::centred, false);
 }
 
 void LanesTab::resized() {
@@ -123,7 +123,7 @@ juce::NormalisableRange<double> LaneRow::scale() {
 const GainLane& LaneRow::lane() const {
     static const GainLane none;
     if (!isValid()) return none;
-    return isGroup() ? model_.mix().groups[group()].lane : model_.mix().strips[index_].lane;
+    return isGroup() ? model_.mix().groups[groupIndex()].lane : model_.mix().strips[index_].lane;
 }
 
 std::vector<int> LaneRow::channels() const {
@@ -131,13 +131,14 @@ std::vector<int> LaneRow::channels() const {
     if (!isGroup()) return {static_cast<int>(index_)};
     std::vector<int> all;
     for (int j = 0; j < model_.mix().count(); ++j)
-        if (nth(model_.mix().strips, j).group == static_cast<int>(group())) all.push_back(j);
+        if (nth(model_.mix().strips, j).group == static_cast<int>(groupIndex())) all.push_back(j);
     return all;
 }
 
 void LaneRow::mixChanged() {
     if (!isValid()) return;
-    name_ = utf8(isGroup() ? model_.mix().groups[group()].name : model_.mix().layout.actuators[index_].label);
+    name_ = utf8(isGroup() ? model_.mix().groups[groupIndex()].name
+                           : model_.mix().layout.actuators[index_].label);
     setTitle("Gain lane of " + name_);
     if (selectedPoint_ >= static_cast<int>(lane().size())) selectedPoint_ = -1;
     describeSelectedPoint();
@@ -159,7 +160,7 @@ void LaneRow::setSpan(double spanSeconds) {
     repaint();
 }
 
-juce::Point<float> LaneRow::pixelOf(const GainPoint& point) const {
+juce::Point<float> LaneRow::toPixel(const GainPoint& point) const {
     const auto area = getLocalBounds().toFloat().reduced(pointInset);
     return {area.getX() + area.getWidth() * static_cast<float>(point.seconds / spanSeconds_),
             area.getBottom() - area.getHeight() * static_cast<float>(scale().convertTo0to1(
@@ -179,7 +180,7 @@ int LaneRow::nearestPoint(juce::Point<float> pixel) const {
     int nearest = -1;
     float minDistance = pointSize;
     for (int i = 0; i < static_cast<int>(lane().size()); ++i)
-        if (const float distance = pixelOf(nth(lane(), i)).getDistanceFrom(pixel); distance < minDistance)
+        if (const float distance = toPixel(nth(lane(), i)).getDistanceFrom(pixel); distance < minDistance)
             minDistance = distance, nearest = i;
     return nearest;
 }
@@ -188,7 +189,7 @@ void LaneRow::edit(const GainLane& lane, bool continuesEdit) {
     if (!isValid()) return;
     model_.change(
         "Gain lane of " + name_,
-        [&](Mix& mix) { (isGroup() ? mix.groups[group()].lane : mix.strips[index_].lane) = lane; },
+        [&](Mix& mix) { (isGroup() ? mix.groups[groupIndex()].lane : mix.strips[index_].lane) = lane; },
         continuesEdit);
     describeSelectedPoint();
     repaint();
@@ -198,30 +199,30 @@ void LaneRow::add(const GainPoint& point) {
     if (lane().size() >= maxGainPoints)
         return model_.report("Gain lane of " + name_ + ": at most " +
                              juce::String{static_cast<int>(maxGainPoints)} + " points");
-    GainLane next = lane();
-    const auto at =
-        next.insert(std::ranges::upper_bound(next, point.seconds, {}, &GainPoint::seconds), point);
-    selectedPoint_ = static_cast<int>(at - next.begin());
-    edit(next);
+    GainLane newLane = lane();
+    const auto newPoint =
+        newLane.insert(std::ranges::upper_bound(newLane, point.seconds, {}, &GainPoint::seconds), point);
+    selectedPoint_ = static_cast<int>(newPoint - newLane.begin());
+    edit(newLane);
 }
 
 // Moves the selected point, at most to the times of its neighbours.
 void LaneRow::move(GainPoint point, bool continuesEdit) {
-    GainLane next = lane();
+    GainLane newLane = lane();
     const auto i = static_cast<std::size_t>(selectedPoint_);
-    const double from = i > 0 ? next[i - 1].seconds : 0.0,
-                 to = i + 1 < next.size() ? next[i + 1].seconds : spanSeconds_;
-    next[i] = {std::clamp(point.seconds, from, std::max(from, to)),
-               std::clamp(point.db, minStripDb, maxStripDb)};
-    if (next[i] != lane()[i]) edit(next, continuesEdit);
+    const double minSeconds = i > 0 ? newLane[i - 1].seconds : 0.0,
+                 maxSeconds = i + 1 < newLane.size() ? newLane[i + 1].seconds : spanSeconds_;
+    newLane[i] = {std::clamp(point.seconds, minSeconds, std::max(minSeconds, maxSeconds)),
+                  std::clamp(point.db, minStripDb, maxStripDb)};
+    if (newLane[i] != lane()[i]) edit(newLane, continuesEdit);
 }
 
 void LaneRow::removeSelectedPoint() {
     if (selectedPoint_ < 0) return;
-    GainLane next = lane();
-    next.erase(next.begin() + selectedPoint_);
-    selectedPoint_ = std::min(selectedPoint_, static_cast<int>(next.size()) - 1);
-    edit(next);
+    GainLane newLane = lane();
+    newLane.erase(newLane.begin() + selectedPoint_);
+    selectedPoint_ = std::min(selectedPoint_, static_cast<int>(newLane.size()) - 1);
+    edit(newLane);
 }
 
 void LaneRow::mouseDown(const juce::MouseEvent& e) {
@@ -290,14 +291,14 @@ void LaneRow::drawWave(juce::Graphics& g) const {
     for (const int j : channels()) {
         juce::RectangleList<float> columns;
         for (float x = 0.0f; x < area.getWidth(); x += 1.0f) {
-            const double from = spanSeconds_ * static_cast<double>(x / area.getWidth()),
-                         to = spanSeconds_ * static_cast<double>((x + 1.0f) / area.getWidth());
-            if (from > trace.seconds()) break;
-            const auto range = trace.range(j, from, to);
+            const double startSeconds = spanSeconds_ * static_cast<double>(x / area.getWidth()),
+                         endSeconds = spanSeconds_ * static_cast<double>((x + 1.0f) / area.getWidth());
+            if (startSeconds > trace.seconds()) break;
+            const auto range = trace.range(j, startSeconds, endSeconds);
             const float top = displayLevel(range.highest), bottom = displayLevel(range.lowest),
-                        reach = 0.5f * area.getHeight();
-            columns.addWithoutMerging({area.getX() + x, area.getCentreY() - reach * top - 0.5f, 1.0f,
-                                       reach * (top - bottom) + 1.0f});
+                        halfHeight = 0.5f * area.getHeight();
+            columns.addWithoutMerging({area.getX() + x, area.getCentreY() - halfHeight * top - 0.5f, 1.0f,
+                                       halfHeight * (top - bottom) + 1.0f});
         }
         g.setColour(actuatorColour(*this, j).withMultipliedAlpha(model_.mix().isSilent(j) ? 0.2f : 0.5f));
         g.fillRectList(columns);
@@ -307,15 +308,15 @@ void LaneRow::drawWave(juce::Graphics& g) const {
 void LaneRow::drawLine(juce::Graphics& g) const {
     const auto right = static_cast<float>(getWidth()) - pointInset;
     juce::Path line;
-    line.startNewSubPath(pixelOf({0.0, laneDbAt(lane(), 0.0)}));
-    for (const GainPoint& point : lane()) line.lineTo(pixelOf(point));
-    line.lineTo({right, lane().empty() ? pixelOf({0.0, 0.0}).y : pixelOf(lane().back()).y});
+    line.startNewSubPath(toPixel({0.0, laneDbAt(lane(), 0.0)}));
+    for (const GainPoint& point : lane()) line.lineTo(toPixel(point));
+    line.lineTo({right, lane().empty() ? toPixel({0.0, 0.0}).y : toPixel(lane().back()).y});
     g.setColour(shade(*this, lane().empty() ? Shade::line : Shade::text));
     g.strokePath(line, juce::PathStrokeType{lane().empty() ? 1.0f : 1.6f});
     for (int i = 0; i < static_cast<int>(lane().size()); ++i) {
-        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(pixelOf(nth(lane(), i)));
+        const auto dot = juce::Rectangle<float>{pointSize, pointSize}.withCentre(toPixel(nth(lane(), i)));
         g.setColour(shade(*this, i == selectedPoint_ ? Shade::accent : Shade::text));
-        g.fillEllipse(i == selectedPoint_ ? at.expanded(1.5f) : at.reduced(1.0f));
+        g.fillEllipse(i == selectedPoint_ ? dot.expanded(1.5f) : dot.reduced(1.0f));
     }
 }
 
@@ -325,7 +326,7 @@ void LaneRow::paint(juce::Graphics& g) {
     const juce::Graphics::ScopedSaveState saved{g};
     g.reduceClipRegion(getLocalBounds());
     drawLine(g);
-    const float nowX = pixelOf({model_.signals().runTrace().seconds(), 0.0}).x;
+    const float nowX = toPixel({model_.signals().runTrace().seconds(), 0.0}).x;
     g.setColour(shade(*this, Shade::highlight));
     g.fillRect(nowX - 0.75f, 0.0f, 1.5f, static_cast<float>(getHeight()));
 }

@@ -27,10 +27,10 @@ private:
     /// False between the removal of a strip and the update of the view.
     bool isValid() const { return index_ < model_.mix().strips.size() + model_.mix().groups.size(); }
     bool isGroup() const { return index_ >= model_.mix().strips.size(); }
-    std::size_t group() const { return index_ - model_.mix().strips.size(); }
+    std::size_t groupIndex() const { return index_ - model_.mix().strips.size(); }
     const GainLane& lane() const;
     std::vector<int> channels() const;
-    juce::Point<float> pixelOf(const GainPoint& point) const;
+    juce::Point<float> toPixel(const GainPoint& point) const;
     GainPoint pointAt(juce::Point<float> pixel) const;
     int nearestPoint(juce::Point<float> pixel) const;
     void edit(const GainLane& lane, bool continuesEdit = false);

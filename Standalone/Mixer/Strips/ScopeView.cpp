@@ -32,8 +32,8 @@ bool ScopeView::isQuiet() const {
 
 void ScopeView::refresh(const MixerSnapshot&) {
     spectrum_.refresh();
-    if (model_.signals().scopeTrace().columnsBegun() == columnsShown_) return;
-    columnsShown_ = model_.signals().scopeTrace().columnsBegun();
+    if (model_.signals().scopeTrace().columnsBegun() == drawnColumns_) return;
+    drawnColumns_ = model_.signals().scopeTrace().columnsBegun();
     const bool isQuietNow = isQuiet();
     if (isQuietNow && wasQuiet_) return; // a silent trace needs no redraw
     wasQuiet_ = isQuietNow;
@@ -112,19 +112,19 @@ SpectrumView::SpectrumView(MixerModel& model)
 void SpectrumView::refresh() {
     const double now = nowMs();
     if (now - updatedAtMs_ < 1000.0 / updatesPerSecond ||
-        model_.signals().scopeTrace().columnsBegun() == columnsSeen_)
+        model_.signals().scopeTrace().columnsBegun() == drawnColumns_)
         return;
     const auto fallDb = static_cast<float>(meterFallDbPerSecond * std::min(1.0, 1e-3 * (now - updatedAtMs_)));
     updatedAtMs_ = now;
-    columnsSeen_ = model_.signals().scopeTrace().columnsBegun();
+    drawnColumns_ = model_.signals().scopeTrace().columnsBegun();
     bool hasChanged = false;
     for (int j = 0; j < std::min(model_.mix().count(), maxCurves); ++j) {
-        const auto levels = spectrumLevelsOf(model_.signals().spectrumTrace(), j);
-        auto& shown = nth(levelsDb_, j);
-        for (std::size_t k = 0; k < shown.size(); ++k) {
-            const float next = std::max({levels[k], shown[k] - fallDb, FrequencyAxis::floorDb});
-            hasChanged = hasChanged || std::abs(next - shown[k]) > minVisibleChangeDb;
-            shown[k] = next;
+        const auto levels = channelSpectrum(model_.signals().spectrumTrace(), j);
+        auto& drawnLevels = nth(levelsDb_, j);
+        for (std::size_t k = 0; k < drawnLevels.size(); ++k) {
+            const float next = std::max({levels[k], drawnLevels[k] - fallDb, FrequencyAxis::floorDb});
+            hasChanged = hasChanged || std::abs(next - drawnLevels[k]) > minVisibleChangeDb;
+            drawnLevels[k] = next;
         }
     }
     if (hasChanged) repaint();

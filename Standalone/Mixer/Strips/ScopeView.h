@@ -25,7 +25,7 @@ public:
 private:
     MixerModel& model_;
     std::array<SpectrumLevels, maxCurves> levelsDb_;
-    std::int64_t columnsSeen_ = -1;
+    std::int64_t drawnColumns_ = -1;
     double updatedAtMs_ = 0.0;
 };
 
@@ -46,7 +46,7 @@ private:
     MixerModel& model_;
     SpectrumView spectrum_;
     juce::Rectangle<int> lanes_;
-    std::int64_t columnsShown_ = -1;
+    std::int64_t drawnColumns_ = -1;
     bool wasQuiet_ = false;
 };
 

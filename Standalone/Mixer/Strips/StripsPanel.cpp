@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 /// Menu of the groups that the strip may join, and of a new one.
-void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
+void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& anchor) {
     const auto& mix = model.mix();
     const auto label = labelOf(mix, strip);
     const auto setGroup = [&model, strip, label](int group) {
@@ -26,8 +26,8 @@ void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) 
     menu.addItem("New: " + utf8(name), mix.groups.size() < maxGroups, false, [&model, strip, label, name] {
         model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, name); });
     });
-    menu.setLookAndFeel(&from.getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
+    menu.setLookAndFeel(&anchor.getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(anchor));
 }
 
 } // namespace
@@ -234,9 +234,9 @@ void StripsPanel::refresh(const MixerSnapshot& snapshot) {
 void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
     auto* focused = getCurrentlyFocusedComponent();
     if (focused == nullptr || !row_.isParentOf(focused)) return;
-    const auto at = row_.getLocalArea(focused, focused->getLocalBounds());
-    if (!viewport_.getViewArea().contains(at))
-        viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
+    const auto area = row_.getLocalArea(focused, focused->getLocalBounds());
+    if (!viewport_.getViewArea().contains(area))
+        viewport_.setViewPosition(std::max(0, area.getCentreX() - viewport_.getViewWidth() / 2), 0);
 }
 
 // Scrolls by whole strips: one begins at the left edge, or, at the end of the row, one ends at the right.

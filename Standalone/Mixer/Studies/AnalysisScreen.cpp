@@ -7,26 +7,26 @@ namespace physvib {
 
 namespace {
 
-constexpr int analysisHeadHeight = 56, figuresWidth = 430;
+constexpr int analysisHeaderHeight = 56, resultTextWidth = 430;
 
-std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
+std::vector<std::string> toPaths(const std::vector<juce::File>& files) {
     std::vector<std::string> paths;
     for (const auto& file : files) paths.push_back(pathOf(file));
     return paths;
 }
 
 /// Names of the analyses that fit every file; an error line if there are none.
-Result<std::vector<std::string>> analysesFitting(const std::vector<juce::File>& files) {
+Result<std::vector<std::string>> findFittingAnalyses(const std::vector<juce::File>& files) {
     std::vector<std::string> names;
     bool isFirstFile = true;
-    for (const auto& path : pathsOf(files)) {
+    for (const auto& path : toPaths(files)) {
         const auto table = loadCsvTable(path);
         if (!table) return Failure{table.error};
-        const auto fitting = analysesFor(table.value);
-        if (isFirstFile) names = fitting;
+        const auto fileAnalyses = analysesFor(table.value);
+        if (isFirstFile) names = fileAnalyses;
         isFirstFile = false;
         std::erase_if(names, [&](const std::string& name) {
-            return std::ranges::find(fitting, name) == fitting.end();
+            return std::ranges::find(fileAnalyses, name) == fileAnalyses.end();
         });
         if (names.empty())
             return Failure{path + ": expected trials of a study, or a table that physvib analyse takes"};
@@ -96,7 +96,7 @@ void AnalysisScreen::browse() {
 void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
     files_ = files;
     analysisChoice_.clear(juce::dontSendNotification);
-    const auto names = analysesFitting(files);
+    const auto names = findFittingAnalyses(files);
     for (int id = 1; const auto& name : names.value) analysisChoice_.addItem(displayTitle(name), id++);
     analysisChoice_.setEnabled(!names.value.empty());
     if (!names.value.empty()) return analysisChoice_.setSelectedId(1, juce::sendNotificationSync);
@@ -107,9 +107,9 @@ void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
 void AnalysisScreen::show(const std::string& name) {
     picture_.reset();
     if (!name.empty()) {
-        AnalysisJob options;
-        options.files = pathsOf(files_);
-        report_ = physvib::analyse(name, options);
+        AnalysisJob job;
+        job.files = toPaths(files_);
+        report_ = physvib::analyse(name, job);
     }
     if (report_.error.empty() && report_.picture) {
         const auto svg = juce::parseXML(utf8(report_.picture()));
@@ -125,9 +125,9 @@ void AnalysisScreen::show(const std::string& name) {
 // Writes the text anew, as it keeps the colours of the window in which it was written.
 void AnalysisScreen::showReport() {
     resultText_.clear();
-    const auto append = [this](const juce::String& words, Shade tone) {
+    const auto append = [this](const juce::String& line, Shade tone) {
         resultText_.setColour(juce::TextEditor::textColourId, shade(*this, tone));
-        resultText_.insertTextAtCaret(words);
+        resultText_.insertTextAtCaret(line);
     };
     if (report_.isSimulated)
         append("SIMULATED: a simulated observer answered, not a person\n\n", Shade::highlight);
@@ -154,8 +154,8 @@ void AnalysisScreen::paint(juce::Graphics& g) {
 
 void AnalysisScreen::resized() {
     auto area = getLocalBounds().reduced(pageInset, 16);
-    auto header = area.removeFromTop(analysisHeadHeight - 16);
-    silenceButton_.setBounds(header.removeFromRight(160).translated(0, -8));
+    auto header = area.removeFromTop(analysisHeaderHeight - 16);
+    silenceButton_.setBounds(header.removeFromRight(silenceButtonWidth).translated(0, -8));
     header.removeFromRight(16);
     closeButton_->setBounds(header.removeFromRight(90));
     chooseButton_->setBounds(header.removeFromRight(130));
@@ -163,7 +163,7 @@ void AnalysisScreen::resized() {
     titleArea_ = header;
     area.removeFromTop(16);
     resultText_.setBounds(
-        picture_ == nullptr ? area : area.removeFromLeft(std::min(figuresWidth, area.getWidth() / 2)));
+        picture_ == nullptr ? area : area.removeFromLeft(std::min(resultTextWidth, area.getWidth() / 2)));
     pictureArea_ = area.withTrimmedLeft(24);
 }
 

@@ -25,7 +25,7 @@ juce::String exposureText(const std::vector<TrialRecord>& records) {
            number(exposureActionMetresPerSecond2, 1) + utf8(" m/s\u00b2");
 }
 
-juce::String descriptionOf(const Protocol& protocol) {
+juce::String describeProtocol(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
     for (const auto& condition : protocol.conditions)
         conditions.add(utf8(condition.name).replaceCharacter('-', 0x2011)); // hyphens without line breaks
@@ -40,9 +40,9 @@ constexpr std::size_t maxPictureBytes = 16'000'000;
 constexpr unsigned maxPixels = 4096; // maximum width and height
 
 /// Reads a side of a PNG: a big-endian number after its signature.
-unsigned readPngSide(const std::string& png, std::size_t at) {
+unsigned readPngSide(const std::string& png, std::size_t offset) {
     unsigned side = 0;
-    for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
+    for (std::size_t i = offset; i < offset + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
     return side;
 }
 
@@ -116,9 +116,9 @@ StudiesTab::StudiesTab(MixerModel& model)
     languageChoice_.setTitle("Language of the participant");
     languageChoice_.addItem("what the protocol says", protocolLanguageId);
     languageChoice_.addItem("English", englishId);
-    for (int id = firstLanguageId; const Translation& words : builtInTranslations())
+    for (int id = firstLanguageId; const Translation& entry : builtInTranslations())
         languageChoice_.addItem(
-            hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.englishName), id++);
+            hasLetters({}, utf8(entry.language)) ? utf8(entry.language) : utf8(entry.englishName), id++);
     languageChoice_.addItem("Words file" + ellipsis(), fileId);
     languageChoice_.setSelectedId(protocolLanguageId, juce::dontSendNotification);
     languageChoice_.onChange = [this] { handleLanguageChoice(); };
@@ -184,7 +184,7 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
                                       juce::dontSendNotification);
     else
         protocolChoice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
-    description_ = descriptionOf(*protocol_);
+    description_ = describeProtocol(*protocol_);
     noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
     if (noiseLevel_.getSelectedId() == 0)
         noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
@@ -208,19 +208,19 @@ void StudiesTab::handleProtocolChoice() {
 }
 
 std::string StudiesTab::chooseLanguage(const std::string& nameOrPath) {
-    const auto words = findTranslation(nameOrPath);
-    if (!words) return setStatus(utf8(words.error), Shade::limit), words.error;
+    const auto translation = findTranslation(nameOrPath);
+    if (!translation) return setStatus(utf8(translation.error), Shade::limit), translation.error;
     languagePath_ = nameOrPath;
     const auto& choices = builtInTranslations();
     const auto builtIn = std::ranges::find(choices, nameOrPath, &Translation::name);
     if (builtIn != choices.end())
         languageChoice_.setSelectedId(firstLanguageId + static_cast<int>(builtIn - choices.begin()),
                                       juce::dontSendNotification);
-    else if (words.value.name.empty())
+    else if (translation.value.name.empty())
         languageChoice_.setSelectedId(nameOrPath.empty() ? protocolLanguageId : englishId,
                                       juce::dontSendNotification);
     else
-        languageChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
+        languageChoice_.setText(utf8(translation.value.language), juce::dontSendNotification);
     return {};
 }
 
@@ -282,10 +282,11 @@ void StudiesTab::refreshNoiseChoices() {
 }
 
 void StudiesTab::chooseNoise(const std::vector<int>& outputs) {
-    const auto at = std::ranges::find(noiseOutputs_, outputs);
-    noiseChoice_.setSelectedId(
-        at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
-        juce::dontSendNotification);
+    const auto entry = std::ranges::find(noiseOutputs_, outputs);
+    noiseChoice_.setSelectedId(entry == noiseOutputs_.end()
+                                   ? noNoiseId
+                                   : static_cast<int>(entry - noiseOutputs_.begin()) + noNoiseId + 1,
+                               juce::dontSendNotification);
 }
 
 void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
@@ -344,8 +345,8 @@ void StudiesTab::refreshStatus() {
             setStatus(utf8(path.filename().string()) + " has all its trials: expected another code",
                       Shade::muted);
     else if (log)
-        setStatus(utf8(path.filename().string()) + " has " +
-                      utf8(counted(log.value.records.size(), "trial")) + exposureText(log.value.records),
+        setStatus(utf8(path.filename().string()) + " has " + utf8(plural(log.value.records.size(), "trial")) +
+                      exposureText(log.value.records),
                   Shade::text);
     else
         setStatus(utf8(log.error), Shade::limit);
@@ -392,8 +393,8 @@ void StudiesTab::showFindings() {
     host->setScreen(analysis_.get());
 }
 
-void StudiesTab::setStatus(const juce::String& words, Shade shade) {
-    status_ = words;
+void StudiesTab::setStatus(const juce::String& message, Shade shade) {
+    status_ = message;
     statusShade_ = shade;
     repaint();
 }
@@ -402,17 +403,17 @@ void StudiesTab::setStatus(const juce::String& words, Shade shade) {
 void StudiesTab::offerLayout() {
     constexpr std::size_t earCount = 2;
     const auto [name, layout] = largestLayout(*protocol_);
-    const std::size_t needed = layout.actuators.size();
-    const auto other = std::ranges::find_if(knownProtocols(), [](const Protocol& p) {
+    const std::size_t minCount = layout.actuators.size();
+    const auto study = std::ranges::find_if(knownProtocols(), [](const Protocol& p) {
         return largestLayout(p).second.actuators.size() <= earCount;
     });
     MixerMessage message{
-        "This study is felt on " + utf8(counted(needed, "actuator")), true, {}, "study-layout"};
-    if (model_.device().choice().isHeadphones && needed > earCount && other != knownProtocols().end()) {
+        "This study is felt on " + utf8(plural(minCount, "actuator")), true, {}, "study-layout"};
+    if (model_.device().choice().isHeadphones && minCount > earCount && study != knownProtocols().end()) {
         message.text += ", and headphones are two";
-        message.action = {"Choose " + displayTitle(other->name) + " instead",
-                          [this, name = other->name] { chooseProtocol(name), offerLayout(); }};
-    } else if (needed > model_.mix().strips.size())
+        message.action = {"Choose " + displayTitle(study->name) + " instead",
+                          [this, name = study->name] { chooseProtocol(name), offerLayout(); }};
+    } else if (minCount > model_.mix().strips.size())
         message.action = {"Use " + utf8(name), [this, newLayout = layout] {
                               model_.change("Layout of the study", [&newLayout](Mix& mix) {
                                   mix.layout = newLayout;
@@ -426,10 +427,10 @@ void StudiesTab::offerLayout() {
 
 /// Offers the master level of the previous trials, because a mixer opens at a low level.
 void StudiesTab::offerLevel(double db) {
-    const auto words = number(db, 1) + " dB";
-    model_.messages().show({"The trials before had a master level of " + words,
+    const auto levelText = number(db, 1) + " dB";
+    model_.messages().show({"The trials before had a master level of " + levelText,
                             true,
-                            {"Set " + words,
+                            {"Set " + levelText,
                              [this, db] {
                                  model_.change("Master level", [db](Mix& mix) { mix.levelDb = db; });
                                  model_.messages().withdraw("study-level");
@@ -455,13 +456,13 @@ std::string StudiesTab::begin() {
                                               : check_->errors.front();
         !error.empty())
         return fail(protocol_->name + ": " + error);
-    auto words =
+    auto translation =
         findTranslation(languagePath_.empty() ? resolveProtocolPath(protocol_->folder, protocol_->translation)
                                               : languagePath_);
-    if (!words) return fail(words.error);
-    const auto typeface = typefaceFor(words.value);
+    if (!translation) return fail(translation.error);
+    const auto typeface = typefaceFor(translation.value);
     if (!typeface)
-        return fail("expected a font with the letters of " + words.value.name +
+        return fail("expected a font with the letters of " + translation.value.name +
                     ", found none; on Debian, fonts-nanum has Korean ones");
     if (auto error = displayScaleError(*protocol_, model_.displayWidthMetres()); !error.empty())
         return fail(error);
@@ -471,8 +472,8 @@ std::string StudiesTab::begin() {
     auto study = std::make_unique<StudyInProgress>(selectedRun());
     if (!study->error().empty()) return fail(study->error());
     if (auto error = model_.device().listening().beginStudy(listening()); !error.empty()) return fail(error);
-    Apparatus apparatus = apparatusOf(model_);
-    apparatus.language = words.value.name.empty() ? "en" : words.value.name;
+    Apparatus apparatus = currentApparatus(model_);
+    apparatus.language = translation.value.name.empty() ? "en" : translation.value.name;
     auto apparatusError = study->apparatusError(apparatus);
     if (const auto db = study->previousMasterDb(apparatus))
         offerLevel(*db);
@@ -480,7 +481,7 @@ std::string StudiesTab::begin() {
         model_.report(utf8(apparatusError));
     if (apparatusError.empty()) apparatusError = study->logStart(apparatus);
     if (!apparatusError.empty()) return model_.device().listening().endStudy(), fail(apparatusError);
-    screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(words.value),
+    screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(translation.value),
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
     typeface_ = std::make_unique<TypefaceOverride>(*typeface);
@@ -552,64 +553,64 @@ juce::StringArray StudiesTab::advice() const {
 
 void StudiesTab::paint(juce::Graphics& g) {
     g.setFont(text::font(text::medium));
-    const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
-    const auto drawLines = [&](const juce::String& words, Shade colour, juce::Rectangle<int> area) {
+    const int lineHeight = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
+    const auto drawLines = [&](const juce::String& paragraph, Shade colour, juce::Rectangle<int> area) {
         g.setColour(shade(*this, colour));
-        if (const int lines = area.getHeight() / line; lines > 0) // whole lines, in the full font size
-            g.drawFittedText(words, area, juce::Justification::centredLeft, lines, 1.0f);
+        if (const int lines = area.getHeight() / lineHeight; lines > 0) // whole lines, in the full font size
+            g.drawFittedText(paragraph, area, juce::Justification::centredLeft, lines, 1.0f);
     };
-    const auto drawIfFits = [&](juce::Rectangle<int>& freeArea, const juce::String& words, Shade colour) {
-        const float rowCount = static_cast<float>(text::pixelWidth(g.getCurrentFont(), words)) /
+    const auto drawIfFits = [&](juce::Rectangle<int>& freeArea, const juce::String& paragraph, Shade colour) {
+        const float rowCount = static_cast<float>(text::pixelWidth(g.getCurrentFont(), paragraph)) /
                                static_cast<float>(std::max(1, freeArea.getWidth()));
-        const int needed = line * (rowCount <= 1.0f ? 1 : static_cast<int>(std::ceil(1.1f * rowCount))),
+        const int needed = lineHeight * (rowCount <= 1.0f ? 1 : static_cast<int>(std::ceil(1.1f * rowCount))),
                   height = std::min(needed, freeArea.getHeight());
         const bool fits = height == needed || colour == Shade::limit; // errors are always drawn
-        if (fits) drawLines(words, colour, freeArea.removeFromTop(height));
+        if (fits) drawLines(paragraph, colour, freeArea.removeFromTop(height));
         return fits;
     };
     auto textArea = descriptionArea_, freeArea = adviceArea_;
-    for (const juce::String& words : juce::StringArray::fromLines(description_))
-        if (!drawIfFits(textArea, words, Shade::muted)) break;
+    for (const juce::String& paragraph : juce::StringArray::fromLines(description_))
+        if (!drawIfFits(textArea, paragraph, Shade::muted)) break;
     const bool isStatusFirst = statusShade_ == Shade::limit || !begin_.isEnabled(); // says what is missing
     if (isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
-    for (const juce::String& words : advice()) drawIfFits(freeArea, words, Shade::highlight);
+    for (const juce::String& paragraph : advice()) drawIfFits(freeArea, paragraph, Shade::highlight);
     if (!isStatusFirst) drawIfFits(freeArea, status_, statusShade_);
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 15, spacing = 5, footHeight = 32, lower = 24; // pixels
-    const int line = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
+    constexpr int captionHeight = 15, spacing = 5, footerHeight = 32, lower = 24; // pixels
+    const int lineHeight = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
     auto area = getLocalBounds();
-    const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
-    caption(protocolLabel_);
-    auto first = area.removeFromTop(line);
-    findings_->setBounds(first.removeFromRight(100));
-    protocolChoice_.setBounds(first.withTrimmedRight(gap));
+    const auto place = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
+    place(protocolLabel_);
+    auto protocolRow = area.removeFromTop(lineHeight);
+    findings_->setBounds(protocolRow.removeFromRight(100));
+    protocolChoice_.setBounds(protocolRow.withTrimmedRight(gap));
     area.removeFromTop(spacing);
     descriptionArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - lower - 42, 0, 98));
-    const auto pair = [&area, line](juce::Label& leftName, juce::Component& left, juce::Label& rightName,
-                                    juce::Component& right) {
-        auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(line);
+    const auto placePair = [&area, lineHeight](juce::Label& leftName, juce::Component& left,
+                                               juce::Label& rightName, juce::Component& right) {
+        auto captionRow = area.removeFromTop(captionHeight), row = area.removeFromTop(lineHeight);
         const int leftWidth = row.getWidth() * 3 / 5;
-        leftName.setBounds(names.removeFromLeft(leftWidth));
+        leftName.setBounds(captionRow.removeFromLeft(leftWidth));
         left.setBounds(row.removeFromLeft(leftWidth - gap));
         row.removeFromLeft(gap);
-        rightName.setBounds(names);
+        rightName.setBounds(captionRow);
         right.setBounds(row);
     };
-    pair(codeLabel_, code_, numberLabel_, number_);
+    placePair(codeLabel_, code_, numberLabel_, number_);
     area.removeFromTop(spacing);
-    caption(folderLabel_);
-    auto row = area.removeFromTop(line);
+    place(folderLabel_);
+    auto row = area.removeFromTop(lineHeight);
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
     area.removeFromTop(spacing);
-    pair(noiseLabel_, noiseChoice_, noiseLevelLabel_, noiseLevel_);
+    placePair(noiseLabel_, noiseChoice_, noiseLevelLabel_, noiseLevel_);
     area.removeFromTop(spacing);
-    pair(languageLabel_, languageChoice_, answersLabel_, answersChoice_);
+    placePair(languageLabel_, languageChoice_, answersLabel_, answersChoice_);
     area.removeFromTop(spacing + 2);
-    adviceArea_ = area.removeFromTop(std::clamp(area.getHeight() - footHeight, 0, 63));
-    row = area.removeFromTop(std::min(footHeight, area.getHeight()));
+    adviceArea_ = area.removeFromTop(std::clamp(area.getHeight() - footerHeight, 0, 63));
+    row = area.removeFromTop(std::min(footerHeight, area.getHeight()));
     begin_.setBounds(row.removeFromLeft(84));
     analyse_->setBounds(row.removeFromRight(72));
     master_.setBounds(row.reduced(gap, 0));

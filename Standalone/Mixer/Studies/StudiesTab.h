@@ -116,7 +116,7 @@ private:
     void refreshNoiseChoices();  ///< lists the free outputs
     void handleLanguageChoice(); ///< the user chose in the list of languages
     ListeningSettings listening() const;
-    void setStatus(const juce::String& words, Shade shade); ///< text beside Begin
+    void setStatus(const juce::String& message, Shade shade); ///< text beside Begin
     void stopCheck();
     void updateCheck();
     void showFindings();          ///< opens the report of the check

@@ -7,18 +7,18 @@
 namespace physvib {
 namespace {
 
-constexpr int footHeight = 84;
+constexpr int answerFooterHeight = 84;
 
 class AnswerWindow final : public juce::DocumentWindow {
 public:
-    AnswerWindow(StudyAnswerPane& pane, const juce::Component& beside)
+    AnswerWindow(StudyAnswerPane& pane, const juce::Component& studyScreen)
         : juce::DocumentWindow{"PhysVib: answers", palette::ground, 0, false} {
         setUsingNativeTitleBar(true);
-        setLookAndFeel(&beside.getLookAndFeel());
+        setLookAndFeel(&studyScreen.getLookAndFeel());
         setContentNonOwned(&pane, false);
         juce::Rectangle<int> area{100, 100, 900, 640};
         for (const auto& display : juce::Desktop::getInstance().getDisplays().displays)
-            if (totalAreaOf(display) != displayOf(beside)) area = userAreaOf(display);
+            if (totalAreaOf(display) != displayOf(studyScreen)) area = userAreaOf(display);
         setBounds(area);
         setResizable(true, false);
         addToDesktop();
@@ -32,8 +32,8 @@ public:
 
 } // namespace
 
-std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside) {
-    return std::make_unique<AnswerWindow>(pane, beside);
+std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& studyScreen) {
+    return std::make_unique<AnswerWindow>(pane, studyScreen);
 }
 
 StudyAnswerPane::StudyAnswerPane(const StudyTexts& texts)
@@ -80,15 +80,15 @@ void StudyAnswerPane::paint(juce::Graphics& g) {
     }
     if (!answer_ || !answer_->isVisible()) return;
     setInk(g, *this, Shade::muted, text::small);
-    g.drawText(translate_(answer_->keyHelp()), keysArea_, juce::Justification::centredLeft, true);
+    g.drawText(translate_(answer_->keyHelp()), keyHelpArea_, juce::Justification::centredLeft, true);
 }
 
 void StudyAnswerPane::resized() {
     auto area = isSeparateWindow_ ? getLocalBounds().reduced(pageInset, 16) : getLocalBounds();
     questionArea_ = isSeparateWindow_ ? area.removeFromTop(64) : juce::Rectangle<int>{};
-    auto foot = area.removeFromBottom(footHeight);
-    confirm_.setBounds(foot.withSizeKeepingCentre(260, 64));
-    keysArea_ = foot.removeFromBottom(36).withWidth((foot.getWidth() - 280) / 2);
+    auto footer = area.removeFromBottom(answerFooterHeight);
+    confirm_.setBounds(footer.withSizeKeepingCentre(260, 64));
+    keyHelpArea_ = footer.removeFromBottom(36).withWidth((footer.getWidth() - 280) / 2);
     if (answer_) answer_->setBounds(area);
 }
 
@@ -187,15 +187,15 @@ public:
         , anchors_{session.anchors.empty()
                        ? std::vector<std::string>{defaultAnchors.begin(), defaultAnchors.end()}
                        : session.anchors}
-        , points_{session.points}
+        , pointCount_{session.points}
         , showsNumbers_{session.showsNumbers} {
         setTitle("Ratings");
         const std::size_t referenceCount = session.reference.empty() ? 0 : 1;
         for (std::size_t i = 0; i < session.scores().size(); ++i) {
             auto& scale = scales_.emplace_back(std::make_unique<Scale>());
             const bool isObject = session.ratesSideBySide();
-            const auto capitalised = [](const juce::String& words) {
-                return words.substring(0, 1).toUpperCase() + words.substring(1);
+            const auto capitalised = [](const juce::String& text) {
+                return text.substring(0, 1).toUpperCase() + text.substring(1);
             };
             scoreIndices_.push_back(
                 isObject ? static_cast<std::size_t>(
@@ -209,8 +209,8 @@ public:
             slider.setDescription(scale->definition);
             slider.setSliderStyle(juce::Slider::LinearHorizontal);
             slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-            slider.setRange(points_ > 0 ? 1.0 : 0.0, points_ > 0 ? points_ : 100.0, 1.0);
-            slider.setValue(points_ > 0 ? (1 + points_) / 2 : 50.0, juce::dontSendNotification);
+            slider.setRange(pointCount_ > 0 ? 1.0 : 0.0, pointCount_ > 0 ? pointCount_ : 100.0, 1.0);
+            slider.setValue(pointCount_ > 0 ? (1 + pointCount_) / 2 : 50.0, juce::dontSendNotification);
             slider.setWantsKeyboardFocus(true);
             slider.getProperties().set(tintProperty, static_cast<juce::int64>(palette::muted.getARGB()));
             slider.onValueChange = slider.onDragEnd = [this, s = scale.get()] { setMoved(*s); };
@@ -236,7 +236,7 @@ public:
             g.drawText(scale->name, heading.removeFromLeft(150), juce::Justification::centredLeft, true);
             setInk(g, *this, Shade::muted, text::medium);
             g.drawText(scale->definition, heading, juce::Justification::centredLeft, true);
-            for (int point = 1; point <= points_; ++point)
+            for (int point = 1; point <= pointCount_; ++point)
                 g.fillEllipse(juce::Rectangle<float>{8.0f, 8.0f}.withCentre(
                     {static_cast<float>(scale->slider.getX()) + scale->slider.getPositionOfValue(point),
                      static_cast<float>(scale->slider.getBounds().getCentreY())}));
@@ -274,7 +274,7 @@ private:
     }
     const StudyTexts& translate_;
     const std::vector<std::string> anchors_;
-    const int points_; // points of the scale, from 1; 0: a scale from 0 to 100
+    const int pointCount_; // points of the scale, from 1; 0: a scale from 0 to 100
     const bool showsNumbers_;
     std::vector<std::size_t> scoreIndices_; // place of each slider's score among the session's scores
     std::vector<std::unique_ptr<Scale>> scales_;
@@ -290,8 +290,8 @@ public:
         for (auto* button : {&softer_, &stronger_}) addAndMakeVisible(*button);
         softer_.setText(translate("Softer"), translate("arrow down"));
         stronger_.setText(translate("Stronger"), translate("arrow up"));
-        softer_.onClick = [this] { step(-1.0); };
-        stronger_.onClick = [this] { step(1.0); };
+        softer_.onClick = [this] { changeLevel(-1.0); };
+        stronger_.onClick = [this] { changeLevel(1.0); };
     }
     Answer answer() const override { return {.response = {}, .place = {}, .scores = {}, .value = db_}; }
     bool isComplete() const override { return true; }
@@ -299,8 +299,8 @@ public:
     std::string keyHelp() const override { return "Up, down: level.  Enter: they are equal."; }
     bool handleKey(const juce::KeyPress& key) override {
         if (!isEnabled()) return false;
-        if (key.isKeyCode(juce::KeyPress::upKey)) return step(1.0), true;
-        if (key.isKeyCode(juce::KeyPress::downKey)) return step(-1.0), true;
+        if (key.isKeyCode(juce::KeyPress::upKey)) return changeLevel(1.0), true;
+        if (key.isKeyCode(juce::KeyPress::downKey)) return changeLevel(-1.0), true;
         return false;
     }
     void focusFirst() override {}
@@ -321,7 +321,7 @@ public:
     void enablementChanged() override { repaint(); }
 
 private:
-    void step(double steps) {
+    void changeLevel(double steps) {
         db_ = std::clamp(db_ + steps * adjustment_.stepDb, adjustment_.minDb, adjustment_.maxDb);
         repaint();
         onChange();

@@ -27,7 +27,7 @@ void drawField(juce::Graphics& g, const juce::Component& component, const juce::
     g.setColour(shade(component, Shade::line));
     g.drawRoundedRectangle(field, 10.0f, 1.5f);
     for (int j = 0; j < layout.geometry.count; ++j)
-        drawRing(g, component, pixelOn(field, actuatorPlace(layout.geometry, j)), layout, j);
+        drawRing(g, component, toPixel(field, actuatorPlace(layout.geometry, j)), layout, j);
 }
 
 /// Draws an actuator beside its place, towards the outside, as a point of the grid may lie on it.
@@ -35,11 +35,11 @@ void drawActuatorBeside(juce::Graphics& g, const juce::Component& component,
                         const juce::Rectangle<float>& field, const LayoutDescription& layout, int actuator) {
     constexpr float offsetPixels = 46.0f;
     const auto place = actuatorPlace(layout.geometry, actuator);
-    const auto outwards = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
-    juce::Point<float> out{outwards(place.x), outwards(place.y)};
-    if (out.isOrigin()) out.y = -1.0f;
-    drawRing(g, component, pixelOn(field, place) + out * (offsetPixels / out.getDistanceFromOrigin()), layout,
-             actuator);
+    const auto outwardSign = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
+    juce::Point<float> offset{outwardSign(place.x), outwardSign(place.y)};
+    if (offset.isOrigin()) offset.y = -1.0f;
+    drawRing(g, component, toPixel(field, place) + offset * (offsetPixels / offset.getDistanceFromOrigin()),
+             layout, actuator);
 }
 
 /// A point of the grid at the place of its stimulus: yellow, red once it was played, as in thesis Fig. 4.1.
@@ -87,22 +87,22 @@ public:
         for (int j = 0; j < layout_.geometry.count; ++j) drawActuatorBeside(g, *this, field(), layout_, j);
     }
     void resized() override {
-        const auto f = field();
-        const auto spacingOf = [](float length, int lines) {
+        const auto area = field();
+        const auto spacing = [](float length, int lines) {
             return lines > 1 ? length / static_cast<float>(lines - 1) : length;
         };
         const int size = juce::roundToInt(std::clamp(
-            0.8f * std::min(spacingOf(f.getWidth(), grid_.columns), spacingOf(f.getHeight(), grid_.rows)),
+            0.8f * std::min(spacing(area.getWidth(), grid_.columns), spacing(area.getHeight(), grid_.rows)),
             22.0f, 60.0f));
         for (auto& cell : cells_)
             cell->setBounds(juce::Rectangle<int>{size, size}.withCentre(
-                pixelOn(f, grid_.place(cell->cell)).roundToInt()));
+                toPixel(area, grid_.place(cell->cell)).roundToInt()));
     }
 
 private:
     static constexpr float cellMargin = 62.0f; // space for the points at the edge and their labels
     juce::Rectangle<float> field() const {
-        return fieldAreaIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry);
+        return fitField(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry);
     }
     PhantomGrid grid_;
     const LayoutDescription layout_;
@@ -150,10 +150,10 @@ public:
         drawField(g, *this, field(), layout_);
         if (acceptedMark_) {
             g.setColour(shade(*this, Shade::highlight));
-            g.fillEllipse(juce::Rectangle<float>{18.0f, 18.0f}.withCentre(pixelOn(field(), *acceptedMark_)));
+            g.fillEllipse(juce::Rectangle<float>{18.0f, 18.0f}.withCentre(toPixel(field(), *acceptedMark_)));
         }
         if (!isEnabled()) return;
-        const auto centre = pixelOn(field(), mark_);
+        const auto centre = toPixel(field(), mark_);
         g.setColour(shade(*this, Shade::accent));
         g.drawEllipse(juce::Rectangle<float>{30.0f, 30.0f}.withCentre(centre), 2.0f);
         g.drawLine({centre.translated(-22.0f, 0.0f), centre.translated(22.0f, 0.0f)}, 1.5f);
@@ -163,15 +163,15 @@ public:
 
 private:
     juce::Rectangle<float> field() const {
-        return fieldAreaIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry);
+        return fitField(getLocalBounds().toFloat().reduced(margin), layout_.geometry);
     }
     void moveMarkTo(const juce::MouseEvent& e) {
         const auto f = field();
         moveMark({(e.position.x - f.getX()) / f.getWidth(), (e.position.y - f.getY()) / f.getHeight()});
     }
-    void moveMark(const FieldPlace& to) {
-        const auto rounded = [](double share) { return std::round(1e4 * std::clamp(share, 0.0, 1.0)) / 1e4; };
-        mark_ = {rounded(to.x), rounded(to.y)};
+    void moveMark(const FieldPlace& place) {
+        const auto toShare = [](double share) { return std::round(1e4 * std::clamp(share, 0.0, 1.0)) / 1e4; };
+        mark_ = {toShare(place.x), toShare(place.y)};
         setDescription("Mark at " + juce::String{100.0 * mark_.x, 0} + " % to the right, " +
                        juce::String{100.0 * mark_.y, 0} + " % down");
         repaint();
@@ -241,18 +241,18 @@ public:
             std::clamp(0.5f * static_cast<float>(getHeight()) - radius - 1.0f, radius, 14.0f);
         const auto inner = getLocalBounds().toFloat().reduced(18.0f, marginY);
         for (int j = 0; j < layout_.geometry.count; ++j) {
-            const auto centre = pixelOn(inner, actuatorPlace(layout_.geometry, j));
-            int pulses = 0;
-            for (int k = 0; k < pattern.count; ++k) pulses += nth(pattern.actuators, k) == j ? 1 : 0;
-            if (pulses == 0) {
+            const auto centre = toPixel(inner, actuatorPlace(layout_.geometry, j));
+            int pulseCount = 0;
+            for (int k = 0; k < pattern.count; ++k) pulseCount += nth(pattern.actuators, k) == j ? 1 : 0;
+            if (pulseCount == 0) {
                 g.setColour(shade(*this, Shade::muted).withMultipliedAlpha(0.55f * alpha));
                 g.drawEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(centre), 1.5f);
             }
             // Pulses of one actuator are drawn side by side, towards the centre of the icon.
-            float x =
-                std::clamp(centre.x - 0.5f * static_cast<float>(pulses - 1) * 2.0f * radius, 4.0f + radius,
-                           static_cast<float>(getWidth()) - 4.0f - radius -
-                               static_cast<float>(pulses - 1) * 2.0f * radius);
+            float x = std::clamp(centre.x - 0.5f * static_cast<float>(pulseCount - 1) * 2.0f * radius,
+                                 4.0f + radius,
+                                 static_cast<float>(getWidth()) - 4.0f - radius -
+                                     static_cast<float>(pulseCount - 1) * 2.0f * radius);
             for (int k = 0; k < pattern.count; ++k) {
                 if (nth(pattern.actuators, k) != j) continue;
                 drawPulse(g, {x, centre.y}, radius, k, alpha);
@@ -287,10 +287,10 @@ public:
     }
     std::string keyHelp() const override { return "Letter: first pulse.  Arrows and Enter: pattern."; }
     bool handleKey(const juce::KeyPress& key) override {
-        const auto typed =
+        const auto typedLetter =
             juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
         for (int j = 0; j < layout_.geometry.count; ++j)
-            if (isEnabled() && typed == utf8(nth(layout_.actuators, j).label))
+            if (isEnabled() && typedLetter == utf8(nth(layout_.actuators, j).label))
                 return chooseFirst(j), focusIcons(), true;
         return moveFocus(*this, key);
     }
@@ -301,12 +301,12 @@ public:
     }
 
     void paint(juce::Graphics& g) override {
-        const auto heading = [&](const juce::String& words, juce::Rectangle<int> row) {
+        const auto drawHeading = [&](const juce::String& heading, juce::Rectangle<int> row) {
             setInk(g, *this, isEnabled() ? Shade::text : Shade::muted, text::medium, juce::Font::bold);
-            g.drawText(words, row, juce::Justification::centredLeft, true);
+            g.drawText(heading, row, juce::Justification::centredLeft, true);
         };
-        heading("1   " + translate_("Place of the first pulse"), firstHeading_);
-        heading("2   " + translate_("Whole pattern"), iconHeading_);
+        drawHeading("1   " + translate_("Place of the first pulse"), firstHeading_);
+        drawHeading("2   " + translate_("Whole pattern"), iconHeading_);
         fillRound(g, *this, Shade::well, field_.expanded(50.0f, 44.0f), 12.0f);
         auto legend = iconHeading_.withTrimmedLeft(170);
         static constexpr std::array names{"first", "second", "third"};
@@ -321,8 +321,8 @@ public:
         if (firstActuator_ < 0)
             g.drawText(translate_("Choose the first pulse's place."), iconsArea_,
                        juce::Justification::centred, true);
-        for (const auto& [ms, row] : captions_)
-            g.drawText(translate_("Pulses of {n} ms", {{"n", juce::String{ms}}}), row,
+        for (const auto& [milliseconds, row] : captions_)
+            g.drawText(translate_("Pulses of {n} ms", {{"n", juce::String{milliseconds}}}), row,
                        juce::Justification::centredLeft, true);
     }
 
@@ -332,13 +332,13 @@ public:
         area.removeFromLeft(32);
         firstHeading_ = leftArea.removeFromTop(32);
         iconHeading_ = area.removeFromTop(32);
-        field_ = fieldAreaIn(
+        field_ = fitField(
             leftArea.removeFromTop(std::min(leftArea.getHeight(), 300)).toFloat().reduced(50.0f, 44.0f),
             layout_.geometry);
         for (int j = 0; j < layout_.geometry.count; ++j)
             nth(firstButtons_, j)
                 ->setBounds(juce::Rectangle<int>{72, 64}.withCentre(
-                    pixelOn(field_, actuatorPlace(layout_.geometry, j)).toInt()));
+                    toPixel(field_, actuatorPlace(layout_.geometry, j)).toInt()));
         iconsArea_ = area;
         placeIcons();
     }
@@ -379,9 +379,9 @@ private:
         // in narrower icons, places cannot be distinguished
         const int columns = std::clamp(groupWidth / (minWidth + spacing), 1, groups.size() > 1 ? 4 : 7);
         const int width = std::min(groupWidth / columns - spacing, 150);
-        for (const auto& [ms, icons] : groups) {
+        for (const auto& [milliseconds, icons] : groups) {
             auto group = area.removeFromLeft(groupWidth);
-            captions_.emplace_back(ms, group.removeFromTop(captionHeight));
+            captions_.emplace_back(milliseconds, group.removeFromTop(captionHeight));
             const int lines = (static_cast<int>(icons.size()) + columns - 1) / columns;
             const int height = std::clamp(group.getHeight() / lines - spacing, 28, 110);
             juce::Rectangle<int> row;

@@ -16,8 +16,8 @@ FullScreen::FullScreen(MixerModel& model, const juce::String& title)
     silenceButton_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
 }
 
-void FullScreen::updateSilenceButton(const juce::String& silent, const juce::String& playing) {
-    silenceButton_.setButtonText(model_.isSilent() ? silent : playing);
+void FullScreen::updateSilenceButton(const juce::String& silentText, const juce::String& playingText) {
+    silenceButton_.setButtonText(model_.isSilent() ? silentText : playingText);
     silenceButton_.setToggleState(model_.isSilent(), juce::dontSendNotification);
 }
 
@@ -68,11 +68,11 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
         fillRound(g, *this, Shade::accent,
                   bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, progress_))), 2.5f);
     }
-    const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
-    area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
+    const int labelHeight = 24, textHeight = remark_.isEmpty() ? labelHeight : labelHeight + 20;
+    area = area.withSizeKeepingCentre(area.getWidth(), std::min(textHeight, area.getHeight()));
     g.setColour(ink.withMultipliedAlpha(alpha));
     g.setFont(text::font(getHeight() >= 48 && label_.length() < 24 ? text::large : text::medium));
-    g.drawText(label_, area.removeFromTop(line), juce::Justification::centred, true);
+    g.drawText(label_, area.removeFromTop(labelHeight), juce::Justification::centred, true);
     g.setColour((isPrimary_ ? ink : shade(*this, Shade::muted)).withMultipliedAlpha(alpha));
     g.setFont(text::font(text::small));
     g.drawText(remark_, area, juce::Justification::centred, true);
@@ -94,7 +94,7 @@ void drawButtonShape(juce::Graphics& g, const juce::Button& button, bool isOver,
     g.drawRoundedRectangle(area, corner, button.getToggleState() ? 2.0f : 1.0f);
 }
 
-juce::Rectangle<float> fieldAreaIn(juce::Rectangle<float> area, const ActuatorLayout& layout) {
+juce::Rectangle<float> fitField(juce::Rectangle<float> area, const ActuatorLayout& layout) {
     const auto aspect = static_cast<float>(layout.extentWidthMetres / layout.extentHeightMetres);
     const float width = std::min(area.getWidth(), area.getHeight() * aspect);
     return area.withSizeKeepingCentre(width, width / aspect);
@@ -105,44 +105,43 @@ FieldPlace actuatorPlace(const ActuatorLayout& layout, int actuator) {
     return {place.xMetres / layout.extentWidthMetres, 1.0 - place.yMetres / layout.extentHeightMetres};
 }
 
-juce::Point<float> pixelOn(const juce::Rectangle<float>& field, const FieldPlace& place) {
+juce::Point<float> toPixel(const juce::Rectangle<float>& field, const FieldPlace& place) {
     return {field.getX() + field.getWidth() * static_cast<float>(place.x),
             field.getY() + field.getHeight() * static_cast<float>(place.y)};
 }
 
 juce::Point<int> arrowDirection(const juce::KeyPress& key) {
-    const auto pressed = [&key](int code) { return key.isKeyCode(code) ? 1 : 0; };
-    return {pressed(juce::KeyPress::rightKey) - pressed(juce::KeyPress::leftKey),
-            pressed(juce::KeyPress::downKey) - pressed(juce::KeyPress::upKey)};
+    const auto isPressed = [&key](int code) { return key.isKeyCode(code) ? 1 : 0; };
+    return {isPressed(juce::KeyPress::rightKey) - isPressed(juce::KeyPress::leftKey),
+            isPressed(juce::KeyPress::downKey) - isPressed(juce::KeyPress::upKey)};
 }
 
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     const auto direction = arrowDirection(key);
     if (direction.isOrigin()) return false;
-    juce::Component* focused = nullptr;
+    juce::Component* focus = nullptr;
     for (auto* child : parent.getChildren())
-        if (child->hasKeyboardFocus(true)) focused = child;
+        if (child->hasKeyboardFocus(true)) focus = child;
     for (auto* child : parent.getChildren()) // focus is elsewhere: start from the chosen button
         if (auto* button = dynamic_cast<juce::Button*>(child);
-            focused == nullptr && button != nullptr && button->getToggleState())
-            focused = child;
-    juce::Component* nearest = nullptr;
+            focus == nullptr && button != nullptr && button->getToggleState())
+            focus = child;
+    juce::Component* nextFocus = nullptr;
     double minDistance = 1e9;
     for (auto* child : parent.getChildren()) {
-        if (child == focused || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
+        if (child == focus || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
             continue;
-        const auto offset = focused != nullptr
-                                ? child->getBounds().getCentre() - focused->getBounds().getCentre()
-                                : direction;
+        const auto offset =
+            focus != nullptr ? child->getBounds().getCentre() - focus->getBounds().getCentre() : direction;
         const int along = offset.x * direction.x + offset.y * direction.y,
                   across = std::abs(offset.x * direction.y) + std::abs(offset.y * direction.x);
         if (along <= 0 || along < across / 2) continue;
         if (const double distance = along + 2.0 * across; distance < minDistance) {
             minDistance = distance;
-            nearest = child;
+            nextFocus = child;
         }
     }
-    if (nearest != nullptr) nearest->grabKeyboardFocus();
+    if (nextFocus != nullptr) nextFocus->grabKeyboardFocus();
     return true;
 }
 

@@ -11,8 +11,8 @@
 
 namespace physvib {
 
-/// Left and right margin of the screens that fill the window, in pixels.
-constexpr int pageInset = 40;
+/// In pixels: left and right margin of the screens that fill the window, and width of their silence button.
+constexpr int pageInset = 40, silenceButtonWidth = 160;
 
 /// A screen over its parent, with a silence button because the session below keeps running. Message thread.
 class FullScreen : public juce::Component {
@@ -26,7 +26,7 @@ protected:
     FullScreen(MixerModel& model, const juce::String& title);
     virtual void refresh() = 0;
     /// Sets the text of the silence button by whether the mixer is silent.
-    void updateSilenceButton(const juce::String& silent, const juce::String& playing);
+    void updateSilenceButton(const juce::String& silentText, const juce::String& playingText);
     void close() const; ///< asynchronous, because onClose deletes this component
 
     MixerModel& model_;
@@ -57,10 +57,10 @@ void drawButtonShape(juce::Graphics& g, const juce::Button& button, bool isOver,
                      float corner = 8.0f);
 
 /// Largest centred rectangle in `area` with the layout's aspect ratio.
-juce::Rectangle<float> fieldAreaIn(juce::Rectangle<float> area, const ActuatorLayout& layout);
-/// Place of an actuator on the field: x to the right, y downwards, 0 to 1; pixelOn(): its pixel in `field`.
+juce::Rectangle<float> fitField(juce::Rectangle<float> area, const ActuatorLayout& layout);
+/// Place of an actuator on the field: x to the right, y downwards, 0 to 1; toPixel(): its pixel in `field`.
 FieldPlace actuatorPlace(const ActuatorLayout& layout, int actuator);
-juce::Point<float> pixelOn(const juce::Rectangle<float>& field, const FieldPlace& place);
+juce::Point<float> toPixel(const juce::Rectangle<float>& field, const FieldPlace& place);
 /// Direction of an arrow key, x to the right and y down; (0, 0): another key.
 juce::Point<int> arrowDirection(const juce::KeyPress& key);
 /// Moves the focus to the nearest child of `parent` in the direction of an arrow key; false for other keys.
@@ -205,11 +205,11 @@ private:
     std::unique_ptr<StudyAnswer> answer_;
     BigButton confirm_{"Next", "Next"};
     juce::String question_;
-    juce::Rectangle<int> questionArea_, keysArea_;
+    juce::Rectangle<int> questionArea_, keyHelpArea_;
     bool isSeparateWindow_ = false;
 };
 
 /// A window for `pane`, full screen on another display if there is one. The pane outlives it. Message thread.
-std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& beside);
+std::unique_ptr<juce::Component> makeAnswerWindow(StudyAnswerPane& pane, const juce::Component& studyScreen);
 
 } // namespace physvib

@@ -30,8 +30,8 @@ constexpr std::int32_t bufferSeconds = 360; // liblsl's default
 
 /// Default names of the library per system; the variable PHYSVIB_LSL names another one.
 juce::StringArray lslLibraryNames() {
-    if (const auto named = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); named.isNotEmpty())
-        return {named};
+    if (const auto path = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); path.isNotEmpty())
+        return {path};
     return {"liblsl.so.2", "liblsl.so", "liblsl.2.dylib", "liblsl.dylib", "lsl.dll"};
 }
 
@@ -44,26 +44,26 @@ StimulusPlayer::StimulusPlayer(MixerModel& model)
     : model_{model}
     , slowness_{model.session().world().slowness()} {
     model_.setSlowness(0);
-    post(Kind::stopAll, 0, 0.0f);
-    for (int j = 0; j < model_.mix().count(); ++j) post(Kind::mute, j, 0.0f);
+    send(Kind::stopAll, 0, 0.0f);
+    for (int j = 0; j < model_.mix().count(); ++j) send(Kind::mute, j, 0.0f);
 }
 
 StimulusPlayer::~StimulusPlayer() {
     const Mix& mix = model_.mix();
-    if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
+    if (isPlaying()) send(Kind::stopAll, 0, 0.0f);
     const PhantomPanner panner = mix.panner();
-    post(Kind::panner, 0, 0.0f, &panner);
+    send(Kind::panner, 0, 0.0f, &panner);
     model_.exposure().setLayout(mix.layout);
     useRecordings({});
     const auto strips = effectiveStrips(mix);
     for (int j = 0; j < mix.count(); ++j) {
-        post(Kind::gain, j, channelGain(nth(strips, j)));
-        post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
+        send(Kind::gain, j, channelGain(nth(strips, j)));
+        send(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
     }
     model_.setSlowness(slowness_);
 }
 
-void StimulusPlayer::post(Kind kind, int channel, float value, const PhantomPanner* panner) {
+void StimulusPlayer::send(Kind kind, int channel, float value, const PhantomPanner* panner) {
     const RenderControl control{.kind = kind, .channel = channel, .value = value, .panner = panner};
     if (!model_.session().submit({control})) model_.report(controlsError);
 }
@@ -88,9 +88,9 @@ std::string actuatorCountError(const std::string& layout, int needed, int availa
 }
 
 std::string StimulusPlayer::playbackError(const MixerModel& model, const PlayableStimulus& stimulus) {
-    if (const auto mute = model.device().sinkWithoutClips();
-        !stimulus.recordings.empty() && mute.isNotEmpty())
-        return "--method SV: expected a mixer without the " + mute.toStdString() +
+    if (const auto sinkName = model.device().sinkWithoutClips();
+        !stimulus.recordings.empty() && sinkName.isNotEmpty())
+        return "--method SV: expected a mixer without the " + sinkName.toStdString() +
                ", which plays no recordings";
     return actuatorCountError(stimulus.layout.name, stimulus.layout.geometry.count, model.mix().count());
 }
@@ -100,19 +100,19 @@ std::string StimulusPlayer::play(const PlayableStimulus& stimulus) {
     const auto& strips = model_.mix().strips;
     gains_.resize(strips.size());
     model_.exposure().setLayout(stimulus.layout);
-    post(Kind::panner, 0, 0.0f, &stimulus.stimulus.panner);
+    send(Kind::panner, 0, 0.0f, &stimulus.stimulus.panner);
     useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
         const float gain = strips[j].isInverted ? -stimulus.gains[j] : stimulus.gains[j];
-        if (gain != std::exchange(gains_[j], gain)) post(Kind::gain, static_cast<int>(j), gain);
+        if (gain != std::exchange(gains_[j], gain)) send(Kind::gain, static_cast<int>(j), gain);
     }
     if (std::exchange(isMuted_, false))
-        for (std::size_t j = 0; j < strips.size(); ++j) post(Kind::mute, static_cast<int>(j), 0.0f);
+        for (std::size_t j = 0; j < strips.size(); ++j) send(Kind::mute, static_cast<int>(j), 0.0f);
     auto events = stimulus.stimulus.events;
     for (auto& event : events) event.timeNs += eventLeadNs;
-    const auto submitted = model_.session().submit({Strikes{events}});
-    if (!submitted) return submitted.error;
-    startNs_ = submitted.value + eventLeadNs;
+    const auto submission = model_.session().submit({Strikes{events}});
+    if (!submission) return submission.error;
+    startNs_ = submission.value + eventLeadNs;
     endNs_ = startNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
     sessionNumber_ = model_.output().playedSession();
     model_.output().alignBinsTo(startNs_, endNs_);
@@ -137,7 +137,7 @@ std::vector<double> StimulusPlayer::plannedPeaks(const PlayableStimulus& stimulu
                              .contacts = {sounds.contacts()}};
     std::vector<RenderControl> controls;
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
-        settings.renderer.ceilings[j] = ceilingOf(model_.mix().strips[j]);
+        settings.renderer.ceilings[j] = channelCeiling(model_.mix().strips[j]);
         controls.push_back({0, Kind::gain, static_cast<int>(j), stimulus.gains[j], {}});
     }
     settings.controls = controls;
@@ -158,7 +158,7 @@ void StimulusPlayer::update() {
     if (status_ != PlaybackStatus::playing) return;
     wasSilent_ = wasSilent_ || model_.isSilent();
     if (model_.output().isPlaying()) lastPlayingMs_ = nowMs();
-    const bool isOver = model_.output().receiptFor(startNs_, endNs_, 0, sessionNumber_).isOver;
+    const bool isOver = model_.output().receiptFor(startNs_, endNs_, 0, sessionNumber_).hasEnded;
     if (isOver)
         status_ = wasSilent_ ? PlaybackStatus::incomplete : statusFromReceipts();
     else if (nowMs() - lastPlayingMs_ > maxPauseMs)
@@ -194,8 +194,8 @@ double StimulusPlayer::playedSeconds() const {
 void StimulusPlayer::stop() {
     status_ = PlaybackStatus::none;
     isMuted_ = true;
-    post(Kind::stopAll, 0, 0.0f);
-    for (int j = 0; j < model_.mix().count(); ++j) post(Kind::mute, j, 1.0f);
+    send(Kind::stopAll, 0, 0.0f);
+    for (int j = 0; j < model_.mix().count(); ++j) send(Kind::mute, j, 1.0f);
 }
 
 // Loads liblsl at run time: the six functions of its C interface (1.14 and newer) that markers need.
@@ -302,7 +302,7 @@ void StudyWorld::readReceipts(std::int64_t untilNs) {
     for (std::size_t j = 0; j < sums.size(); ++j) {
         const Receipt receipt =
             model_.output().receiptFor(checkedNs_, untilNs, static_cast<int>(j), sessionNumber_);
-        if (!receipt.isOver) return; // the last block has no receipt yet
+        if (!receipt.hasEnded) return; // the last block has no receipt yet
         if (!receipt.isRunning) status_ = PlaybackStatus::incomplete;
         endNs = receipt.endNs; // the next span begins there, so that no frame counts twice
         if (!isMeasured) continue;
@@ -329,8 +329,8 @@ void StudyWorld::sendStrips() {
     auto strips = model_.mix().strips;
     strips.resize(static_cast<std::size_t>(setup_.channels));
     for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
-    std::array<SentStrip, limits::maxActuators> sent{};
-    physvib::sendStrips(sent, strips, [this](const RenderControl& control) {
+    std::array<SentStrip, limits::maxActuators> sentStrips{};
+    physvib::sendStrips(sentStrips, strips, [this](const RenderControl& control) {
         return session_->submit({control}).error.empty();
     });
 }
@@ -339,8 +339,8 @@ void StudyWorld::stop() {
     if (!isMoving()) return;
     session_->world().setSlowness(0);
     // if the queue is full, the world continues, and the next update() calls stop() again
-    if (const auto stopped = session_->submit({RenderControl{.kind = Kind::stopAll}}))
-        stoppedNs_ = stopped.value;
+    if (const auto submission = session_->submit({RenderControl{.kind = Kind::stopAll}}))
+        stoppedNs_ = submission.value;
 }
 
 std::string StudyWorld::applyInput(const Action& action) {
@@ -350,12 +350,12 @@ std::string StudyWorld::applyInput(const Action& action) {
 WorldFrame StudyWorld::update() {
     WorldFrame frame;
     if (!session_) return frame;
-    for (PlayedEvent played; session_->played().pop(played);)
-        journal_->onPlayed(played, session_->timeline().sampleRateHz());
+    for (PlayedEvent event; session_->played().pop(event);)
+        journal_->onPlayed(event, session_->timeline().sampleRateHz());
     frame.sessionNs = session_->world().readPoses(frame.poses);
     frame.aheadNs = session_->timeline().outputLatencyFrames() * 1'000'000'000 /
                     std::max(1, model_.output().sampleRateHz());
-    const std::int64_t now = session_->status().sessionNs, outputNs = session_->timeline().nextOutputNs();
+    const std::int64_t nowNs = session_->status().sessionNs, outputNs = session_->timeline().nextOutputNs();
     if (outputNs >= checkedNs_ + receiptIntervalNs || !model_.output().isPlaying()) readReceipts(outputNs);
     if (model_.isSilent() && seconds_ > 0.0 && isMoving())
         status_ = PlaybackStatus::incomplete;                          // the trial will repeat the world
@@ -364,14 +364,14 @@ WorldFrame StudyWorld::update() {
         session_->world().setSlowness(model_.isSilent() ? 0 : 1); // a world pauses while silent
         if (!model_.isSilent())
             playedNs_ =
-                std::min(playedNs_ + now - lastUpdateNs_, std::max<std::int64_t>(0, now - frame.aheadNs));
+                std::min(playedNs_ + nowNs - lastUpdateNs_, std::max<std::int64_t>(0, nowNs - frame.aheadNs));
         if (seconds_ > 0.0 && playedSeconds() >= seconds_) stop();
     } else if (outputNs >= stoppedNs_ + fadeNs) { // the latency may have grown
         readReceipts(stoppedNs_);
         if (status_ == PlaybackStatus::playing) status_ = PlaybackStatus::complete;
         finish();
     }
-    lastUpdateNs_ = now;
+    lastUpdateNs_ = nowNs;
     return frame;
 }
 
@@ -385,8 +385,8 @@ void StudyWorld::finish() {
     // the pause would include them.
     const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
-        for (PlayedEvent played; session_->played().pop(played);)
-            journal_->onPlayed(played, session_->timeline().sampleRateHz());
+        for (PlayedEvent event; session_->played().pop(event);)
+            journal_->onPlayed(event, session_->timeline().sampleRateHz());
         journal_->end(endNs);
         saveError_ = journal_->finish(SessionJournal::maxQuickBytes); // limited, as the window waits for it
     }
@@ -401,7 +401,7 @@ StudyWorldPane::StudyWorldPane(MixerModel& model)
     view_.onFling = [this](const std::string& body, Vector screenMetres, Vector point) {
         if (isInteractive_)
             applyInput(
-                ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
+                ImpulseAction{body, {defaultDrag * screenMetres.x, defaultDrag * screenMetres.y}, point});
     };
     tilt_.onValueChange = [this] { applyInput(TiltAction{tilt_.angleRadians()}); };
     view_.setMargin(8);        // pixels; there are no badges of actuators here

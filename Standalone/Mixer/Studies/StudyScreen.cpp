@@ -25,8 +25,8 @@ TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::si
     return record;
 }
 
-std::string playbackErrorOf(MixerModel& model, const Protocol& protocol, const ConditionPlan& condition,
-                            const TrialJob& job) {
+std::string jobPlaybackError(MixerModel& model, const Protocol& protocol, const ConditionPlan& condition,
+                             const TrialJob& job) {
     if (!std::holds_alternative<WorldSet>(condition.stimuli))
         return StimulusPlayer::prepare(model, job, protocol.folder).error;
     const auto world = makePlayableWorld(std::get<ResolvedCall>(job), protocol.folder);
@@ -45,12 +45,12 @@ constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeigh
 
 } // namespace
 
-Apparatus apparatusOf(MixerModel& model) {
+Apparatus currentApparatus(MixerModel& model) {
     const ListeningSettings& listening = model.device().listening().settings();
     Apparatus apparatus{PHYSVIB_VERSION, model.output().device(), model.mix().levelDb};
     if (!listening.noise.empty()) apparatus.noiseDb = listening.noiseDb;
-    const auto add = [](std::string& words, int output) {
-        words.append(words.empty() ? "" : " ").append(output < 0 ? "-" : std::to_string(output + 1));
+    const auto add = [](std::string& list, int output) {
+        list.append(list.empty() ? "" : " ").append(output < 0 ? "-" : std::to_string(output + 1));
     };
     for (const Strip& strip : model.mix().strips) add(apparatus.outputs, strip.output);
     for (const int output : listening.noise) add(apparatus.noiseOutputs, output);
@@ -61,7 +61,7 @@ std::string findPlaybackError(const Protocol& protocol, MixerModel& model) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
             for (const TrialJob& job : trialJobs(protocol, firstRecord(protocol, c, s)))
-                if (auto error = playbackErrorOf(model, protocol, protocol.conditions[c], job);
+                if (auto error = jobPlaybackError(model, protocol, protocol.conditions[c], job);
                     !error.empty())
                     return error;
     return {};
@@ -69,7 +69,7 @@ std::string findPlaybackError(const Protocol& protocol, MixerModel& model) {
 
 std::string outputsError(const Protocol& protocol, const MixerModel& model) {
     const auto& strips = model.mix().strips;
-    const auto& map = model.output().channelMap();
+    const auto& channelMap = model.output().channelMap();
     std::size_t maxActuators = 0;
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = resolveLayout(resolveProtocolPath(protocol.folder, condition.layout));
@@ -82,24 +82,24 @@ std::string outputsError(const Protocol& protocol, const MixerModel& model) {
     }
     std::vector<std::string> labels;
     for (std::size_t j = 0; j < maxActuators; ++j)
-        if (const int output = j < map.size() ? map[j] : -1;
+        if (const int output = j < channelMap.size() ? channelMap[j] : -1;
             !model.device().hasNoDevice() && (output < 0 || output >= model.device().outputCount()))
             labels.push_back(model.mix().layout.actuators[j].label);
     if (!labels.empty())
         return std::to_string(labels.size()) + " of " + std::to_string(maxActuators) +
                (labels.size() == 1 ? " actuators has no output: " : " actuators have no output: ") +
-               listed(labels);
+               nameList(labels);
     return model.output().isPlaying()
                ? std::string{}
                : "expected a device that runs, found none: " +
                      (model.output().device().empty() ? "no device is open" : model.output().device());
 }
 
-StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Translation words,
+StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Translation translation,
                          bool hasAnswerWindow, std::vector<MaterialPicture> pictures)
     : FullScreen{model, "Study"}
     , study_{std::move(study)}
-    , translate_{std::move(words)}
+    , translate_{std::move(translation)}
     , pictures_{std::move(pictures)}
     , player_{model}
     , worldPane_{model}
@@ -144,7 +144,7 @@ void StudyScreen::showNext() {
 void StudyScreen::showPage(Page page) {
     page_ = page;
     answers_.show(nullptr);
-    buttons_.clear();
+    partButtons_.clear();
     progress_.reset();
     physvib::setVisible({&worldPane_, &pause_}, false);
     answers_.setVisible(answers_.isSeparateWindow());
@@ -207,11 +207,11 @@ void StudyScreen::showTrial() {
 }
 
 void StudyScreen::showParts() {
-    buttons_.clear();
+    partButtons_.clear();
     if (isExploring() || experiment().session().isQuestionnaire) return;
     const auto count = std::max<std::size_t>(1, experiment().trial().parts.size());
     for (std::size_t i = 0; i < count; ++i) {
-        auto& button = buttons_.emplace_back(std::make_unique<BigButton>(
+        auto& button = partButtons_.emplace_back(std::make_unique<BigButton>(
             "Feel it",
             count == 1 ? juce::String{"Feel it"} : "Feel number " + juce::String{static_cast<int>(i) + 1}));
         button->onClick = [this, i] { play(i); };
@@ -258,8 +258,8 @@ void StudyScreen::continueStudy() {
 }
 
 void StudyScreen::submitComment() {
-    if (const auto words = comment_.getText().trim(); words.isNotEmpty())
-        if (const auto error = study_->saveComment(words.toStdString()); !error.empty())
+    if (const auto comment = comment_.getText().trim(); comment.isNotEmpty())
+        if (const auto error = study_->saveComment(comment.toStdString()); !error.empty())
             return showError(error);
     showPage(Page::done);
 }
@@ -274,13 +274,13 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
         return false;
     else if (page_ == Page::trial && worldPane_.handleKey(key)) {
     } else if (page_ == Page::trial && isInteractive() && digit >= 0 &&
-               digit < static_cast<int>(buttons_.size()))
+               digit < static_cast<int>(partButtons_.size()))
         play(static_cast<std::size_t>(digit));
     else if (page_ == Page::trial && isAnswerShown() && answers_->handleKey(key)) {
     } else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() &&
                pause_.isEnabled())
         pause();
-    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && !buttons_.empty())
+    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && !partButtons_.empty())
         play(nextPart());
     else if (key.isKeyCode(KeyPress::returnKey) && page_ == Page::trial)
         answers_.confirm();
@@ -310,7 +310,7 @@ bool StudyScreen::isAnswerShown() const {
 /// The part after the last played one; before the first play, the first part.
 std::size_t StudyScreen::nextPart() const {
     if (experiment().session().intervalSeconds > 0.0 && !isInteractive()) return 0; // starts the sequence
-    return progress_->plays() == 0 ? 0 : (part_ + 1) % buttons_.size();
+    return progress_->plays() == 0 ? 0 : (part_ + 1) % partButtons_.size();
 }
 
 void StudyScreen::play(std::size_t part) {
@@ -374,11 +374,11 @@ void StudyScreen::countPlay(PlaybackStatus status) {
 
 /// Plays the parts after the first, each one interval of the session after the end of the previous one.
 void StudyScreen::playSequence() {
-    const double interval = experiment().session().intervalSeconds;
+    const double intervalSeconds = experiment().session().intervalSeconds;
     const std::size_t next = part_ + 1;
-    if (interval > 0.0 && !isPlayIncomplete_ && !isStimulusPlaying() && !isInteractive() &&
-        next < buttons_.size() && progress_->plays(next) < progress_->plays(part_) &&
-        nowMs() >= partEndMs_ + 1e3 * interval)
+    if (intervalSeconds > 0.0 && !isPlayIncomplete_ && !isStimulusPlaying() && !isInteractive() &&
+        next < partButtons_.size() && progress_->plays(next) < progress_->plays(part_) &&
+        nowMs() >= partEndMs_ + 1e3 * intervalSeconds)
         play(next);
 }
 
@@ -436,7 +436,7 @@ double StudyScreen::exposure() const {
 void StudyScreen::submit(Answer answer) {
     model_.exposure().update();
     answer.playedLevels = playedLevels_;
-    answer.apparatus = apparatusOf(model_);
+    answer.apparatus = currentApparatus(model_);
     answer.limiterDb = std::exchange(maxReductionDb_, 0.0);
     answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
@@ -521,9 +521,9 @@ void StudyScreen::refresh() {
         next_.setEnabled(true), next_.setText(translate_("Close"), translate_("Enter"));
     if (page_ != Page::trial)
         answers_.setConfirm(false, false, {}), answers_.setQuestion(translate_("Look at the other screen."));
-    if (auto words = titleText() + "\n" + bodyText() + "\n" + progressText(); words != displayedText_) {
-        displayedText_ = words;
-        setDescription(words);
+    if (auto newText = titleText() + "\n" + bodyText() + "\n" + progressText(); newText != displayedText_) {
+        displayedText_ = newText;
+        setDescription(newText);
         repaint();
     }
 }
@@ -531,20 +531,20 @@ void StudyScreen::refresh() {
 void StudyScreen::updateParts() {
     const SessionPlan& session = experiment().session();
     const Trial& trial = experiment().trial();
-    for (std::size_t i = 0; i < buttons_.size(); ++i) {
-        auto& button = *buttons_[i];
+    for (std::size_t i = 0; i < partButtons_.size(); ++i) {
+        auto& button = *partButtons_[i];
         const bool isPlaying = isStimulusPlaying() && part_ == i, wasFelt = progress_->plays(i) > 0;
-        juce::String words = buttons_.size() == 1 ? translate_(wasFelt ? "Feel it again" : "Feel it")
-                                                  : juce::String{static_cast<int>(i) + 1};
+        juce::String label = partButtons_.size() == 1 ? translate_(wasFelt ? "Feel it again" : "Feel it")
+                                                      : juce::String{static_cast<int>(i) + 1};
         const std::size_t referenceCount = session.reference.empty() ? 0 : 1;
         if (session.ratesSideBySide())
-            words = i < referenceCount ? translate_("Reference") : partLetter(i - referenceCount);
+            label = i < referenceCount ? translate_("Reference") : partLetter(i - referenceCount);
         else if (!session.objects.empty() && worldSet() == nullptr)
-            words += "   " + translate_(trial.parts[i]);
+            label += "   " + translate_(trial.parts[i]);
         const bool isMatched = session.adjustment && session.adjustment->alternative == trial.parts[i];
-        if (isMatched) words += "   " + translate_("to be matched");
+        if (isMatched) label += "   " + translate_("to be matched");
         button.setMarked(isMatched);
-        if (i == 0 && !session.modulus.empty()) words += "   = " + utf8(numberText(session.modulusNumber));
+        if (i == 0 && !session.modulus.empty()) label += "   = " + utf8(numberText(session.modulusNumber));
         juce::StringArray remarks;
         if (isPlaying)
             remarks.add(translate_("feel it now"));
@@ -560,10 +560,10 @@ void StudyScreen::updateParts() {
             remarks.add(progress_->plays(i) == 1
                             ? translate_("felt once")
                             : translate_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
-        button.setText(words, remarks.joinIntoString(",  "));
+        button.setText(label, remarks.joinIntoString(",  "));
         button.setToggleState(isPlaying, juce::dontSendNotification);
         const bool isInSequence = session.intervalSeconds > 0.0 && !isInteractive() &&
-                                  (i > 0 || progress_->plays(0) > progress_->plays(buttons_.size() - 1));
+                                  (i > 0 || progress_->plays(0) > progress_->plays(partButtons_.size() - 1));
         button.setEnabled((!isStimulusPlaying() || isInteractive()) && !model_.isSilent() &&
                           !isDeviceStopped() && progress_->canPlay(i) && !isInSequence);
         if (session.minSeconds > 0.0) button.setProgress(progress_->seconds(i) / session.minSeconds);
@@ -636,23 +636,23 @@ juce::String StudyScreen::progressText() const {
     const auto& session = experiment().session();
     const int sessions =
         static_cast<int>(study_->protocol().conditions.size() * study_->protocol().sessions.size());
-    juce::StringArray words{translate_(session.isTraining ? "Training" : "The study")};
+    juce::StringArray parts{translate_(session.isTraining ? "Training" : "The study")};
     if (sessions > 1)
-        words.add(translate_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}},
+        parts.add(translate_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}},
                                                     {"most", juce::String{sessions}}}));
     const juce::String trial{experiment().trial().number};
     if (experiment().sessionTrials() > 0)
-        words.add(translate_("trial {n} of {most}",
+        parts.add(translate_("trial {n} of {most}",
                              {{"n", trial}, {"most", juce::String{experiment().sessionTrials()}}}));
     else if (!isExploring())
-        words.add(translate_("trial {n}", {{"n", trial}}));
-    return words.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
+        parts.add(translate_("trial {n}", {{"n", trial}}));
+    return parts.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
 }
 
 void StudyScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::background));
     setInk(g, *this, Shade::muted, text::medium);
-    g.drawText(progressText(), headArea_, juce::Justification::centredLeft, true);
+    g.drawText(progressText(), progressArea_, juce::Justification::centredLeft, true);
     if (!experiment().isDone() && experiment().sessionTrials() > 0) {
         const auto bar =
             juce::Rectangle<int>{pageInset, studyBarHeight - 2, getWidth() - 2 * pageInset, 4}.toFloat();
@@ -688,7 +688,7 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
         shape.addRectangle(-0.5f * swatch, -0.5f * swatch, 1.0f * swatch, 1.0f * swatch);
         const auto place =
             juce::AffineTransform::translation(cell.removeFromTop(swatch).getCentre().toFloat());
-        if (const MaterialPicture* const picture = pictureOf(pictures_, legend.stimulusWord))
+        if (const MaterialPicture* const picture = findPicture(pictures_, legend.stimulusWord))
             fillWithPicture(g, shape, place, picture->image, legend.isHollow);
         else
             fillWithMaterial(g, shape, place, legend.look, legend.isHollow);
@@ -712,9 +712,9 @@ std::vector<MaterialLegend> StudyScreen::visibleMaterials() const {
 void StudyScreen::resized() {
     auto area = getLocalBounds().reduced(pageInset, 0);
     auto header = area.removeFromTop(studyBarHeight - 8);
-    silenceButton_.setBounds(header.removeFromRight(160).withTrimmedTop(8));
+    silenceButton_.setBounds(header.removeFromRight(silenceButtonWidth).withTrimmedTop(8));
     leave_->setBounds(header.removeFromRight(110).reduced(16, 10));
-    headArea_ = header;
+    progressArea_ = header;
     area.removeFromTop(20);
     if (page_ == Page::trial) return placeTrial(area);
     auto pageArea = area.withSizeKeepingCentre(
@@ -728,12 +728,12 @@ void StudyScreen::resized() {
 void StudyScreen::placeTrial(juce::Rectangle<int> area) {
     questionArea_ = area.removeFromTop(40);
     bodyArea_ = area.removeFromTop(40);
-    if (!buttons_.empty()) {
+    if (!partButtons_.empty()) {
         auto row = area.removeFromTop(partHeight);
-        const int count = static_cast<int>(buttons_.size()) + (isInteractive() ? 1 : 0),
+        const int count = static_cast<int>(partButtons_.size()) + (isInteractive() ? 1 : 0),
                   width = std::min(partWidth, row.getWidth() / count);
         row = row.withSizeKeepingCentre(width * count, partHeight);
-        for (auto& part : buttons_) part->setBounds(row.removeFromLeft(width).reduced(8, 4));
+        for (auto& part : partButtons_) part->setBounds(row.removeFromLeft(width).reduced(8, 4));
         if (isInteractive()) pause_.setBounds(row.reduced(8, 4));
         area.removeFromTop(16);
     }

@@ -57,7 +57,7 @@ public:
 
 private:
     void useRecordings(const std::vector<ContactRecording>& recordings);
-    void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner* panner = nullptr);
+    void send(RenderControl::Kind kind, int channel, float value, const PhantomPanner* panner = nullptr);
 
     std::vector<double> plannedPeaks(const PlayableStimulus& stimulus) const;
     PlaybackStatus statusFromReceipts();
@@ -201,7 +201,7 @@ private:
 class StudyScreen final : public FullScreen {
 public:
     /// With `hasAnswerWindow`, answers are given in a separate window, on another display if there is one.
-    StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Translation words = {},
+    StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Translation translation = {},
                 bool hasAnswerWindow = false, std::vector<MaterialPicture> pictures = {});
 
     const StudyInProgress& study() const noexcept { return *study_; }
@@ -296,7 +296,7 @@ private:
     LayoutDescription layout_;
     std::optional<TrialProgress> progress_;
     std::optional<Answer> exploredAnswer_; // chosen while exploring; recorded when its stimulus has played
-    std::vector<std::unique_ptr<BigButton>> buttons_;
+    std::vector<std::unique_ptr<BigButton>> partButtons_;
     std::optional<std::size_t> queuedPart_;  // a world that starts when the previous one has faded out
     std::vector<std::string> savedSessions_; // files of the worlds played in this trial
     std::vector<PlayedLevel> playedLevels_;  // by part
@@ -315,11 +315,11 @@ private:
     juce::TextEditor comment_;
     std::unique_ptr<juce::TextButton> leave_;
     juce::String displayedText_;
-    juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;
+    juce::Rectangle<int> progressArea_, questionArea_, bodyArea_;
 };
 
 /// Current device, levels and outputs, as trial files record them. Message thread.
-Apparatus apparatusOf(MixerModel& model);
+Apparatus currentApparatus(MixerModel& model);
 
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
 /// Message thread.

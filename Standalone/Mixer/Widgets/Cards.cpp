@@ -8,16 +8,16 @@
 namespace physvib {
 namespace {
 
-CardHost* findCardHost(juce::Component& from) { return from.findParentComponentOfClass<CardHost>(); }
+CardHost* findCardHost(juce::Component& opener) { return opener.findParentComponentOfClass<CardHost>(); }
 
 using SafeComponent = juce::Component::SafePointer<juce::Component>;
 
-/// Closes the card after the click of its button was handled, then calls `then`.
-void closeCardThen(const SafeComponent& from, std::function<void()> then) {
-    if (from == nullptr) return;
-    callLater(*from, [then = std::move(then)](juce::Component& component) {
+/// Closes the card after the click of its button was handled, then calls `onClosed`.
+void closeCardThen(const SafeComponent& opener, std::function<void()> onClosed) {
+    if (opener == nullptr) return;
+    callLater(*opener, [onClosed = std::move(onClosed)](juce::Component& component) {
         if (auto* host = findCardHost(component)) host->setCard(nullptr);
-        if (then) then();
+        if (onClosed) onClosed();
     });
 }
 
@@ -25,45 +25,45 @@ constexpr int updatesPerSecond = 15;
 
 } // namespace
 
-void askForFile(juce::Component& from, const FileCard::Choice& choice,
+void askForFile(juce::Component& opener, const FileCard::Choice& choice,
                 std::function<void(const juce::File&)> onAccept, std::function<void()> onCancelled) {
     askForFiles(
-        from, choice,
+        opener, choice,
         [onAccept = std::move(onAccept)](const juce::Array<juce::File>& files) { onAccept(files[0]); },
         std::move(onCancelled));
 }
 
-void askForFiles(juce::Component& from, const FileCard::Choice& choice,
+void askForFiles(juce::Component& opener, const FileCard::Choice& choice,
                  const std::function<void(const juce::Array<juce::File>&)>& onAccept,
                  std::function<void()> onCancelled) {
-    auto* host = findCardHost(from);
+    auto* host = findCardHost(opener);
     if (host == nullptr) return;
     auto card = std::make_unique<FileCard>(choice);
-    card->onCancel = [safe = SafeComponent{&from}, onCancelled = std::move(onCancelled)] {
+    card->onCancel = [safe = SafeComponent{&opener}, onCancelled = std::move(onCancelled)] {
         closeCardThen(safe, onCancelled);
     };
-    card->onFiles = [safe = SafeComponent{&from}, onAccept](const juce::Array<juce::File>& files) {
+    card->onFiles = [safe = SafeComponent{&opener}, onAccept](const juce::Array<juce::File>& files) {
         closeCardThen(safe, [onAccept, files] { onAccept(files); });
     };
     host->setCard(std::move(card));
 }
 
-void askForValues(juce::Component& from, const juce::String& title, const juce::String& answer,
+void askForValues(juce::Component& opener, const juce::String& title, const juce::String& acceptLabel,
                   const std::vector<QuestionCard::Field>& fields,
-                  std::function<void(const juce::StringArray&)> onAccept, const juce::String& words) {
-    auto* host = findCardHost(from);
+                  std::function<void(const juce::StringArray&)> onAccept, const juce::String& message) {
+    auto* host = findCardHost(opener);
     if (host == nullptr) return;
     const auto card = std::make_shared<juce::Component::SafePointer<QuestionCard>>();
-    const auto accept = [safe = SafeComponent{&from}, card, fields, onAccept = std::move(onAccept)] {
+    const auto accept = [safe = SafeComponent{&opener}, card, fields, onAccept = std::move(onAccept)] {
         juce::StringArray values;
         for (const auto& field : fields) values.add((*card)->value(field.title));
         closeCardThen(safe, [onAccept, values] { onAccept(values); });
     };
-    std::vector<QuestionCard::Answer> answers{{answer, accept},
+    std::vector<QuestionCard::Answer> answers{{acceptLabel, accept},
                                               {"Cancel",
-                                               [safe = SafeComponent{&from}] { closeCardThen(safe, {}); },
+                                               [safe = SafeComponent{&opener}] { closeCardThen(safe, {}); },
                                                true, juce::KeyPress{juce::KeyPress::escapeKey}}};
-    auto question = std::make_unique<QuestionCard>(title, words, std::move(answers), fields);
+    auto question = std::make_unique<QuestionCard>(title, message, std::move(answers), fields);
     *card = question.get();
     host->setCard(std::move(question));
 }
@@ -215,12 +215,12 @@ void FileCard::accept() {
     if (juce::isPositiveAndBelow(row, entries_.size()) && entries_[row].isDirectory())
         return openFolder(entries_[row]);
     if (name().isEmpty()) return isFolder() ? onFiles({folder_}) : showNote("Expected a name", Shade::limit);
-    const auto typed = folder_.getChildFile(name()); // or an absolute path
-    if (typed.isDirectory()) return openFolder(typed);
+    const auto target = folder_.getChildFile(name()); // or an absolute path
+    if (target.isDirectory()) return openFolder(target);
     if (isFolder())
-        return showNote(typed.getFullPathName() + ": expected a folder that is there", Shade::limit);
+        return showNote(target.getFullPathName() + ": expected a folder that is there", Shade::limit);
     const auto file =
-        hasExtension(typed) ? typed : typed.getSiblingFile(typed.getFileName() + choice_.extension);
+        hasExtension(target) ? target : target.getSiblingFile(target.getFileName() + choice_.extension);
     if (!choice_.isSaving)
         return file.existsAsFile()
                    ? onFiles({file})
@@ -236,9 +236,9 @@ void FileCard::accept() {
     onFiles({file});
 }
 
-void FileCard::showNote(const juce::String& words, Shade which) {
-    errorLabel_.setText(words, dontNotify);
-    errorLabel_.setTone(which);
+void FileCard::showNote(const juce::String& note, Shade tone) {
+    errorLabel_.setText(note, dontNotify);
+    errorLabel_.setTone(tone);
 }
 
 bool FileCard::keyPressed(const juce::KeyPress& key) {
@@ -325,11 +325,11 @@ public:
 
 QuestionCard::~QuestionCard() = default;
 
-QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
-                           const std::vector<Field>& fields)
+QuestionCard::QuestionCard(const juce::String& title, const juce::String& message,
+                           std::vector<Answer> answers, const std::vector<Field>& fields)
     : Card{cardWidth}
     , answers_{std::move(answers)} {
-    setTexts(title, words);
+    setTexts(title, message);
     std::vector<juce::TextButton*> buttons;
     if (!answers_.front().key.isValid()) answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
     for (std::size_t k = 0; k < answers_.size(); ++k) {
@@ -343,14 +343,13 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     }
     setAnswers(std::move(buttons));
     for (const Field& field : fields) {
-        auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
-        addAndMakeVisible(added);
+        auto& newInput = *inputs_.emplace_back(std::make_unique<Input>(field));
+        addAndMakeVisible(newInput);
         if (field.onChange)
-            added.list.onChange = added.text.onTextChange = [this, &added, onChange = field.onChange] {
-                onChange(*this, added.value());
-            };
-        added.text.onReturnKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::returnKey}); };
-        added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
+            newInput.list.onChange = newInput.text.onTextChange =
+                [this, &newInput, onChange = field.onChange] { onChange(*this, newInput.value()); };
+        newInput.text.onReturnKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::returnKey}); };
+        newInput.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
     }
     fitToContents();
 }
@@ -406,8 +405,8 @@ void QuestionCard::paint(juce::Graphics& g) {
     Card::paint(g);
     g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
     const auto room = juce::Rectangle<int>{marginX, marginY, pictureArea().x, pictureArea().y};
-    const auto at = picture_.getBounds().withCentre(room.getCentre());
-    if (picture_.isValid()) return g.drawImageAt(picture_, at.getX(), at.getY());
+    const auto place = picture_.getBounds().withCentre(room.getCentre());
+    if (picture_.isValid()) return g.drawImageAt(picture_, place.getX(), place.getY());
     setInk(g, *this, Shade::muted, text::medium);
     g.drawFittedText(placeholder_, room, juce::Justification::centred, 4, 1.0f);
 }
@@ -419,11 +418,11 @@ void QuestionCard::placeContent(juce::Rectangle<int> content) {
     }
 }
 
-RenderTask::RenderTask(const juce::File& file, Work work, Done done)
+RenderTask::RenderTask(const juce::File& file, Work work, OnDone onDone)
     : juce::Thread{"PhysVib render"}
     , file_{file}
     , work_{std::move(work)}
-    , done_{std::move(done)} {
+    , onDone_{std::move(onDone)} {
     juce::Component::setTitle("Progress");
     cancel_.setTitle("Cancel the making of the file");
     cancel_.onClick = [this] {
@@ -453,9 +452,9 @@ void RenderTask::timerCallback() {
     repaint();
     if (isThreadRunning()) return;
     stopTimer();
-    const auto done = done_; // which may destroy this object and its error
+    const auto onDone = onDone_; // which may destroy this object and its error
     const auto error = error_;
-    done(error, threadShouldExit());
+    onDone(error, threadShouldExit());
 }
 
 void RenderTask::paint(juce::Graphics& g) {
@@ -470,7 +469,7 @@ void RenderTask::paint(juce::Graphics& g) {
     fillRound(g, *this, Shade::accent, bar.withWidth(bar.getWidth() * static_cast<float>(share)), 4.0f);
 }
 
-void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
+void askMaterial(juce::Component& opener, MixerModel& model, int material, bool isCopy,
                  std::function<void(int material)> onDone) {
     static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
                                            "tan",          "blue", "brown", "olive"};
@@ -485,18 +484,18 @@ void askMaterial(juce::Component& from, MixerModel& model, int material, bool is
     }
     const auto name = utf8(source.name);
     askForValues(
-        from, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
+        opener, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
         {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[source.colour], {}, colours, {}, dots}},
         [&model, material, isCopy, onDone = std::move(onDone)](const juce::StringArray& values) {
             constexpr double startHz = 165.0, startDecay = 22.0; // for a copy of a silent material
             Scene scene = model.world().drawing().drawn();
-            auto& all = scene.materials;
-            const auto target = static_cast<std::size_t>(isCopy ? std::ssize(all) : material);
-            if (isCopy) all.push_back(Material{nth(all, material)});
-            Material& edited = all[target];
-            if (isCopy && edited.frequencyHz <= 0.0)
-                edited.frequencyHz = startHz, edited.decayPerSecond = startDecay;
-            edited.name = values[0].toStdString(), edited.colour = colours.indexOf(values[1]);
+            auto& sceneMaterials = scene.materials;
+            const auto target = static_cast<std::size_t>(isCopy ? std::ssize(sceneMaterials) : material);
+            if (isCopy) sceneMaterials.push_back(Material{nth(sceneMaterials, material)});
+            Material& editedMaterial = sceneMaterials[target];
+            if (isCopy && editedMaterial.frequencyHz <= 0.0)
+                editedMaterial.frequencyHz = startHz, editedMaterial.decayPerSecond = startDecay;
+            editedMaterial.name = values[0].toStdString(), editedMaterial.colour = colours.indexOf(values[1]);
             if (model.reportIfError(validate(scene))) return;
             model.change(isCopy ? "New material" : "Name and colour",
                          [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
@@ -510,12 +509,12 @@ void askMaterial(juce::Component& from, MixerModel& model, int material, bool is
             : "Bodies start where they were drawn.");
 }
 
-void showMaterialMenu(juce::Component& from, MixerModel& model, int material, std::function<void(int)> onDone,
-                      std::function<void(bool isRecording)> openPage) {
+void showMaterialMenu(juce::Component& opener, MixerModel& model, int material,
+                      std::function<void(int)> onDone, std::function<void(bool isRecording)> openPage) {
     const auto& materials = model.world().drawing().drawn().materials;
     if (material < 0 || material >= static_cast<int>(materials.size())) return;
     const Material& source = nth(materials, material);
-    const auto ask = [safe = SafeComponent{&from}, &model, material,
+    const auto ask = [safe = SafeComponent{&opener}, &model, material,
                       onDone = std::move(onDone)](bool isCopy) {
         return [safe, &model, material, onDone, isCopy] {
             if (safe != nullptr) askMaterial(*safe, model, material, isCopy, onDone);
@@ -530,9 +529,10 @@ void showMaterialMenu(juce::Component& from, MixerModel& model, int material, st
         menu.addItem("From a recording" + ellipsis(), source.frequencyHz > 0.0, false,
                      [openPage] { openPage(true); });
     }
-    menu.setLookAndFeel(&from.getLookAndFeel());
-    const auto at = juce::PopupMenu::Options{}.withTargetComponent(from);
-    menu.showMenuAsync(dynamic_cast<juce::Button*>(&from) != nullptr ? at : at.withMousePosition());
+    menu.setLookAndFeel(&opener.getLookAndFeel());
+    const auto options = juce::PopupMenu::Options{}.withTargetComponent(opener);
+    menu.showMenuAsync(dynamic_cast<juce::Button*>(&opener) != nullptr ? options
+                                                                       : options.withMousePosition());
 }
 
 } // namespace physvib

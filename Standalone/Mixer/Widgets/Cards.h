@@ -81,7 +81,7 @@ private:
     void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { accept(); }
     void returnKeyPressed(int) override { accept(); }
     juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
-    void showNote(const juce::String& text, Shade shade);
+    void showNote(const juce::String& note, Shade tone);
     bool isFolder() const { return choice_.extension.isEmpty(); }
     juce::String acceptLabel() const {
         return isFolder() ? "Take this folder" : choice_.isSaving ? "Save" : "Open";
@@ -161,15 +161,15 @@ private:
 };
 
 /// Creates a file in the background while the session plays: a small card with a progress bar and a cancel
-/// button. It reports the result to `done`. Message thread.
+/// button. It reports the result to `onDone`. Message thread.
 class RenderTask final : public juce::Component, private juce::Thread, private juce::Timer {
 public:
     /// Runs on its own thread, reports progress from 0 to 1, and stops when that returns false. Empty, or one
     /// error line; "cancelled".
     using Work = std::function<std::string(const std::function<bool(double)>& progress)>;
-    using Done = std::function<void(const std::string& error, bool isCancelled)>; ///< may destroy the card
+    using OnDone = std::function<void(const std::string& error, bool isCancelled)>; ///< may destroy the card
 
-    RenderTask(const juce::File& file, Work work, Done done);
+    RenderTask(const juce::File& file, Work work, OnDone onDone);
     ~RenderTask() override;
 
     const juce::File& file() const noexcept { return file_; }
@@ -184,7 +184,7 @@ private:
 
     const juce::File file_;
     const Work work_;
-    const Done done_;
+    const OnDone onDone_;
     std::atomic<double> progressShare_{0.0};
     std::string error_; // read after the thread has ended
     juce::TextButton cancel_{"Cancel"};
@@ -204,28 +204,28 @@ public:
 juce::Image qrPicture(const std::string& link);
 
 /// Asks for one file or folder. As for the following functions: message thread; `onAccept` and `onCancelled`
-/// are called after the card was closed, unless `from` was deleted; without a host above `from`, no effect.
-void askForFile(juce::Component& from, const FileCard::Choice& choice,
+/// are called after the card was closed, unless `opener` was deleted; without a host above it, no effect.
+void askForFile(juce::Component& opener, const FileCard::Choice& choice,
                 std::function<void(const juce::File&)> onAccept, std::function<void()> onCancelled = {});
 
 /// Asks for one or several files; see FileCard::Choice::allowsMultiple.
-void askForFiles(juce::Component& from, const FileCard::Choice& choice,
+void askForFiles(juce::Component& opener, const FileCard::Choice& choice,
                  const std::function<void(const juce::Array<juce::File>&)>& onAccept,
                  std::function<void()> onCancelled = {});
 
 /// Asks for values: `onAccept` gets one per field. `acceptLabel`: text of the button that accepts them.
-void askForValues(juce::Component& from, const juce::String& title, const juce::String& acceptLabel,
+void askForValues(juce::Component& opener, const juce::String& title, const juce::String& acceptLabel,
                   const std::vector<QuestionCard::Field>& fields,
                   std::function<void(const juce::StringArray&)> onAccept, const juce::String& message = {});
 
 /// Asks for the name and colour of a material of the scene, or of a copy of it, and restarts the world with
 /// it. `onDone` gets its index. Message thread.
-void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
+void askMaterial(juce::Component& opener, MixerModel& model, int material, bool isCopy,
                  std::function<void(int material)> onDone);
 /// Shows a menu with both, and with two items that call `openPage`: for the material's page, and for a
 /// recording from which the material is measured.
-void showMaterialMenu(juce::Component& from, MixerModel& model, int material, std::function<void(int)> onDone,
-                      std::function<void(bool isRecording)> openPage);
+void showMaterialMenu(juce::Component& opener, MixerModel& model, int material,
+                      std::function<void(int)> onDone, std::function<void(bool isRecording)> openPage);
 
 /// Gives the keyboard to a card, or to its first text field, and keeps it there: when a menu window closes,
 /// JUCE would return the keyboard to the component that had it before the card. Message thread.
@@ -271,21 +271,21 @@ public:
     }
     void paint(juce::Graphics& g) override {
         if (!isBehindCard_) return;
-        if (const auto* stop = stopButton(*getParentComponent()))
+        if (const auto* stop = findStopButton(*getParentComponent()))
             g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
         g.fillAll(shade(*this, Shade::background).withAlpha(0.6f));
     }
     bool hitTest(int x, int y) override {
-        const auto* stop = stopButton(*getParentComponent());
+        const auto* stop = findStopButton(*getParentComponent());
         return stop == nullptr || !getLocalArea(stop, stop->getLocalBounds()).contains(x, y);
     }
 
 private:
-    static const juce::Component* stopButton(const juce::Component& parent) {
+    static const juce::Component* findStopButton(const juce::Component& parent) {
         if (parent.getProperties()[stopProperty]) return &parent;
         for (const auto* child : parent.getChildren())
             if (child->isVisible())
-                if (const auto* found = stopButton(*child)) return found;
+                if (const auto* found = findStopButton(*child)) return found;
         return nullptr;
     }
     bool isBehindCard_ = false;

@@ -8,7 +8,7 @@ double stripLevelG(const MixerModel& model, std::size_t strip, float peak) {
     return peak * masterGain(model.mix()) * model.mix().layout.actuators[strip].fullScaleG;
 }
 double stripCeilingG(const MixerModel& model, std::size_t strip) {
-    return stripLevelG(model, strip, ceilingOf(model.mix().strips[strip]));
+    return stripLevelG(model, strip, channelCeiling(model.mix().strips[strip]));
 }
 
 MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
@@ -50,9 +50,9 @@ double MasterStrip::highestCeilingG() const {
 // While the limiter acts, its gain is shown instead of the ceiling.
 void MasterStrip::paintFlat(juce::Graphics& g) const {
     const bool isLimiting = limiter_.isHolding();
-    auto words = getLocalBounds().withRight(fader_.getX());
+    auto textArea = getLocalBounds().withRight(fader_.getX());
     setInk(g, *this, Shade::text, text::small, juce::Font::bold);
-    g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", words.removeFromTop(getHeight() / 2),
+    g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", textArea.removeFromTop(getHeight() / 2),
                juce::Justification::centredLeft, false);
     setInk(g, *this,
            isLimiting              ? Shade::limit
@@ -62,7 +62,7 @@ void MasterStrip::paintFlat(juce::Graphics& g) const {
     g.drawText(isLimiting              ? limiterLabel()
                : warning_.isNotEmpty() ? warning_
                                        : "at most " + gText(highestCeilingG()) + " g",
-               words, juce::Justification::centredLeft, false);
+               textArea, juce::Justification::centredLeft, false);
 }
 
 void MasterStrip::paint(juce::Graphics& g) {

@@ -9,38 +9,38 @@
 namespace physvib {
 namespace {
 
-juce::Path outlineOf(Icon icon) {
-    juce::Path p, line;
+juce::Path iconPath(Icon icon) {
+    juce::Path path, line;
     switch (icon) {
-    case Icon::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
+    case Icon::play: path.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
     case Icon::pause:
-        p.addRectangle(-5.0f, -6.0f, 3.5f, 12.0f);
-        p.addRectangle(1.5f, -6.0f, 3.5f, 12.0f);
+        path.addRectangle(-5.0f, -6.0f, 3.5f, 12.0f);
+        path.addRectangle(1.5f, -6.0f, 3.5f, 12.0f);
         break;
     case Icon::step:
-        p.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
-        p.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
+        path.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
+        path.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
         break;
     case Icon::restart:
         line.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
-        juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
-        p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
+        juce::PathStrokeType{2.0f}.createStrokedPath(path, line);
+        path.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
         break;
     case Icon::save: // down into a tray
-        p.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
-        p.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
-        p.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
+        path.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
+        path.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
+        path.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
         break;
     case Icon::undo:
     case Icon::redo:
         line.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
-        juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
-        p.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
-        if (icon == Icon::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
+        juce::PathStrokeType{2.0f}.createStrokedPath(path, line);
+        path.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
+        if (icon == Icon::redo) path.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
         break;
     case Icon::plus:
-        p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
-        p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
+        path.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
+        path.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
         break;
     case Icon::sweep: // a wave of rising frequency
         line.startNewSubPath(-9.0f, 0.0f);
@@ -49,9 +49,9 @@ juce::Path outlineOf(Icon icon) {
             line.lineTo(-9.0f + 18.0f * t,
                         -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
         }
-        juce::PathStrokeType{1.6f}.createStrokedPath(p, line);
+        juce::PathStrokeType{1.6f}.createStrokedPath(path, line);
     }
-    return p;
+    return path;
 }
 
 /// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
@@ -69,7 +69,7 @@ const std::vector<double>& hannWindow() {
 constexpr int scrollBarWidth = 12;         // with the gap beside it
 constexpr int maxMargin = 60, maxCut = 14; // pixels that a name's width grows, or shrinks in a narrow panel
 
-int nameWidthOf(const juce::String& name) {
+int tabNameWidth(const juce::String& name) {
     return text::pixelWidth(text::font(text::medium, juce::Font::bold), name) + 6;
 }
 
@@ -95,7 +95,7 @@ void IconButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
                              : getToggleState() ? Shade::well
                              : isQuiet          ? Shade::accent
                                                 : Shade::text));
-    g.fillPath(outlineOf(icon_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+    g.fillPath(iconPath(icon_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
 }
 
 void TwoLineText::set(const juce::String& first, const juce::String& second, Shade firstShade) {
@@ -110,10 +110,10 @@ void TwoLineText::set(const juce::String& first, const juce::String& second, Sha
 void TwoLineText::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     const auto font = text::font(text::small);
-    const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
-        g.setColour(shade(*this, which));
+    const auto line = [&](const juce::String& label, juce::Rectangle<int> row, Shade tone) {
+        g.setColour(shade(*this, tone));
         g.setFont(font);
-        g.drawText(words, row, juce::Justification::centredLeft, true);
+        g.drawText(label, row, juce::Justification::centredLeft, true);
     };
     const bool isLow = 0.5f * static_cast<float>(getHeight()) < font.getHeight();
     line(first_,
@@ -135,9 +135,9 @@ void drawCard(juce::Graphics& g, const juce::Component& component) {
     g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);
 }
 
-std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& words, const juce::String& name,
+std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& label, const juce::String& name,
                                                  std::function<void()> onClick) {
-    auto button = std::make_unique<juce::TextButton>(words);
+    auto button = std::make_unique<juce::TextButton>(label);
     describe(*button, name, name);
     button->onClick = std::move(onClick);
     button->getProperties().set(quietProperty, true);
@@ -166,9 +166,9 @@ void prepareControls(juce::Component& root) {
         for (auto* child : root.getChildren()) prepareControls(*child);
 }
 
-Caption::Caption(const juce::String& words, Shade tone)
+Caption::Caption(const juce::String& caption, Shade tone)
     : tone_{tone} {
-    setText(words, dontNotify);
+    setText(caption, dontNotify);
     setFont(text::font(text::small));
     setBorderSize({0, 0, 0, 0});
 }
@@ -227,14 +227,14 @@ void Divider::paint(juce::Graphics& g) {
 
 // The divider follows the mouse, so the distance is counted from its current place.
 void Divider::mouseDrag(const juce::MouseEvent& e) {
-    const auto moved = e.position - e.mouseDownPosition;
-    onMove(juce::roundToInt(isVertical_ ? moved.x : moved.y));
+    const auto movedBy = e.position - e.mouseDownPosition;
+    onMove(juce::roundToInt(isVertical_ ? movedBy.x : movedBy.y));
 }
 
 double FrequencyAxis::shareFromHz(double hz) {
     return std::log(std::max(hz, 1e-3) / lowHz) / std::log(highHz / lowHz);
 }
-SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale) {
+SpectrumLevels toSpectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale) {
     SpectrumLevels levels;
     const double halfStep = 0.5 / (FrequencyAxis::pointCount - 1),
                  lastBin = static_cast<double>(magnitudes.size()) - 1.0;
@@ -266,15 +266,15 @@ juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component&
         g.setColour(shade(component, Shade::line).withMultipliedAlpha(0.7f));
         g.drawVerticalLine(x, static_cast<float>(area.getY()), static_cast<float>(area.getBottom()));
         g.setColour(shade(component, Shade::muted));
-        const auto words = hz == 1000 ? juce::String{"1k"} : juce::String{hz};
-        const auto where = hz == 20     ? juce::Justification::centredLeft
-                           : hz == 1000 ? juce::Justification::centredRight
-                                        : juce::Justification::centred;
-        g.drawText(words,
+        const auto label = hz == 1000 ? juce::String{"1k"} : juce::String{hz};
+        const auto alignment = hz == 20     ? juce::Justification::centredLeft
+                               : hz == 1000 ? juce::Justification::centredRight
+                                            : juce::Justification::centred;
+        g.drawText(label,
                    juce::Rectangle<int>{40, foot.getHeight()}
                        .withCentre({x, foot.getCentreY()})
                        .constrainedWithin(foot),
-                   where, false);
+                   alignment, false);
     }
     return area;
 }
@@ -284,11 +284,11 @@ void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::point
     juce::Path curve, ground;
     ground.startNewSubPath(area.getBottomLeft());
     for (std::size_t k = 0; k < heights.size(); ++k) {
-        const juce::Point<float> p{area.getX() + area.getWidth() * static_cast<float>(k) /
-                                                     static_cast<float>(heights.size() - 1),
-                                   area.getBottom() - area.getHeight() * heights[k]};
-        k == 0 ? curve.startNewSubPath(p) : curve.lineTo(p);
-        ground.lineTo(p);
+        const juce::Point<float> point{area.getX() + area.getWidth() * static_cast<float>(k) /
+                                                         static_cast<float>(heights.size() - 1),
+                                       area.getBottom() - area.getHeight() * heights[k]};
+        k == 0 ? curve.startNewSubPath(point) : curve.lineTo(point);
+        ground.lineTo(point);
     }
     ground.lineTo(area.getBottomRight());
     ground.closeSubPath();
@@ -298,7 +298,7 @@ void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::point
     g.strokePath(curve, juce::PathStrokeType{1.5f});
 }
 
-SpectrumLevels spectrumLevelsOf(const SpectrumTrace& trace, int channel) {
+SpectrumLevels channelSpectrum(const SpectrumTrace& trace, int channel) {
     auto samples = trace.windowSamples(channel);
     if (samples.empty()) {
         SpectrumLevels none;
@@ -308,8 +308,8 @@ SpectrumLevels spectrumLevelsOf(const SpectrumTrace& trace, int channel) {
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] *= hannWindow()[i];
     const auto spectrum = magnitudes(samples);
     // a full-scale sine gives half of the weights' sum, which is half of the window's size
-    return spectrumLevels(spectrum, 0.5 * trace.rateHz() / static_cast<double>(spectrum.size() - 1),
-                          0.25 * SpectrumTrace::windowSize);
+    return toSpectrumLevels(spectrum, 0.5 * trace.rateHz() / static_cast<double>(spectrum.size() - 1),
+                            0.25 * SpectrumTrace::windowSize);
 }
 
 class TabPanel::TabButton final : public juce::Button {
@@ -399,15 +399,15 @@ void TabPanel::resized() {
                          : getLocalBounds().reduced(panelInset, fold_ == Fold::row ? 0 : 8);
     auto names = isColumn ? area : area.removeFromTop(32);
     int remaining = isColumn ? names.getHeight() : names.getWidth();
-    for (auto& page : pages_) remaining -= nameWidthOf(page.button->getName());
+    for (auto& page : pages_) remaining -= tabNameWidth(page.button->getName());
     remaining = juce::jlimit(-maxCut, isColumn ? 24 : maxMargin, remaining / static_cast<int>(pages_.size()));
     if (isColumn) {
         for (auto& page : pages_)
-            page.button->setBounds(names.removeFromTop(nameWidthOf(page.button->getName()) + remaining));
+            page.button->setBounds(names.removeFromTop(tabNameWidth(page.button->getName()) + remaining));
         return;
     }
     for (auto& page : pages_)
-        page.button->setBounds(names.removeFromLeft(nameWidthOf(page.button->getName()) + remaining)
+        page.button->setBounds(names.removeFromLeft(tabNameWidth(page.button->getName()) + remaining)
                                    .withTrimmedRight(std::max(0, remaining / 3)));
     if (fold_ == Fold::row) return;
     area.removeFromTop(10);

@@ -45,20 +45,20 @@ void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
 /// Sets colour and font of the text that is drawn next.
-inline void setInk(juce::Graphics& g, const juce::Component& c, Shade which, float height,
+inline void setInk(juce::Graphics& g, const juce::Component& component, Shade tone, float height,
                    int style = juce::Font::plain) {
-    g.setColour(shade(c, which));
+    g.setColour(shade(component, tone));
     g.setFont(text::font(height, style));
 }
-inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, juce::Rectangle<float> area,
-                      float corner, float alpha = 1.0f) {
-    g.setColour(shade(c, which).withMultipliedAlpha(alpha));
+inline void fillRound(juce::Graphics& g, const juce::Component& component, Shade tone,
+                      juce::Rectangle<float> area, float corner, float alpha = 1.0f) {
+    g.setColour(shade(component, tone).withMultipliedAlpha(alpha));
     g.fillRoundedRectangle(area, corner);
 }
 
-inline void drawSelectedRow(juce::Graphics& g, const juce::Component& c, int width, int height,
+inline void drawSelectedRow(juce::Graphics& g, const juce::Component& component, int width, int height,
                             float alpha = 0.16f) {
-    g.setColour(shade(c, Shade::accent).withAlpha(alpha));
+    g.setColour(shade(component, Shade::accent).withAlpha(alpha));
     g.fillRect(0, 0, width, height);
 }
 
@@ -193,10 +193,10 @@ using SpectrumLevels = std::array<float, FrequencyAxis::pointCount>;
 
 /// Converts magnitudes of bins with a spacing of `binHz`, the first at 0 Hz. Each point gets the highest bin
 /// of its range; `fullScale` is 0 dB.
-SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale);
+SpectrumLevels toSpectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale);
 
 /// Spectrum of the recent samples of a channel with a Hann window: a full-scale sine is 0 dB, within 0.3 dB.
-SpectrumLevels spectrumLevelsOf(const SpectrumTrace& trace, int channel);
+SpectrumLevels channelSpectrum(const SpectrumTrace& trace, int channel);
 
 /// Draws lines and labels of the axis at the bottom of `area`, and returns the area left for curves.
 juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component,

@@ -12,13 +12,13 @@ constexpr std::array preferredTypefaces{"NanumGothic", "Noto Sans CJK KR", "Noto
                                         "UnDotum"}; // typefaces known to be legible
 
 #if JUCE_MAJOR_VERSION >= 8
-auto lettersIn(juce::Typeface& typeface) {
+auto makeLetterTest(juce::Typeface& typeface) {
     return [&](juce::juce_wchar letter) { return typeface.getNominalGlyphForCodepoint(letter).has_value(); };
 }
 #else
 constexpr juce::juce_wchar nonCharacter = 0xfffe; // a non-character of Unicode
 
-juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
+juce::String letterOutline(juce::Typeface& typeface, juce::juce_wchar letter) {
     juce::Array<int> glyphs;
     juce::Array<float> places;
     juce::Path path;
@@ -27,9 +27,9 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     return path.toString();
 }
 
-auto lettersIn(juce::Typeface& typeface) {
-    return [&, box = outlineOf(typeface, nonCharacter)](juce::juce_wchar letter) {
-        return outlineOf(typeface, letter) != box;
+auto makeLetterTest(juce::Typeface& typeface) {
+    return [&, box = letterOutline(typeface, nonCharacter)](juce::juce_wchar letter) {
+        return letterOutline(typeface, letter) != box;
     };
 }
 #endif
@@ -40,7 +40,7 @@ juce::String& currentTypeface() {
     return name;
 }
 
-juce::String lettersOf(const Translation& words) {
+juce::String findLetters(const Translation& words) {
     std::set<juce::juce_wchar> letters;
     for (const auto& [english, text] : words.texts)
         for (const auto letter : juce::String::fromUTF8(text.c_str()))
@@ -57,13 +57,13 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters) {
     if (typeface.isNotEmpty()) font.setTypefaceName(typeface);
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
-    const auto hasLetter = lettersIn(*face);
+    const auto hasLetter = makeLetterTest(*face);
     for (const auto letter : letters)
         if (!hasLetter(letter)) return false;
     return true;
 }
 
-std::optional<juce::String> typefaceFor(const Translation& words) { return typefaceFor(lettersOf(words)); }
+std::optional<juce::String> typefaceFor(const Translation& words) { return typefaceFor(findLetters(words)); }
 
 std::optional<juce::String> typefaceFor(const juce::String& letters) {
     if (hasLetters({}, letters)) return juce::String{};
@@ -88,13 +88,13 @@ void TypefaceOverride::apply(const juce::String& typeface) {
     juce::Typeface::clearTypefaceCache();
 }
 
-bool DisplayTypeface::ensureLetters(const juce::String& words) {
-    juce::String added;
-    for (const auto letter : words)
-        if (letter > 0x7f && !letters_.containsChar(letter) && !added.containsChar(letter)) added += letter;
-    if (added.isEmpty()) return false;
-    letters_ += added;
-    if (hasLetters({}, added)) return false;
+bool DisplayTypeface::ensureLetters(const juce::String& shownText) {
+    juce::String extra;
+    for (const auto letter : shownText)
+        if (letter > 0x7f && !letters_.containsChar(letter) && !extra.containsChar(letter)) extra += letter;
+    if (extra.isEmpty()) return false;
+    letters_ += extra;
+    if (hasLetters({}, extra)) return false;
     const auto typeface = typefaceFor(letters_);
     if (!typeface) return false; // not installed: JUCE draws boxes
     font_.reset();               // only one may exist

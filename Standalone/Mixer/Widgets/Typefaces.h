@@ -34,7 +34,7 @@ private:
 class DisplayTypeface {
 public:
     /// True if the typeface changed, so that everything must be redrawn. Cheap if there is no new letter.
-    bool ensureLetters(const juce::String& words);
+    bool ensureLetters(const juce::String& shownText);
 
 private:
     juce::String letters_; // non-ASCII letters, each once

@@ -22,9 +22,9 @@ bool isHeadphoneName(const std::string& device) {
 /// A row of a list of choices, with a radio button.
 class Row final : public juce::Button {
 public:
-    explicit Row(const juce::String& words)
-        : juce::Button{words} {
-        setTitle(words);
+    explicit Row(const juce::String& label)
+        : juce::Button{label} {
+        setTitle(label);
     }
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         auto area = getLocalBounds();
@@ -52,7 +52,7 @@ std::vector<DetectedSink> detectSinks() {
 std::vector<PlaybackChoice> playbackChoices(const AudioDrivers& drivers,
                                             const std::vector<DetectedSink>& sinks) {
     const auto devices = sortedByLikelihood(listAudioDevices(drivers));
-    std::vector<PlaybackChoice> many, few, all;
+    std::vector<PlaybackChoice> mainChoices, stereoChoices, choices;
     for (const auto& device : devices) {
         const int outputs = hardwareOutputCount(device);
         if (device.type == nullDeviceType || outputs < 1) continue; // it could play nothing
@@ -60,11 +60,11 @@ std::vector<PlaybackChoice> playbackChoices(const AudioDrivers& drivers,
                                   (outputs == 2 ? ": two actuators" : ""),
                               {device.type + ":" + device.name},
                               outputs};
-        (outputs > 2 ? many : few).push_back(std::move(choice));
+        (outputs > 2 ? mainChoices : stereoChoices).push_back(std::move(choice));
     }
     // the best sound device for headphones: one that is named so, else the first
     std::optional<PlaybackChoice> headphones;
-    if (const auto& candidates = few.empty() ? many : few; !candidates.empty()) {
+    if (const auto& candidates = stereoChoices.empty() ? mainChoices : stereoChoices; !candidates.empty()) {
         const auto namedHeadphones = std::ranges::find_if(candidates, [](const PlaybackChoice& c) {
             return isHeadphoneName(c.device.name) && c.outputs >= 2;
         });
@@ -72,28 +72,28 @@ std::vector<PlaybackChoice> playbackChoices(const AudioDrivers& drivers,
     }
     const bool hasNamedHeadphones = headphones && isHeadphoneName(headphones->device.name);
     // multichannel devices, preferred sinks and devices named as headphones come before the other sinks
-    const auto multichannelCount = std::ssize(many);
+    const auto multichannelCount = std::ssize(mainChoices);
     std::ptrdiff_t preferredCount = 0;
     for (const auto& [kind, unit] : sinks) { // a sink alone, without a sound device
         PlaybackChoice choice{utf8(std::string{kind->title} + ": " + unit.address) +
-                                  (unit.about.empty() ? juce::String{} : "  " + utf8(unit.about)),
+                                  (unit.label.empty() ? juce::String{} : "  " + utf8(unit.label)),
                               {std::string{nullDeviceType} + ":" + nullDeviceName},
                               kind->actuators,
                               true};
         choice.device.setSink(*kind, unit.address);
-        many.insert(kind->isPreferred ? many.begin() : many.end(), std::move(choice));
+        mainChoices.insert(kind->isPreferred ? mainChoices.begin() : mainChoices.end(), std::move(choice));
         preferredCount += kind->isPreferred ? 1 : 0;
     }
     if (headphones && headphones->outputs >= 2) {
         headphones->title = "Headphones: " + utf8(headphones->device.name);
         headphones->isHeadphones = true;
-        const auto at = hasNamedHeadphones ? multichannelCount + preferredCount : std::ssize(many);
-        many.insert(many.begin() + std::min<std::ptrdiff_t>(at, maxRows - 1), *headphones);
+        const auto index = hasNamedHeadphones ? multichannelCount + preferredCount : std::ssize(mainChoices);
+        mainChoices.insert(mainChoices.begin() + std::min<std::ptrdiff_t>(index, maxRows - 1), *headphones);
     }
-    all = std::move(many);
-    all.insert(all.end(), few.begin(), few.end());
-    all.push_back({noDeviceTitle, {std::string{nullDeviceType} + ":" + nullDeviceName}, 0});
-    return all;
+    choices = std::move(mainChoices);
+    choices.insert(choices.end(), stereoChoices.begin(), stereoChoices.end());
+    choices.push_back({noDeviceTitle, {std::string{nullDeviceType} + ":" + nullDeviceName}, 0});
+    return choices;
 }
 
 FirstStart::FirstStart(MixerModel& model, std::vector<PlaybackChoice> choices)
@@ -116,13 +116,13 @@ FirstStart::FirstStart(MixerModel& model, std::vector<PlaybackChoice> choices)
 }
 
 void FirstStart::choose(int index) {
-    chosen_ = juce::jlimit(0, std::max(0, static_cast<int>(rows_.size()) - 1), index);
+    chosenIndex_ = juce::jlimit(0, std::max(0, static_cast<int>(rows_.size()) - 1), index);
     updateTexts();
 }
 
 void FirstStart::openChosen() {
     if (choices_.empty()) return end(false);
-    const PlaybackChoice choice = nth(choices_, chosen_);
+    const PlaybackChoice choice = nth(choices_, chosenIndex_);
     if (choice.outputs == 0) {
         model_.announce("No device: the world is seen, not felt. Output has the devices");
         return end(true);
@@ -132,24 +132,25 @@ void FirstStart::openChosen() {
         return;
     }
     if (choice.isHeadphones) {
-        auto before = model_.device().outputMap(); // restored after the headphones
+        auto oldOutputs = model_.device().outputMap(); // restored after the headphones
         model_.change("Headphones", [](Mix& mix) { fitLayoutTo(DeviceChoice::earCount, mix); });
-        return openHeadphones(model_, choice.device, std::move(before)).empty() ? end(true) : updateTexts();
+        return openHeadphones(model_, choice.device, std::move(oldOutputs)).empty() ? end(true)
+                                                                                    : updateTexts();
     }
     if (const auto error = model_.open(choice.device); !error.empty()) return updateTexts();
     test(std::max(1, std::min(choice.outputs, model_.device().outputCount())));
 }
 
 void FirstStart::test(int outputs) {
-    if (tested_ < 0) slownessBefore_ = model_.session().world().slowness();
+    if (testIndex_ < 0) slownessBefore_ = model_.session().world().slowness();
     model_.setSlowness(0); // pauses the world: only test pulses play
     model_.change("First start", [&, outputs](Mix& mix) {
         fitLayoutTo(outputs, mix, model_.device().choice().name);
         for (int j = 0; j < mix.count(); ++j) nth(mix.strips, j).output = j;
         mix.levelDb = std::min(startDb, mix.levelDb);
     });
-    tested_ = 0;
-    readyChecks_ = 0;
+    testIndex_ = 0;
+    readyCheckCount_ = 0;
     areSinksReady() ? pulse() : startTimer(readyCheckMs);
     updateTexts();
 }
@@ -161,30 +162,30 @@ bool FirstStart::areSinksReady() const {
 }
 
 void FirstStart::timerCallback() {
-    if (!areSinksReady() && ++readyChecks_ < maxReadyChecks) return;
+    if (!areSinksReady() && ++readyCheckCount_ < maxReadyChecks) return;
     stopTimer();
     pulse();
     updateTexts();
 }
 
 void FirstStart::pulse() {
-    if (tested_ >= 0 && tested_ < model_.mix().count()) model_.eventPlayer().testPulse(tested_);
+    if (testIndex_ >= 0 && testIndex_ < model_.mix().count()) model_.eventPlayer().testPulse(testIndex_);
 }
 
 void FirstStart::testNext() {
-    if (++tested_ >= model_.mix().count()) return end(true);
+    if (++testIndex_ >= model_.mix().count()) return end(true);
     pulse();
     updateTexts();
 }
 
 // The tested actuator may have been detached by a message or in the window behind.
-bool FirstStart::isDetached() const { return tested_ >= model_.mix().count(); }
+bool FirstStart::isDetached() const { return testIndex_ >= model_.mix().count(); }
 
 void FirstStart::confirmPulseAt(double shareX, double shareY) {
     if (isDetached()) return testNext();
     model_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
-        auto& place = nth(layout.places, tested_); // depth and part stay
+        auto& place = nth(layout.places, testIndex_); // depth and part stay
         place.xMetres = juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres;
         place.yMetres = juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres;
         mix.layout.name = "own";
@@ -194,7 +195,7 @@ void FirstStart::confirmPulseAt(double shareX, double shareY) {
 
 void FirstStart::denyPulse() {
     if (isDetached()) return testNext();
-    model_.change("Not felt", [this](Mix& mix) { nth(mix.strips, tested_).output = -1; });
+    model_.change("Not felt", [this](Mix& mix) { nth(mix.strips, testIndex_).output = -1; });
     testNext();
 }
 
@@ -208,7 +209,7 @@ void FirstStart::raiseLevel() {
 
 void FirstStart::end(bool hasChosen) {
     model_.undoManager().clearUndoHistory(); // undo must not raise the level of the test
-    if (std::exchange(tested_, -1) >= 0) {
+    if (std::exchange(testIndex_, -1) >= 0) {
         model_.setSlowness(slownessBefore_);
         model_.announce("It stays as quiet as it was tested: the master's fader raises it");
     }
@@ -217,11 +218,11 @@ void FirstStart::end(bool hasChosen) {
 
 bool FirstStart::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    if (const bool isTest = tested_ >= 0; key == KeyPress::escapeKey)
+    if (const bool isTest = testIndex_ >= 0; key == KeyPress::escapeKey)
         return end(isTest), !isTest; // after a test, Esc also silences: the world goes on
-    if (tested_ < 0) {
-        if (key == KeyPress::upKey) return choose(chosen_ - 1), true;
-        if (key == KeyPress::downKey) return choose(chosen_ + 1), true;
+    if (testIndex_ < 0) {
+        if (key == KeyPress::upKey) return choose(chosenIndex_ - 1), true;
+        if (key == KeyPress::downKey) return choose(chosenIndex_ + 1), true;
         if (key == KeyPress::returnKey) return openChosen(), true;
         return false;
     }
@@ -233,16 +234,16 @@ bool FirstStart::keyPressed(const juce::KeyPress& key) {
 }
 
 void FirstStart::updateTexts() {
-    const bool isTest = tested_ >= 0;
+    const bool isTest = testIndex_ >= 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         rows_[i]->setVisible(!isTest);
-        rows_[i]->setToggleState(static_cast<int>(i) == chosen_, dontNotify);
+        rows_[i]->setToggleState(static_cast<int>(i) == chosenIndex_, dontNotify);
     }
     if (!isTest) {
         const bool hasChoice = choices_.size() > 1;
         setTexts("Where are your actuators?",
                  (hasChoice
-                      ? nth(choices_, chosen_).isHeadphones
+                      ? nth(choices_, chosenIndex_).isHeadphones
                             ? "Play here begins at once, for ears. Nothing plays before."
                             : "Play here tests each of them in turn, quietly at first. Nothing plays before."
                       : "No device was found. Plug one in, and choose it under Output.") +
@@ -250,8 +251,8 @@ void FirstStart::updateTexts() {
         playButton_.setButtonText(hasChoice ? "Play here" : "Go on");
         setAnswers(hasChoice ? std::vector{&playButton_, &noDeviceButton_} : std::vector{&playButton_});
     } else {
-        const auto& label = nth(model_.mix().layout.actuators, tested_).label;
-        const int output = nth(model_.mix().strips, tested_).output;
+        const auto& label = nth(model_.mix().layout.actuators, testIndex_).label;
+        const int output = nth(model_.mix().strips, testIndex_).output;
         louderButton_.setEnabled(model_.mix().levelDb < maxDb);
         setAnswers({&feltButton_, &louderButton_, &notFeltButton_, &doneButton_});
         setTexts(
@@ -269,14 +270,14 @@ void FirstStart::updateTexts() {
 
 void FirstStart::mouseDown(const juce::MouseEvent& e) {
     const auto field = field_;
-    if (tested_ < 0 || !field.contains(e.getPosition())) return;
+    if (testIndex_ < 0 || !field.contains(e.getPosition())) return;
     confirmPulseAt(static_cast<double>(e.x - field.getX()) / field.getWidth(),
                    1.0 - static_cast<double>(e.y - field.getY()) / field.getHeight());
 }
 
 void FirstStart::paint(juce::Graphics& g) {
     Card::paint(g);
-    if (tested_ < 0) return;
+    if (testIndex_ < 0) return;
     const auto field = field_;
     fillRound(g, *this, Shade::well, field.toFloat(), 6.0f);
     const auto& layout = model_.mix().layout.geometry;
@@ -289,15 +290,15 @@ void FirstStart::paint(juce::Graphics& g) {
                 .toFloat();
         const auto badge =
             juce::Rectangle<float>{28.0f, 28.0f}.withCentre(centre).constrainedWithin(field.toFloat());
-        g.setColour(actuatorColour(*this, j).withAlpha(j == tested_ ? 1.0f : 0.35f));
-        j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
-        setInk(g, *this, j == tested_ ? Shade::well : Shade::muted, text::medium, juce::Font::bold);
+        g.setColour(actuatorColour(*this, j).withAlpha(j == testIndex_ ? 1.0f : 0.35f));
+        j == testIndex_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
+        setInk(g, *this, j == testIndex_ ? Shade::well : Shade::muted, text::medium, juce::Font::bold);
         g.drawText(labelOf(model_.mix(), j), badge, juce::Justification::centred, false);
     }
 }
 
 int FirstStart::contentHeight() const {
-    return tested_ >= 0 ? fieldHeight : static_cast<int>(rows_.size()) * (cardRowHeight + rowGap);
+    return testIndex_ >= 0 ? fieldHeight : static_cast<int>(rows_.size()) * (cardRowHeight + rowGap);
 }
 
 void FirstStart::placeContent(juce::Rectangle<int> content) {

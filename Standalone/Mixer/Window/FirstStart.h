@@ -44,7 +44,7 @@ public:
     std::function<void(const DeviceChoice&)> onSink;
 
     void choose(int index);
-    int chosen() const noexcept { return chosen_; }
+    int chosenIndex() const noexcept { return chosenIndex_; }
     void openChosen();      ///< opens the chosen device and starts the test
     void test(int outputs); ///< tests an actuator per output, in turn, from a low level; waits for sinks
     void pulse();           ///< repeats the pulse of the tested actuator
@@ -52,7 +52,7 @@ public:
     void confirmPulseAt(double shareX, double shareY); ///< moves the actuator there; tests the next
     void denyPulse();                                  ///< takes the output from the actuator; tests the next
     void raiseLevel();
-    int tested() const noexcept { return tested_; } ///< number of the actuator; -1: none
+    int tested() const noexcept { return testIndex_; } ///< number of the actuator; -1: none
     void end(bool hasChosen);
 
     bool keyPressed(const juce::KeyPress& key) override;
@@ -74,7 +74,7 @@ private:
     juce::Rectangle<int> field_; // where the actuators are drawn in the test
     juce::TextButton playButton_{"Play here"}, noDeviceButton_{"Without a device"}, feltButton_{"Felt"},
         louderButton_{"Louder"}, notFeltButton_{"Not felt"}, doneButton_{"Done"};
-    int chosen_ = 0, tested_ = -1, slownessBefore_ = 1, readyChecks_ = 0;
+    int chosenIndex_ = 0, testIndex_ = -1, slownessBefore_ = 1, readyCheckCount_ = 0;
 };
 
 } // namespace physvib

@@ -27,7 +27,7 @@ constexpr std::ptrdiff_t maxSettingsTags = 1'000;  // a valid file has about thi
 /// types, and blocks on pipes, so such files are rejected first.
 std::string checkSettings(const juce::File& file) {
     const std::filesystem::path path = pathOf(file);
-    if (const auto opened = openRegular(path, maxSettingsBytes); !opened) return opened.error;
+    if (const auto opened = openRegularFile(path, maxSettingsBytes); !opened) return opened.error;
     const auto text = readFile(path, maxSettingsBytes);
     if (!text) return text.error;
     if (std::ranges::count(text.value, '<') > maxSettingsTags)
@@ -42,11 +42,11 @@ std::string checkSettings(const juce::File& file) {
 juce::File readableSettings(const juce::File& file, std::string& error) {
     if (file.exists()) error = checkSettings(file);
     if (error.empty()) return file;
-    const juce::File renamed = file.withFileExtension("settings.unread");
+    const juce::File unreadFile = file.withFileExtension("settings.unread");
     std::error_code code;
-    std::filesystem::rename(pathOf(file), pathOf(renamed), code);
+    std::filesystem::rename(pathOf(file), pathOf(unreadFile), code);
     error += code ? "; settings are not kept"
-                  : "; it is now " + renamed.getFileName().toStdString() + ", and settings begin anew";
+                  : "; it is now " + unreadFile.getFileName().toStdString() + ", and settings begin anew";
     return code ? juce::File{} : file;
 }
 
@@ -61,9 +61,9 @@ using Lock = SystemFile::Lock;
 
 constexpr std::string_view copyPrefix = "recovery-";
 
-fs::path lockOf(fs::path copy) { return copy.replace_extension(".lock"); }
+fs::path lockPath(fs::path copy) { return copy.replace_extension(".lock"); }
 
-std::vector<fs::path> filesOf(const fs::path& folder, std::string_view ending) {
+std::vector<fs::path> listFiles(const fs::path& folder, std::string_view ending) {
     std::vector<fs::path> found;
     std::error_code code;
     for (fs::directory_iterator entry{folder, code}, end; !code && entry != end; entry.increment(code))
@@ -75,7 +75,7 @@ std::vector<fs::path> filesOf(const fs::path& folder, std::string_view ending) {
 /// Acquires the lock of a copy whose run has ended; a copy without a lock file gives a closed file. nullopt
 /// if its run still holds the lock.
 std::optional<SystemFile> tryLock(const fs::path& copy) {
-    SystemFile lock = SystemFile::openForLocking(lockOf(copy));
+    SystemFile lock = SystemFile::openForLocking(lockPath(copy));
     if (lock.isOpen() && lock.lock() == Lock::heldByOthers) return {};
     return lock;
 }
@@ -83,9 +83,9 @@ std::optional<SystemFile> tryLock(const fs::path& copy) {
 } // namespace
 
 juce::File mixerFolder() {
-    const char* configured = std::getenv("XDG_CONFIG_HOME");
-    const juce::File base = configured != nullptr && *configured == '/'
-                                ? juce::File{configured}
+    const char* configFolder = std::getenv("XDG_CONFIG_HOME");
+    const juce::File base = configFolder != nullptr && *configFolder == '/'
+                                ? juce::File{configFolder}
                                 : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
     return base.getChildFile("physvib");
 }
@@ -113,7 +113,7 @@ void MixerFiles::addRecent(const juce::File& file) {
 
 MixerLimits MixerFiles::limits() const {
     return readMixerLimits(settings_.getValue(limitsSetting).toStdString())
-        .value_or(MixerLimits::of(MixerModel::defaultMix()));
+        .value_or(MixerLimits::fromMix(MixerModel::defaultMix()));
 }
 
 void MixerFiles::addOwnSession(std::string_view text, const std::string& output) {
@@ -131,9 +131,9 @@ bool MixerFiles::isOwnSession(const juce::File& file, const std::string& output)
 }
 
 double MixerFiles::exposureToday() const {
-    const auto words = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});
-    const double stored = words.size() == 2 && words[0] == today() ? words[1].getDoubleValue() : 0.0;
-    return std::isfinite(stored) ? std::max(0.0, stored) : 0.0;
+    const auto parts = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});
+    const double exposure = parts.size() == 2 && parts[0] == today() ? parts[1].getDoubleValue() : 0.0;
+    return std::isfinite(exposure) ? std::max(0.0, exposure) : 0.0;
 }
 
 // Limits the rate of file writes, because the value grows steadily.
@@ -171,24 +171,24 @@ RecoveryCopies::RecoveryCopies(const fs::path& folder)
     : folder_{folder}
     , ownCopy_{folder / (std::string{copyPrefix} + juce::Uuid{}.toString().toStdString() + ".json")} {
     std::error_code code;
-    for (fs::path copy : filesOf(folder, ".lock")) // locks of runs that ended before their first copy
+    for (fs::path copy : listFiles(folder, ".lock")) // locks of runs that ended before their first copy
         if (!fs::exists(fs::symlink_status(copy.replace_extension(".json"), code))) remove(copy);
 }
 
 RecoveryCopies::~RecoveryCopies() {
     std::error_code code;
-    if (lock_.isOpen() && !fs::exists(ownCopy_, code)) fs::remove(lockOf(ownCopy_), code);
+    if (lock_.isOpen() && !fs::exists(ownCopy_, code)) fs::remove(lockPath(ownCopy_), code);
 }
 
 std::vector<fs::path> RecoveryCopies::abandonedCopies() const {
-    std::vector<std::pair<fs::file_time_type, fs::path>> found;
+    std::vector<std::pair<fs::file_time_type, fs::path>> datedCopies;
     std::error_code code; // deleted files get the oldest time
-    for (const fs::path& copy : filesOf(folder_, ".json"))
+    for (const fs::path& copy : listFiles(folder_, ".json"))
         if (copy != ownCopy_ && std::ranges::find(adopted_, copy) == adopted_.end() && tryLock(copy))
-            found.emplace_back(fs::last_write_time(copy, code), copy);
-    std::ranges::sort(found, std::greater{});
+            datedCopies.emplace_back(fs::last_write_time(copy, code), copy);
+    std::ranges::sort(datedCopies, std::greater{});
     std::vector<fs::path> copies;
-    for (auto& [time, copy] : found) copies.push_back(std::move(copy));
+    for (auto& [time, copy] : datedCopies) copies.push_back(std::move(copy));
     return copies;
 }
 
@@ -215,7 +215,7 @@ void RecoveryCopies::discardOwn() {
 // Another mixer may mistake the new lock file for an abandoned one before it is locked, so this retries.
 // Without a lock the copy is still written, but other mixers offer it during this run.
 void RecoveryCopies::lock() {
-    const fs::path path = lockOf(ownCopy_);
+    const fs::path path = lockPath(ownCopy_);
     for (int attempts = 0; attempts < 100 && !lock_.isOpen(); ++attempts) {
         SystemFile lockFile = SystemFile::openForAppending(path);
         if (!lockFile.isOpen()) return;
@@ -224,12 +224,12 @@ void RecoveryCopies::lock() {
 }
 
 std::string RecoveryCopies::remove(const fs::path& copy) {
-    const auto held = tryLock(copy);
-    if (!held) return copy.string() + ": cannot be removed: another mixer keeps it";
-    { const AtomicFile sweep{copy}; } // removes the temporary file of an interrupted write
+    const auto heldLock = tryLock(copy);
+    if (!heldLock) return copy.string() + ": cannot be removed: another mixer keeps it";
+    { const AtomicFile abandonedWrite{copy}; } // removes the temporary file of an interrupted write
     std::error_code code;
     if (fs::remove(copy, code); code) return copy.string() + ": cannot be removed: " + code.message();
-    fs::remove(lockOf(copy), code);
+    fs::remove(lockPath(copy), code);
     return {};
 }
 

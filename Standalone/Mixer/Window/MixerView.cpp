@@ -51,8 +51,8 @@ void recolourTexts(juce::Component& parent) {
 }
 
 /// Shortens paths at their beginning until each fits into a line of `room` pixels.
-juce::String shortenedPaths(const juce::String& words, const juce::Font& font, int room) {
-    auto all = juce::StringArray::fromTokens(words, " ", {});
+juce::String shortenedPaths(const juce::String& message, const juce::Font& font, int room) {
+    auto all = juce::StringArray::fromTokens(message, " ", {});
     for (auto& word : all)
         while (room > 40 && text::pixelWidth(font, word) > room) {
             const auto remainder = word.trimCharactersAtStart(ellipsis() + "/");
@@ -105,12 +105,14 @@ MixerView::MixerView(MixerModel& model)
         if (run) run();
     };
     addAll(*this, {&world_, &tabs_, &scope_, &strips_, &sideDivider_, &lowerDivider_, &scopeDivider_, &bar_});
-    sideDivider_.onMove = [this](int by) { moveDivider(&Dividers::side, -by, getWidth(), tabs_.getWidth()); };
-    lowerDivider_.onMove = [this](int by) {
-        moveDivider(&Dividers::lower, -by, getHeight(), scope_.getHeight());
+    sideDivider_.onMove = [this](int pixels) {
+        moveDivider(&Dividers::side, -pixels, getWidth(), tabs_.getWidth());
     };
-    scopeDivider_.onMove = [this](int by) {
-        moveDivider(&Dividers::strips, -by, getWidth(), strips_.getWidth());
+    lowerDivider_.onMove = [this](int pixels) {
+        moveDivider(&Dividers::lower, -pixels, getHeight(), scope_.getHeight());
+    };
+    scopeDivider_.onMove = [this](int pixels) {
+        moveDivider(&Dividers::strips, -pixels, getWidth(), strips_.getWidth());
     };
     for (const auto& [divider, share] : {std::pair{&sideDivider_, &Dividers::side},
                                          {&lowerDivider_, &Dividers::lower},
@@ -207,25 +209,25 @@ void MixerView::setPanels(const Panels& panels) {
 // By default the lower panels are folded where they would leave the field too little room.
 Panels MixerView::panels() const {
     constexpr int minHeightForLower = 760;
-    const auto& chosen = nth(panels_, mode_);
-    return chosen.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= minHeightForLower});
+    const auto& userPanels = nth(panels_, mode_);
+    return userPanels.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= minHeightForLower});
 }
 
 juce::String MixerView::panelLayout() const {
-    juce::String words{mode_ == Mode::play ? "play" : "engineer"};
+    juce::String layout{mode_ == Mode::play ? "play" : "engineer"};
     for (const auto& panels : panels_)
-        words << (!panels
-                      ? juce::String{" -"}
-                      : juce::String{" "} + (panels->hasDrawer ? "1" : "0") + (panels->hasLower ? "1" : "0"));
-    return words;
+        layout << (!panels ? juce::String{" -"}
+                           : juce::String{" "} + (panels->hasDrawer ? "1" : "0") +
+                                 (panels->hasLower ? "1" : "0"));
+    return layout;
 }
 
 void MixerView::setPanelLayout(const juce::String& text) {
-    const auto words = juce::StringArray::fromTokens(text, " ", {});
+    const auto tokens = juce::StringArray::fromTokens(text, " ", {});
     for (int k = 0; k < 2; ++k)
-        if (words[k + 1].length() == 2)
-            nth(panels_, k) = Panels{words[k + 1][0] == '1', words[k + 1][1] == '1'};
-    setMode(words[0] == "engineer" ? Mode::engineer : Mode::play);
+        if (tokens[k + 1].length() == 2)
+            nth(panels_, k) = Panels{tokens[k + 1][0] == '1', tokens[k + 1][1] == '1'};
+    setMode(tokens[0] == "engineer" ? Mode::engineer : Mode::play);
 }
 
 void MixerView::showPanels() {
@@ -249,15 +251,15 @@ void MixerView::showPanels() {
 
 // Selects a typeface with the letters of all names. Those of the scene are read only after it was edited.
 void MixerView::updateTypeface() {
-    juce::String words = model_.messageText() + juce::String::fromUTF8(model_.output().device().c_str());
-    for (const auto& actuator : model_.mix().layout.actuators) words += utf8(actuator.label);
+    juce::String shownText = model_.messageText() + juce::String::fromUTF8(model_.output().device().c_str());
+    for (const auto& actuator : model_.mix().layout.actuators) shownText += utf8(actuator.label);
     if (std::exchange(checkedEditCount_, model_.world().editCount()) != model_.world().editCount()) {
         const Scene& scene = model_.world().drawing().drawn();
-        words += utf8(scene.name);
-        for (const auto& body : scene.bodies) words += utf8(body.name);
-        for (const auto& material : scene.materials) words += utf8(material.name);
+        shownText += utf8(scene.name);
+        for (const auto& body : scene.bodies) shownText += utf8(body.name);
+        for (const auto& material : scene.materials) shownText += utf8(material.name);
     }
-    if (!typeface_.ensureLetters(words)) return;
+    if (!typeface_.ensureLetters(shownText)) return;
     sendLookAndFeelChange();
     repaint();
 }
@@ -269,18 +271,19 @@ void MixerView::updateOverlay() {
 
 void MixerView::updateWorld() {
     updateOverlay();
-    latest_ = model_.poll();
-    for (std::size_t j = 0; j < peaks_.size(); ++j) peaks_[j] = std::max(peaks_[j], latest_.meters.peaks[j]);
-    world_.refresh(latest_);
+    snapshot_ = model_.poll();
+    for (std::size_t j = 0; j < peaks_.size(); ++j)
+        peaks_[j] = std::max(peaks_[j], snapshot_.meters.peaks[j]);
+    world_.refresh(snapshot_);
 }
 
 void MixerView::refresh() {
     updateWorld();
-    latest_.meters.peaks = std::exchange(peaks_, {});
-    bar_.refresh(latest_);
-    tabs_.refresh(latest_); // even if folded: studies, takes and lanes go on
-    scope_.refresh(latest_);
-    strips_.refresh(latest_);
+    snapshot_.meters.peaks = std::exchange(peaks_, {});
+    bar_.refresh(snapshot_);
+    tabs_.refresh(snapshot_); // even if folded: studies, takes and lanes go on
+    scope_.refresh(snapshot_);
+    strips_.refresh(snapshot_);
     if (std::exchange(lastShownCount_, model_.messages().shownCount()) != lastShownCount_)
         messageAtMs_ = nowMs(), activityAtMs_ = 0.0;
     constexpr double newsMs = 10e3; // the message covers the materials of the drawing bar
@@ -304,8 +307,8 @@ void MixerView::timerCallback() {
 
 // Reduces the update rate while nothing moves and nothing plays, or nobody sees it.
 void MixerView::adaptFrameRate() {
-    const auto& peaks = latest_.meters.peaks;
-    const bool isIdle = model_.session().world().slowness() == 0 && latest_.hits.empty() &&
+    const auto& peaks = snapshot_.meters.peaks;
+    const bool isIdle = model_.session().world().slowness() == 0 && snapshot_.hits.empty() &&
                         std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
     idleUpdates_ = isIdle ? idleUpdates_ + 1 : 0;
     const auto* peer = getPeer();
@@ -332,7 +335,8 @@ bool MixerView::escapeOnlyCloses() {
         !world_.isDragging())
         return false;
     updateWorld();
-    return model_.isVisualOnly() || std::ranges::all_of(latest_.heldPeaks, [](float h) { return h == 0.0f; });
+    return model_.isVisualOnly() ||
+           std::ranges::all_of(snapshot_.heldPeaks, [](float h) { return h == 0.0f; });
 }
 
 void MixerView::showOpenCard() {
@@ -444,19 +448,19 @@ void MixerView::resized() {
         bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
     } else {
         bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
-        const auto a =
+        const auto places =
             arrange(area.reduced(panelMargin),
                     {strips_.widthFor(StripView::fullWidth), strips_.widthFor(StripView::maxWidth)},
                     dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
              std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{
-                 {&world_, a.world},
-                 {&tabs_, a.tabs},
-                 {&scope_, a.scope},
-                 {&strips_, a.strips},
-                 {&sideDivider_, a.side},
-                 {&lowerDivider_, a.lower},
-                 {&scopeDivider_, a.between}})
+                 {&world_, places.world},
+                 {&tabs_, places.tabs},
+                 {&scope_, places.scope},
+                 {&strips_, places.strips},
+                 {&sideDivider_, places.sideDivider},
+                 {&lowerDivider_, places.lowerDivider},
+                 {&scopeDivider_, places.scopeDivider}})
             panel->setBounds(bounds);
     }
     layOutMessage(world_.bannerArea() + world_.getPosition());
@@ -465,7 +469,7 @@ void MixerView::resized() {
 
 // Text and buttons are side by side; if the text has too little room, the buttons are below it.
 void MixerView::layOutMessage(juce::Rectangle<int> banner) {
-    constexpr int inset = 2, between = 8, minTextWidth = 240;
+    constexpr int inset = 2, textMargin = 8, minTextWidth = 240;
     const auto& font = messageLabel_.getFont();
     const int line = banner.getHeight(),
               actionWidth = action_->isVisible()
@@ -476,7 +480,7 @@ void MixerView::layOutMessage(juce::Rectangle<int> banner) {
     messageLabel_.setBorderSize({0, panelInset, isBelow ? line : 0, isBelow ? 4 : buttonsWidth + 4});
     const int room = banner.getWidth() - messageLabel_.getBorderSize().getLeftAndRight() - 2;
     messageLabel_.setText(shortenedPaths(messageLabel_.getTooltip(), font, room), dontNotify);
-    const int height = std::max(line, text::heightInLines(font, messageLabel_.getText(), room) + between) +
+    const int height = std::max(line, text::heightInLines(font, messageLabel_.getText(), room) + textMargin) +
                        (isBelow ? line : 0);
     banner = banner.getY() > world_.getBounds().getCentreY() ? banner.withTop(banner.getBottom() - height)
                                                              : banner.withHeight(height);
@@ -515,9 +519,9 @@ juce::String Dividers::toText() const {
 }
 
 Dividers Dividers::fromText(const juce::String& text) {
-    const auto words = juce::StringArray::fromTokens(text, " ", {});
+    const auto tokens = juce::StringArray::fromTokens(text, " ", {});
     const auto share = [&](int k) {
-        const double value = words[k].getDoubleValue();
+        const double value = tokens[k].getDoubleValue();
         return value >= minDivider && value <= maxDivider ? value : 0.0;
     };
     return {share(0), share(1), share(2)};
@@ -525,36 +529,36 @@ Dividers Dividers::fromText(const juce::String& text) {
 
 Arrangement arrange(juce::Rectangle<int> area, const StripWidths& widths, const Dividers& dividers, Mode mode,
                     const Panels& panels) {
-    using A = Arrangement;
-    Arrangement a;
+    using Sizes = Arrangement;
+    Arrangement places;
     const int width = area.getWidth(), height = area.getHeight(),
               names = mode == Mode::engineer ? TabPanel::foldedPixels : 0;
-    const int side =
-        panels.hasDrawer
-            ? clampBetween(A::minSide, dividerPixels(dividers.side, width, std::min(560, width * 30 / 100)),
-                           width - A::minSide - A::seam)
-            : names;
+    const int side = panels.hasDrawer
+                         ? clampBetween(Sizes::minSide,
+                                        dividerPixels(dividers.side, width, std::min(560, width * 30 / 100)),
+                                        width - Sizes::minSide - Sizes::dividerWidth)
+                         : names;
     const int lower =
         panels.hasLower
-            ? clampBetween(A::minLower,
+            ? clampBetween(Sizes::minLower,
                            dividerPixels(dividers.lower, height, std::min(340, height * 30 / 100)),
-                           height - A::minWorldHeight - A::seam)
+                           height - Sizes::minWorldHeight - Sizes::dividerWidth)
             : names;
     const int automaticStrips = std::min(std::max(widths.minStrips, width * 45 / 100), widths.maxStrips);
     const int strips = clampBetween(
-        A::minStrips, dividerPixels(dividers.strips, width, std::min(automaticStrips, width * 70 / 100)),
-        width - A::minScope - A::seam);
+        Sizes::minStrips, dividerPixels(dividers.strips, width, std::min(automaticStrips, width * 70 / 100)),
+        width - Sizes::minScope - Sizes::dividerWidth);
     auto bottom = area.removeFromBottom(lower);
-    a.lower = area.removeFromBottom(lower > 0 ? A::seam : 0);
-    a.tabs = area.removeFromRight(side);
-    a.side = area.removeFromRight(side > 0 ? A::seam : 0);
-    a.world = area;
+    places.lowerDivider = area.removeFromBottom(lower > 0 ? Sizes::dividerWidth : 0);
+    places.tabs = area.removeFromRight(side);
+    places.sideDivider = area.removeFromRight(side > 0 ? Sizes::dividerWidth : 0);
+    places.world = area;
     if (panels.hasLower) {
-        a.strips = bottom.removeFromRight(strips);
-        a.between = bottom.removeFromRight(A::seam);
+        places.strips = bottom.removeFromRight(strips);
+        places.scopeDivider = bottom.removeFromRight(Sizes::dividerWidth);
     }
-    a.scope = bottom;
-    return a;
+    places.scope = bottom;
+    return places;
 }
 
 } // namespace physvib

@@ -19,7 +19,7 @@ public:
     void mixChanged(); ///< the mixer state changed
     void togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
 
-    std::function<void(juce::Component& from)> onMenu = [](juce::Component&) {};
+    std::function<void(juce::Component& anchor)> onMenu = [](juce::Component&) {};
     std::function<void()> onRecord = [] {}, onSave = [] {}, onOpenScene = [] {}, onDevice = [] {};
     std::function<void(const juce::File&)> onOwnScene = [](const juce::File&) {};
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed after the built-in ones
@@ -104,10 +104,10 @@ struct Panels {
 /// be tested.
 struct Arrangement {
     juce::Rectangle<int> world, tabs, scope, strips;
-    juce::Rectangle<int> side, lower, between; ///< the dividers' handles
+    juce::Rectangle<int> sideDivider, lowerDivider, scopeDivider; ///< the dividers' handles
 
-    static constexpr int seam = 8, minLower = 232, minWorldHeight = 240, minSide = 400, minStrips = 300,
-                         minScope = 360;
+    static constexpr int dividerWidth = 8, minLower = 232, minWorldHeight = 240, minSide = 400,
+                         minStrips = 300, minScope = 360;
 };
 
 /// Divides `area`; the world gets what the unfolded panels leave. Any thread.
@@ -133,7 +133,7 @@ public:
 
     /// Updates the display; called by the timer.
     void refresh();
-    const MixerSnapshot& latest() const noexcept { return latest_; } ///< displayed state
+    const MixerSnapshot& snapshot() const noexcept { return snapshot_; } ///< displayed state
     void setTheme(Theme theme);
     Theme theme() const noexcept { return look_.theme(); }
     const Dividers& dividers() const noexcept { return dividers_; }
@@ -231,7 +231,7 @@ private:
     std::uint64_t checkedEditCount_ = ~std::uint64_t{0}; // edit count of the world at the last check
     juce::String silenceReason_;                         // as last reported
     bool isDropShown_ = false, isShowMode_ = false;
-    MixerSnapshot latest_;
+    MixerSnapshot snapshot_;
     int idleUpdates_ = 0, updates_ = 0, lastShownCount_ = 0;
     double messageAtMs_ = 0.0, activityAtMs_ = 0.0;   // the latter: first user activity since then; 0: none
     std::array<float, limits::maxActuators> peaks_{}; // maxima since the last update of the strips

@@ -23,24 +23,24 @@ OscAccess oscAccessFromName(const juce::String& name) {
                                          : static_cast<OscAccess>(found - oscAccessNames.begin());
 }
 
-constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
+constexpr const char* deviceChosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
 constexpr const char* outputsBeforeHeadphonesSetting = "outputs-before-headphones";
 constexpr const char* panelLayoutSetting = "mode";    // mode and unfolded panels; none: play mode
 constexpr const char* folderSetting = "files-folder"; // of the user's files; empty: that of UserFolder
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
-constexpr juce::Point<int> frameRoom{8, 40};
+constexpr juce::Point<int> frameSize{8, 40};
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
 constexpr const char* sessionEnding = ".json";
 constexpr double minMovieSeconds = 1.0, defaultMovieSeconds = 60.0;
 constexpr double maxRenderSeconds = 86'400.0; // the limit of `physvib render`
 
-juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
+juce::String secondsText(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
 
 // The field accepts digits and a point only, so its value has no thousands separators.
-QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
+QuestionCard::Field secondsField(double seconds) { return {"Seconds", secondsText(seconds), "0123456789."}; }
 
 /// Copy of `mix` with the scene or the layout of the file.
 Result<Mix> mixWith(Mix mix, const juce::File& file) {
@@ -64,11 +64,11 @@ constexpr std::size_t maxOfferedCopies = 20; // each is read when it is displaye
 juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
 
 /// Time and contents of a copy, or why it cannot be read.
-juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {
+juce::String describeCopy(const std::filesystem::path& copy, const Result<SavedSession>& session) {
     const auto time =
         juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
     if (!session) return "Of " + time + ": " + utf8(session.error).replace(utf8(copy.string()), nameOf(copy));
-    const Mix mix = mixOf(session.value);
+    const Mix mix = mixAtEnd(session.value);
     return "Kept at " + time + ": " + displayTitle(mix.scene->name) + " on " + juce::String{mix.count()} +
            " actuators, played for " + number(1e-9 * static_cast<double>(session.value.lengthNs), 1) + " s.";
 }
@@ -81,7 +81,7 @@ constexpr const char* zoomSetting = "zoom";
 constexpr juce::Point<int> defaultDisplay{1920, 1080}; // at 100 %
 
 /// Room of the display in pixels at 100 %.
-juce::Point<int> displayRoom() {
+juce::Point<int> displaySize() {
     auto& desktop = juce::Desktop::getInstance();
     const auto* display = desktop.getDisplays().getPrimaryDisplay();
     if (display == nullptr) return defaultDisplay;
@@ -137,16 +137,16 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = userAreaOf(*display);
-        centreWithSize(std::min(1440, room.getWidth() - frameRoom.x),
-                       std::min(900, room.getHeight() - frameRoom.y));
+        centreWithSize(std::min(1440, room.getWidth() - frameSize.x),
+                       std::min(900, room.getHeight() - frameSize.y));
     }
     addToDesktop();
     setVisible(true);
     view_->grabKeyboardFocus();
     // asks for a device at the first start, and offers what a crash has left
-    const auto& chosen = settings.getValue("device");
-    const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
-                         (chosen.isEmpty() || chosen.startsWith(juce::String{nullDeviceType} + ":"));
+    const auto& name = settings.getValue("device");
+    const bool isFirst = device.isEmpty() && !settings.getBoolValue(deviceChosenSetting) &&
+                         (name.isEmpty() || name.startsWith(juce::String{nullDeviceType} + ":"));
     if (isFirst && !hasCrashed)
         callLater(*this, [](MixerWindow& window) {
             window.addFirstStart(playbackChoices(window.drivers_, detectSinks()));
@@ -193,16 +193,16 @@ void MixerWindow::beginSession(Mix mix, const juce::File& document, bool isPause
     savedEditCount_ = model_->editCount();
     const auto& settings = files_.settings();
     auto& bar = view_->topBar();
-    bar.onMenu = [this](juce::Component& from) { showMenu(from); };
+    bar.onMenu = [this](juce::Component& anchor) { showMenu(anchor); };
     bar.onRecord = [this] { record(); };
     bar.onSave = [this] { save(); };
     bar.onDevice = [this] { view_->tabs().choose("Output"); };
     model_->device().onSinksRequested = [this](const DeviceChoice& choice) {
         callLater(*this, [choice](MixerWindow& window) { window.setSinks(choice); }); // deletes the tab
     };
-    bar.onOpenScene = [this] { import("Scene"); };
+    bar.onOpenScene = [this] { askToOpen("Scene"); };
     bar.setOwnScenes(files_.ownScenes());
-    bar.onOwnScene = [this](const juce::File& own) { openFile(own); };
+    bar.onOwnScene = [this](const juce::File& scene) { openFile(scene); };
     model_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
@@ -237,13 +237,13 @@ void MixerWindow::setSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.settingKey.data(), utf8(choice.sinkAddress(kind)));
         const bool isFirst = view_->firstStart() != nullptr, wasChanged = hasUnsavedChanges();
-        Mix mix = mixOf(model_->savedSession());
+        Mix mix = mixAtEnd(model_->savedSession());
         const auto history = model_->history();
         history->drawnScenes.emplace_back(model_->mix().scene, mix.scene);
         beginSession(std::move(mix), document_, model_->session().world().slowness() == 0, history);
         if (wasChanged) savedEditCount_ = neverSaved;
         if (isFirst && !choice.sinks.empty())
-            return addFirstStart({}).test(kindOf(choice.sinks.front()).actuators);
+            return addFirstStart({}).test(findSinkKind(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
     offerSaveThen(restart,
@@ -254,23 +254,23 @@ void MixerWindow::setSinks(const DeviceChoice& choice) {
 FirstStart& MixerWindow::addFirstStart(std::vector<PlaybackChoice> choices) {
     auto card = std::make_unique<FirstStart>(*model_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
-        if (hasChosen) files_.settings().setValue(chosenSetting, true);
+        if (hasChosen) files_.settings().setValue(deviceChosenSetting, true);
         callLater(*this, [](MixerWindow& window) { window.view_->setFirstStart(nullptr); });
     };
     card->onSink = [this](const DeviceChoice& choice) {
-        files_.settings().setValue(chosenSetting, true);
+        files_.settings().setValue(deviceChosenSetting, true);
         if (model_->device().onSinksRequested) model_->device().onSinksRequested(choice);
     };
-    FirstStart& shown = *card;
+    FirstStart& firstStart = *card;
     view_->setFirstStart(std::move(card));
-    return shown;
+    return firstStart;
 }
 
 void MixerWindow::suggestOtherDevice() {
-    const auto& requested = device_.name;
-    if (model_->messageText().isEmpty() || requested.starts_with(std::string{nullDeviceType} + ":")) return;
+    const auto& deviceName = device_.name;
+    if (model_->messageText().isEmpty() || deviceName.starts_with(std::string{nullDeviceType} + ":")) return;
     for (const auto& other : sortedByLikelihood(listAudioDevices(drivers_)))
-        if (other.type != nullDeviceType && other.channels > 0 && other.type + ":" + other.name != requested)
+        if (other.type != nullDeviceType && other.channels > 0 && other.type + ":" + other.name != deviceName)
             return model_->messages().add({"There is " + utf8(other.type + ":" + other.name) + " (" +
                                            juce::String{other.channels} + " outputs) instead, under Output"});
 }
@@ -296,9 +296,9 @@ void MixerWindow::timerCallback() {
                                          : hardwareOutputCount({device_.name.substr(0, colon),
                                                                 device_.name.substr(colon + 1), all}));
     settings.setValue("headphones", device_.isHeadphones);
-    juce::StringArray before;
-    for (const int output : device_.outputsBeforeHeadphones) before.add(juce::String{output});
-    settings.setValue(outputsBeforeHeadphonesSetting, before.joinIntoString(" "));
+    juce::StringArray outputs;
+    for (const int output : device_.outputsBeforeHeadphones) outputs.add(juce::String{output});
+    settings.setValue(outputsBeforeHeadphonesSetting, outputs.joinIntoString(" "));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
     settings.setValue("osc", nth(oscAccessNames, model_->inputs().choice().access));
@@ -344,9 +344,9 @@ Mix MixerWindow::defaultMix() {
                               : -1);
     setStripOutputs(outputs, mix.strips);
     if (device_.isHeadphones) return mix;
-    const auto before =
+    const auto stripCount =
         std::min(mix.strips.size(), device_.outputsBeforeHeadphones.size()); // they limit what comes after
-    restoreOutputs(device_, maxStripOutputs, std::span{mix.strips}.first(before),
+    restoreOutputs(device_, maxStripOutputs, std::span{mix.strips}.first(stripCount),
                    settings.getBoolValue("headphones") ? 0 : lastLimits.strips.size());
     device_.outputsBeforeHeadphones.clear();
     return mix;
@@ -410,11 +410,11 @@ void MixerWindow::askDisplayWidth() {
     askForValues(
         view_->topBar(), "Width of the display", "Set", {{"Width in mm", number(widthMm, 0)}},
         [this](const juce::StringArray& values) {
-            const auto& words = values[0];
-            const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
-            if (words.isNotEmpty() && !isDisplayWidth(1e-3 * mm))
+            const auto& text = values[0];
+            const double mm = text.isEmpty() ? 0.0 : text.replaceCharacter(',', '.').getDoubleValue();
+            if (text.isNotEmpty() && !isDisplayWidth(1e-3 * mm))
                 return showError("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) +
-                                 " to " + number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
+                                 " to " + number(1e3 * maxDisplayMetres, 0) + " mm, found " + text);
             model_->setDisplayWidth(1e-3 * mm);
             files_.settings().setValue(displayWidthSetting, mm);
         },
@@ -423,7 +423,7 @@ void MixerWindow::askDisplayWidth() {
 }
 
 // The zoom step of a key: 1, -1 or 0. Plus is typed with Shift on some keyboards, and may be on the keypad.
-static int zoomStepOf(const juce::KeyPress& key) {
+static int zoomStep(const juce::KeyPress& key) {
     if (!key.getModifiers().isCommandDown()) return 0;
     const int code = key.getKeyCode();
     if (code == '+' || code == '=' || code == juce::KeyPress::numberPadAdd) return 1;
@@ -443,7 +443,7 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
     if (key == KeyPress::F11Key) return setShowMode(!view_->isShowMode()), true;
     if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
-    if (const int steps = zoomStepOf(key); steps != 0) return stepZoom(steps), true;
+    if (const int steps = zoomStep(key); steps != 0) return stepZoom(steps), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
     return view_->keyPressed(key);
 }
@@ -455,12 +455,12 @@ struct MenuItem {
     bool isEnabled = true, isTicked = false;
 };
 
-void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act) {
+void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> action) {
     juce::PopupMenu::Item entry{item.name};
     entry.shortcutKeyDescription = item.keys;
     entry.isEnabled = item.isEnabled;
     entry.isTicked = item.isTicked;
-    menu.addItem(entry.setAction(std::move(act)));
+    menu.addItem(entry.setAction(std::move(action)));
 }
 
 constexpr const char* keys =
@@ -496,9 +496,10 @@ public:
         Card::paint(g);
         g.setColour(shade(*this, Shade::text));
         for (int k = 0; k < rows_.size(); ++k) {
-            auto row = content_.translated(k / halfRows() * 480, k % halfRows() * line).withHeight(line);
+            auto row = content_.translated(k / halfRows() * columnWidth, k % halfRows() * keyRowHeight)
+                           .withHeight(keyRowHeight);
             g.setFont(text::font(text::small, juce::Font::bold));
-            g.drawText(rows_[k].upToFirstOccurrenceOf("\t", false, false), row.removeFromLeft(180),
+            g.drawText(rows_[k].upToFirstOccurrenceOf("\t", false, false), row.removeFromLeft(keysWidth),
                        juce::Justification::centredLeft);
             g.setFont(text::font(text::small));
             g.drawText(rows_[k].fromFirstOccurrenceOf("\t", false, false), row,
@@ -507,9 +508,9 @@ public:
     }
 
 private:
-    static constexpr int line = 20;
+    static constexpr int keyRowHeight = 20, columnWidth = 480, keysWidth = 180;
     int halfRows() const { return (rows_.size() + 1) / 2; }
-    int contentHeight() const override { return halfRows() * line; }
+    int contentHeight() const override { return halfRows() * keyRowHeight; }
     void placeContent(juce::Rectangle<int> content) override { content_ = content; }
 
     juce::StringArray rows_;
@@ -519,7 +520,7 @@ private:
 
 } // namespace
 
-void MixerWindow::showMenu(juce::Component& from) {
+void MixerWindow::showMenu(juce::Component& anchor) {
     juce::PopupMenu menu, help;
     add(help, {"First steps"}, [this] {
         model_->announce(
@@ -536,7 +537,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     menu.addSubMenu("View", viewMenu());
     menu.addSubMenu("Help", help);
     menu.setLookAndFeel(&view_->getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(120));
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(anchor).withMinimumWidth(120));
 }
 
 juce::PopupMenu MixerWindow::fileMenu() {
@@ -584,11 +585,11 @@ juce::PopupMenu MixerWindow::editMenu() {
     add(menu, {"Levels of the file", {}, requestedMix_.has_value()}, [this] { applyRequestedLevels(); });
     menu.addSeparator();
     add(menu,
-        {comparison.isOn() ? juce::String{"Play "} + (comparison.activeState() == 'A' ? "B" : "A")
-                           : juce::String{"Compare: make B, a copy of what plays"},
+        {comparison.isComparing() ? juce::String{"Play "} + (comparison.activeState() == 'A' ? "B" : "A")
+                                  : juce::String{"Compare: make B, a copy of what plays"},
          "A"},
         [&comparison] { comparison.toggle(); });
-    add(menu, {"Keep what plays", {}, comparison.isOn()}, [this] {
+    add(menu, {"Keep what plays", {}, comparison.isComparing()}, [this] {
         view_->world().compare().end();
         model_->sendChangeMessage();
     });
@@ -601,7 +602,7 @@ juce::PopupMenu MixerWindow::worldMenu() {
     newScenes.addItem("Box", [this] { newScene(SceneGround::box); });
     newScenes.addItem("Floor", [this] { newScene(SceneGround::floor); });
     menu.addSubMenu("New scene", newScenes);
-    add(menu, {"Open a scene" + ellipsis()}, [this] { import("Scene"); });
+    add(menu, {"Open a scene" + ellipsis()}, [this] { askToOpen("Scene"); });
     add(menu, {"Save as scene" + ellipsis()}, [this] { saveScene(false); });
     add(menu, {"Save as scene, bodies as they are now" + ellipsis()}, [this] { saveScene(true); });
     add(menu,
@@ -609,26 +610,26 @@ juce::PopupMenu MixerWindow::worldMenu() {
          "Ctrl+Shift+R"},
         [this] { recordScript(); });
     menu.addSeparator();
-    add(menu, {"Open a layout" + ellipsis()}, [this] { import("Layout of actuators"); });
+    add(menu, {"Open a layout" + ellipsis()}, [this] { askToOpen("Layout of actuators"); });
     add(menu, {"Save the layout" + ellipsis()}, [this] { exportLayout(); });
     return menu;
 }
 
-bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
+bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isCrashCopy) {
     auto session = loadSession(pathOf(file));
     if (session) {
         const auto warnOfUnsupported = [&] {
-            if (const auto words = unsupportedFeatures(session.value); words.isNotEmpty())
-                model_->messages().add({words, false, {}, "lacking"});
+            if (const auto warning = unsupportedFeatures(session.value); warning.isNotEmpty())
+                model_->messages().add({warning, false, {}, "lacking"});
             return true;
         };
         if (files_.isOwnSession(file, outputInUse())) { // unchanged since it was saved
-            beginSession(mixOf(session.value), document, endsPaused(session.value));
+            beginSession(mixAtEnd(session.value), document, endsPaused(session.value));
             return warnOfUnsupported();
         }
         // the copy may lack the last seconds; edits of this run may have set other levels
-        const bool isUnchangedSinceCrash = isOwn && limitsBeforeCrash_ && !hasUnsavedChanges();
-        playLowered(isUnchangedSinceCrash ? *limitsBeforeCrash_ : limits(), mixOf(session.value), document,
+        const bool isUnchangedSinceCrash = isCrashCopy && limitsBeforeCrash_ && !hasUnsavedChanges();
+        playLowered(isUnchangedSinceCrash ? *limitsBeforeCrash_ : limits(), mixAtEnd(session.value), document,
                     endsPaused(session.value));
         return warnOfUnsupported();
     }
@@ -641,23 +642,23 @@ void MixerWindow::playLowered(const MixerLimits& maxLevels, Mix mix, const juce:
                               bool isPaused) {
     std::vector<std::size_t> withoutHeadphone;
     if (device_.isHeadphones) withoutHeadphone = assignNewStrips(device_, mix.strips, 0); // only L and R
-    const Mix requested = mix;
-    const auto lowered = lowerToLimits(maxLevels, mix);
+    const Mix fileMix = mix;
+    const auto loweredText = lowerToLimits(maxLevels, mix);
     beginSession(std::move(mix), document, isPaused);
     reportNoHeadphoneOutput(*model_, withoutHeadphone);
-    reportLowered(lowered, requested, maxLevels);
+    reportLowered(loweredText, fileMix, maxLevels);
 }
 
-void MixerWindow::reportLowered(const std::string& lowered, const Mix& requested,
+void MixerWindow::reportLowered(const std::string& loweredText, const Mix& fileMix,
                                 const MixerLimits& maxLevels) {
     const auto& strips = model_->mix().strips;
     lostOutputs_.clear();
     for (std::size_t j = 0; j < std::min(maxLevels.strips.size(), strips.size()); ++j)
-        if (strips[j].output < 0 && requested.strips[j].output >= 0 && maxLevels.strips[j].output >= 0)
+        if (strips[j].output < 0 && fileMix.strips[j].output >= 0 && maxLevels.strips[j].output >= 0)
             lostOutputs_.emplace_back(j, maxLevels.strips[j]);
-    requestedMix_ = lowered.empty() ? std::nullopt : std::optional{requested};
+    requestedMix_ = loweredText.empty() ? std::nullopt : std::optional{fileMix};
     if (requestedMix_)
-        model_->messages().add({"Lowered to this desk: " + utf8(lowered),
+        model_->messages().add({"Lowered to this desk: " + utf8(loweredText),
                                 false,
                                 {"Levels of the file", [this] { applyRequestedLevels(); }},
                                 "levels"});
@@ -667,16 +668,16 @@ void MixerWindow::reportLowered(const std::string& lowered, const Mix& requested
 // louder than what was played meanwhile.
 MixerLimits MixerWindow::limits() const {
     if (!model_) return files_.limits();
-    MixerLimits now = MixerLimits::of(model_->mix());
-    const double maxGainDb = now.loudestOutputDb() - now.levelDb;
-    for (const auto& [j, own] : lostOutputs_) {
-        if (j >= now.strips.size() || now.strips[j].output >= 0 ||
-            std::ranges::find(now.strips, own.output, &Strip::output) != now.strips.end())
+    MixerLimits current = MixerLimits::fromMix(model_->mix());
+    const double maxGainDb = current.loudestOutputDb() - current.levelDb;
+    for (const auto& [j, oldStrip] : lostOutputs_) {
+        if (j >= current.strips.size() || current.strips[j].output >= 0 ||
+            std::ranges::find(current.strips, oldStrip.output, &Strip::output) != current.strips.end())
             continue;
-        now.strips[j] = own;
-        now.strips[j].gainDb = std::min(own.gainDb, maxGainDb);
+        current.strips[j] = oldStrip;
+        current.strips[j].gainDb = std::min(oldStrip.gainDb, maxGainDb);
     }
-    return now;
+    return current;
 }
 
 // The user may set levels that a file may not.
@@ -721,24 +722,24 @@ static juce::String fromHome(const juce::File& file) {
     return file.isAChildOf(home) ? "~/" + file.getRelativePathFrom(home) : file.getFullPathName();
 }
 
-void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MessageAction act) {
-    if (!act.run) act = {"Show", [file] { file.revealToUser(); }};
-    MixerMessage message{words + " " + fromHome(file), true, std::move(act), savedLabel};
+void MixerWindow::announceSaved(const juce::String& text, const juce::File& file, MessageAction action) {
+    if (!action.run) action = {"Show", [file] { file.revealToUser(); }};
+    MixerMessage message{text + " " + fromHome(file), true, std::move(action), savedLabel};
     const bool isInFront = model_->isInfo() || model_->messages().current().label ==
                                                    noHeadphoneOutputLabel; // the latter is queued
     isInFront ? model_->messages().show(std::move(message)) : model_->messages().add(std::move(message));
 }
 
 void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
-                             std::function<void(const juce::File&)> onAccept, const juce::String& suggested,
-                             const juce::File& in) {
+                             std::function<void(const juce::File&)> onAccept,
+                             const juce::String& suggestedName, const juce::File& parent) {
     const auto setting = "folder" + ending; // the last folder for each kind of file
     const juce::File last{files_.settings().getValue(setting)};
-    const auto folder = in != juce::File{} ? in : last.isDirectory() ? last : folderOfDocuments();
+    const auto folder = parent != juce::File{} ? parent : last.isDirectory() ? last : folderOfDocuments();
     const auto name =
-        suggested.isEmpty()
+        suggestedName.isEmpty()
             ? juce::String{}
-            : folder.getNonexistentChildFile(suggested, ending, false).getFileNameWithoutExtension();
+            : folder.getNonexistentChildFile(suggestedName, ending, false).getFileNameWithoutExtension();
     askForFile(view_->topBar(), {title, ending, folder, isSaving, name},
                [this, setting, onAccept = std::move(onAccept)](const juce::File& file) {
                    files_.settings().setValue(setting, file.getParentDirectory().getFullPathName());
@@ -750,16 +751,16 @@ void MixerWindow::ask(const juce::String& title, const juce::String& message,
                       std::vector<std::pair<juce::String, std::function<void()>>> answers,
                       const std::vector<QuestionCard::Field>& fields) {
     std::vector<QuestionCard::Answer> all;
-    for (auto& [answer, act] : answers)
-        all.push_back({answer, [this, act = std::move(act)] { view_->setCard(nullptr), act(); }});
+    for (auto& [answer, action] : answers)
+        all.push_back({answer, [this, action = std::move(action)] { view_->setCard(nullptr), action(); }});
     all.push_back(
         {"Cancel", [this] { view_->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}});
     view_->setQuestion(std::make_unique<QuestionCard>(title, message, std::move(all), fields));
 }
 
-void MixerWindow::offerSaveThen(std::function<void()> proceed, const juce::String& words) {
+void MixerWindow::offerSaveThen(std::function<void()> proceed, const juce::String& text) {
     if (!hasUnsavedChanges()) return proceed();
-    ask("Save the session?", words, {{"Save", [this, proceed] { save(proceed); }}, {"Do not save", proceed}});
+    ask("Save the session?", text, {{"Save", [this, proceed] { save(proceed); }}, {"Do not save", proceed}});
 }
 
 void MixerWindow::newDocument() {
@@ -769,7 +770,7 @@ void MixerWindow::newDocument() {
     });
 }
 
-void MixerWindow::openDocument() { import("Open a session, a scene or a layout"); }
+void MixerWindow::openDocument() { askToOpen("Open a session, a scene or a layout"); }
 
 void MixerWindow::openDocument(const juce::File& file) {
     offerSaveThen([this, file] {
@@ -783,11 +784,11 @@ void MixerWindow::openFile(const juce::File& file) {
     if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
     auto mix = mixWith(model_->mix(), file);
     if (!mix) return showError(utf8(mix.error));
-    const Mix requested = mix.value;
+    const Mix fileMix = mix.value;
     const MixerLimits maxLevels = limits();
-    const auto lowered = lowerToLimits(maxLevels, mix.value);
+    const auto loweredText = lowerToLimits(maxLevels, mix.value);
     model_->edit(file.getFileName(), mix.value);
-    reportLowered(lowered, requested, maxLevels);
+    reportLowered(loweredText, fileMix, maxLevels);
 }
 
 void MixerWindow::save(std::function<void()> onSaved) {
@@ -830,18 +831,18 @@ void MixerWindow::record() {
     if (!error.empty()) showError(utf8(error));
 }
 
-void MixerWindow::askSeconds(const juce::String& title, const juce::String& words, double seconds,
+void MixerWindow::askSeconds(const juce::String& title, const juce::String& text, double seconds,
                              juce::Range<double> limits, const juce::String& quantity,
                              std::function<void(double)> onAccept) {
     askForValues(
         view_->topBar(), title, "Choose a file" + ellipsis(), {secondsField(seconds)},
         [this, limits, quantity, onAccept = std::move(onAccept)](const juce::StringArray& values) {
-            const double requested = values[0].getDoubleValue();
-            if (requested >= limits.getStart() && requested <= limits.getEnd()) return onAccept(requested);
+            const double value = values[0].getDoubleValue();
+            if (value >= limits.getStart() && value <= limits.getEnd()) return onAccept(value);
             showError(quantity + ": expected " + number(limits.getStart(), limits.getStart() < 1.0 ? 1 : 0) +
                       " to " + number(limits.getEnd(), 0));
         },
-        "It was played for " + tenths(playedSeconds()) + " s. " + words);
+        "It was played for " + secondsText(playedSeconds()) + " s. " + text);
 }
 
 void MixerWindow::renderOffline() {
@@ -910,7 +911,7 @@ void MixerWindow::exportLayout() {
         "layout");
 }
 
-void MixerWindow::import(const juce::String& title) {
+void MixerWindow::askToOpen(const juce::String& title) {
     chooseFile(title, sessionEnding, false, [this](const juce::File& file) { openFile(file); });
 }
 
@@ -918,33 +919,33 @@ void MixerWindow::import(const juce::String& title) {
 void MixerWindow::offerRecovery() {
     const auto copies = files_.copies().abandonedCopies();
     const std::size_t total = std::min(copies.size(), maxOfferedCopies);
-    std::size_t shown = 0;
-    for (; shown < total; ++shown) {
-        const auto session = RecoveryCopies::read(copies[shown]);
+    std::size_t index = 0;
+    for (; index < total; ++index) {
+        const auto session = RecoveryCopies::read(copies[index]);
         if (session) break;
-        if (shown == 0) model_->messages().add({utf8(session.error) + "; it stays until it is discarded"});
+        if (index == 0) model_->messages().add({utf8(session.error) + "; it stays until it is discarded"});
     }
-    showCopy(copies, shown == total ? 0 : shown);
+    showCopy(copies, index == total ? 0 : index);
 }
 
-void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at) {
+void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t index) {
     if (copies.empty()) {
         if (view_->question() != nullptr) view_->setQuestion(nullptr);
         return;
     }
     const std::size_t total = std::min(copies.size(), maxOfferedCopies);
-    const auto copy = copies[at];
+    const auto copy = copies[index];
     const auto session = RecoveryCopies::read(copy);
     const auto count = [](std::size_t n) { return juce::String{static_cast<int>(n)}; };
-    juce::String words = "The mixer ended without being closed. " + describe(copy, session);
-    if (total > 1) words += "\nCopy " + count(at + 1) + " of " + count(total) + ", the newest first.";
+    juce::String message = "The mixer ended without being closed. " + describeCopy(copy, session);
+    if (total > 1) message += "\nCopy " + count(index + 1) + " of " + count(total) + ", the newest first.";
     if (total < copies.size())
-        words +=
+        message +=
             " " + count(copies.size() - total) + " older ones stay in " + utf8(copy.parent_path().string());
-    const auto discard = [this](std::vector<std::filesystem::path> declined) {
+    const auto discard = [this](std::vector<std::filesystem::path> copiesToDiscard) {
         std::string error;
-        for (const auto& copyFile : declined)
-            if (auto why = RecoveryCopies::remove(copyFile); !why.empty()) error = std::move(why);
+        for (const auto& copyFile : copiesToDiscard)
+            if (auto problem = RecoveryCopies::remove(copyFile); !problem.empty()) error = std::move(problem);
         offerRecovery();
         if (!error.empty()) showError(utf8(error));
     };
@@ -953,16 +954,16 @@ void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std
         {"Discard it", [discard, copy] { discard({copy}); }},
         {"Not now", [this] { view_->setQuestion(nullptr); }}};
     if (total > 1) {
-        answers.push_back({"Newer", [this, copies, at] { showCopy(copies, at - 1); }, at > 0,
+        answers.push_back({"Newer", [this, copies, index] { showCopy(copies, index - 1); }, index > 0,
                            juce::KeyPress{juce::KeyPress::leftKey}});
-        answers.push_back({"Older", [this, copies, at] { showCopy(copies, at + 1); }, at + 1 < total,
+        answers.push_back({"Older", [this, copies, index] { showCopy(copies, index + 1); }, index + 1 < total,
                            juce::KeyPress{juce::KeyPress::rightKey}});
         answers.push_back({"Discard all " + count(total), [discard, copies, total] {
                                discard({copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(total)});
                            }});
     }
     view_->setQuestion(std::make_unique<QuestionCard>(
-        total > 1 ? "Take up a session?" : "Take up the last session?", words, std::move(answers)));
+        total > 1 ? "Take up a session?" : "Take up the last session?", message, std::move(answers)));
 }
 
 // The copy is kept until this run's own copy is on disk.
@@ -977,7 +978,7 @@ void MixerWindow::recover(const std::filesystem::path& copy) {
     });
 }
 
-void MixerWindow::saveScene(bool hasCurrentPoses, const juce::File& in) {
+void MixerWindow::saveScene(bool hasCurrentPoses, const juce::File& parent) {
     files_.scenesFolder().createDirectory();
     chooseFile(
         "Save as scene", ".json", true,
@@ -985,7 +986,7 @@ void MixerWindow::saveScene(bool hasCurrentPoses, const juce::File& in) {
             if (model_->reportIfError(saveSceneTo(file, hasCurrentPoses))) return;
             announceSaved("Saved the scene", file);
         },
-        "scene", in != juce::File{} ? in : files_.scenesFolder());
+        "scene", parent != juce::File{} ? parent : files_.scenesFolder());
 }
 
 std::string MixerWindow::saveSceneTo(const juce::File& file, bool hasCurrentPoses) {
@@ -1037,23 +1038,23 @@ void MixerWindow::share(bool asksAddress) {
                          "mixer's folder, Share serves it to phones, with a code.",
                    std::move(options));
     }
-    const auto linkAt = [fragment = utf8(link.value)](const juce::String& address) {
+    const auto makeLink = [fragment = utf8(link.value)](const juce::String& address) {
         return address.isEmpty() ? address
                                  : address.upToFirstOccurrenceOf("#", false, false) + "#" + fragment;
     };
-    const auto typed = std::make_shared<juce::String>(page);
-    const auto fullLink = [this, linkAt, typed] {
-        if (*typed != servedAddress_) files_.settings().setValue(pageSetting, *typed);
-        return linkAt(*typed);
+    const auto typedAddress = std::make_shared<juce::String>(page);
+    const auto fullLink = [this, makeLink, typedAddress] {
+        if (*typedAddress != servedAddress_) files_.settings().setValue(pageSetting, *typedAddress);
+        return makeLink(*typedAddress);
     };
-    const auto show = [linkAt, typed, isServed = servedAddress_.isNotEmpty()](QuestionCard& card,
-                                                                              const juce::String& address) {
-        *typed = address;
+    const auto show = [makeLink, typedAddress, isServed = servedAddress_.isNotEmpty()](
+                          QuestionCard& card, const juce::String& address) {
+        *typedAddress = address;
         const bool isLoopbackPage = isLoopback(address), hasAddress = address.isNotEmpty();
-        card.setValue(linkField, linkAt(address));
-        for (const char* words : {copyLabel, openLabel}) card.enableAnswer(words, hasAddress);
+        card.setValue(linkField, makeLink(address));
+        for (const char* label : {copyLabel, openLabel}) card.enableAnswer(label, hasAddress);
         const auto code =
-            isLoopbackPage || !hasAddress ? juce::Image{} : qrPicture(linkAt(address).toStdString());
+            isLoopbackPage || !hasAddress ? juce::Image{} : qrPicture(makeLink(address).toStdString());
         card.setPicture(code, isLoopbackPage ? "No code: this address leads nowhere on a phone, only here"
                               : !hasAddress  ? "A phone's code comes with the address"
                                              : "No code: this world's link is too long for one");
@@ -1068,9 +1069,9 @@ void MixerWindow::share(bool asksAddress) {
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {copyLabel,
          [this, fullLink] {
-             const auto words = fullLink();
-             juce::SystemClipboard::copyTextToClipboard(words);
-             model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
+             const auto copiedLink = fullLink();
+             juce::SystemClipboard::copyTextToClipboard(copiedLink);
+             model_->announce("Copied a link of " + juce::String{copiedLink.length()} + " characters");
          }},
         {openLabel, [fullLink] { openLink(fullLink()); }}};
     if (servedAddress_.isEmpty() && PageServer::isAvailable())
@@ -1106,25 +1107,25 @@ void MixerWindow::setZoom(int percent) {
 
 void MixerWindow::stepZoom(int steps) {
     const int percentNow = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
-    const auto at = std::ranges::lower_bound(zoomPercents, percentNow) - zoomPercents.begin() + steps;
-    if (at >= 0 && at < std::ssize(zoomPercents) && windowFits(nth(zoomPercents, at), displayRoom()))
-        setZoom(nth(zoomPercents, at));
+    const auto index = std::ranges::lower_bound(zoomPercents, percentNow) - zoomPercents.begin() + steps;
+    if (index >= 0 && index < std::ssize(zoomPercents) && windowFits(nth(zoomPercents, index), displaySize()))
+        setZoom(nth(zoomPercents, index));
 }
 
 // The window keeps its size on the screen.
 void MixerWindow::applyZoom() {
     auto& desktop = juce::Desktop::getInstance();
-    const auto room = displayRoom();
+    const auto room = displaySize();
     int percent = zoom() > 0 ? zoom() : automaticZoom(room);
     while (percent > zoomPercents.front() && !windowFits(percent, room))
         percent = std::max(zoomPercents.front(), percent - 25);
-    const float before = desktop.getGlobalScaleFactor(), after = 0.01f * static_cast<float>(percent);
-    const float shrunk = std::min(1.0f, after); // JUCE has limits in pixels of the display
-    setResizeLimits(juce::roundToInt(shrunk * MixerView::minWidth),
-                    juce::roundToInt(shrunk * MixerView::minHeight), 7680, 4320);
-    if (juce::approximatelyEqual(before, after)) return;
-    const auto bounds = (getBounds().toFloat() * (before / after)).toNearestInt();
-    desktop.setGlobalScaleFactor(after);
+    const float oldScale = desktop.getGlobalScaleFactor(), newScale = 0.01f * static_cast<float>(percent);
+    const float limitScale = std::min(1.0f, newScale); // JUCE has limits in pixels of the display
+    setResizeLimits(juce::roundToInt(limitScale * MixerView::minWidth),
+                    juce::roundToInt(limitScale * MixerView::minHeight), 7680, 4320);
+    if (juce::approximatelyEqual(oldScale, newScale)) return;
+    const auto bounds = (getBounds().toFloat() * (oldScale / newScale)).toNearestInt();
+    desktop.setGlobalScaleFactor(newScale);
     if (isOnDesktop()) setBounds(bounds);
 }
 
@@ -1153,7 +1154,7 @@ juce::PopupMenu MixerWindow::viewMenu() {
     add(zoomMenu, {"By the display", "Ctrl+0", true, zoom() == 0}, [this] { setZoom(0); });
     for (const int percent : zoomPercents)
         add(zoomMenu,
-            {juce::String{percent} + " %", {}, windowFits(percent, displayRoom()), zoom() == percent},
+            {juce::String{percent} + " %", {}, windowFits(percent, displaySize()), zoom() == percent},
             [this, percent] { setZoom(percent); });
     menu.addSubMenu("Zoom", zoomMenu);
     add(menu, {"Full screen for a show", "F11", true, view_->isShowMode()},

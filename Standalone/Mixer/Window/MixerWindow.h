@@ -33,12 +33,12 @@ public:
     void renderTo(const juce::File& file, double seconds);
     void saveMovie(); ///< of the last seconds; asks for their number and a file
     void saveMovieTo(const juce::File& file, double seconds);
-    void import(const juce::String& title); ///< asks for a scene or a layout and opens it
+    void askToOpen(const juce::String& title); ///< asks for a scene or a layout and opens it
     void exportLayout();
     /// Shows a link to the web page; `asksAddress`: the user types the address of the page.
     void share(bool asksAddress = false);
     /// Saves bodies as drawn or now, to a file asked for in `parent`; none: the folder of own scenes.
-    void saveScene(bool hasCurrentPoses, const juce::File& in = {});
+    void saveScene(bool hasCurrentPoses, const juce::File& parent = {});
     std::string saveSceneTo(const juce::File& file, bool hasCurrentPoses); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
     void newScene(SceneGround ground); ///< with the field and the materials of the first start
@@ -71,11 +71,11 @@ private:
     void beginSession(Mix mix, const juce::File& document, bool isPaused = false,
                       std::shared_ptr<MixerHistory> history = {});
     /// `isCrashCopy`: the file is a copy of the run that crashed, and is limited to the levels at its end.
-    bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
+    bool load(const juce::File& file, const juce::File& document, bool isCrashCopy = false);
     /// Plays a file with its levels lowered to `maxLevels`. Reports what was lowered; a button restores it.
     void playLowered(const MixerLimits& maxLevels, Mix mix, const juce::File& document,
                      bool isPaused = false);
-    void reportLowered(const std::string& lowered, const Mix& requested, const MixerLimits& max);
+    void reportLowered(const std::string& loweredText, const Mix& fileMix, const MixerLimits& maxLevels);
     void applyRequestedLevels();
     MixerLimits limits() const;
     void setSinks(const DeviceChoice& choice);
@@ -83,28 +83,28 @@ private:
     std::string outputInUse() const { return device_.name + (device_.isHeadphones ? " on the ears" : ""); }
     bool saveTo(const juce::File& file);
     void offerSaveThen(std::function<void()> proceed,
-                       const juce::String& words = "What was changed since it was saved would be lost.");
-    /// `suggested`: a file name without extension; `parent`: a folder instead of the last one.
+                       const juce::String& text = "What was changed since it was saved would be lost.");
+    /// `suggestedName`: a file name without extension; `parent`: a folder instead of the last one.
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
-                    std::function<void(const juce::File&)> onAccept, const juce::String& suggested = {},
-                    const juce::File& in = {});
+                    std::function<void(const juce::File&)> onAccept, const juce::String& suggestedName = {},
+                    const juce::File& parent = {});
     /// Asks in the window; each answer closes the card.
     void ask(const juce::String& title, const juce::String& message,
              std::vector<std::pair<juce::String, std::function<void()>>> answers,
              const std::vector<QuestionCard::Field>& fields = {});
     /// Asks for a duration in s; `quantity` begins the error message if it is beyond the limits.
-    void askSeconds(const juce::String& title, const juce::String& words, double seconds,
+    void askSeconds(const juce::String& title, const juce::String& text, double seconds,
                     juce::Range<double> limits, const juce::String& quantity,
                     std::function<void(double)> onAccept);
     void offerRecovery();
-    void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
+    void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t index);
     void recover(const std::filesystem::path& copy);
     void offerMonitor();
     void savePanelLayout(); ///< to the settings
     /// The default state, no louder than the loudest actuator of the last session, on the outputs that it
     /// used, except those of the monitor.
     Mix defaultMix();
-    void showMenu(juce::Component& from);
+    void showMenu(juce::Component& anchor);
     void setTheme(Theme theme);
     void applyZoom();
     juce::PopupMenu fileMenu();
@@ -114,8 +114,8 @@ private:
     void askDisplayWidth();
     void updateTitle();
     void showError(const juce::String& error) { model_->report(error); }
-    /// Announces a written file, with a button that shows it, or with `act`.
-    void announceSaved(const juce::String& words, const juce::File& file, MessageAction act = {});
+    /// Announces a written file, with a button that shows it, or with `action`.
+    void announceSaved(const juce::String& text, const juce::File& file, MessageAction action = {});
     void startPageServer();
     void chooseFolder();
     juce::File folderOfDocuments() const;

@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 constexpr int maxLinkedActuators = 8; // as many as the page has
-constexpr int rawDeflate = -15;
+constexpr int rawDeflateBits = -15;
 
 /// Escapes as URLSearchParams does, except for commas and equals signs.
 std::string urlEncoded(const std::string& text) {
@@ -36,7 +36,7 @@ std::string urlEncoded(const std::string& text) {
 std::string deflatedBase64(const std::string& text) {
     juce::MemoryOutputStream bytes;
     {
-        juce::GZIPCompressorOutputStream deflate{bytes, 9, rawDeflate};
+        juce::GZIPCompressorOutputStream deflate{bytes, 9, rawDeflateBits};
         deflate.write(text.data(), text.size());
     }
     return juce::Base64::toBase64(bytes.getData(), bytes.getDataSize())
@@ -51,16 +51,16 @@ std::string shareText(double metres, double extentMetres) {
 
 } // namespace
 
-Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
+Result<std::string> pageLink(const Mix& mix, const Scene& scene) {
     const auto& layout = mix.layout.geometry;
     if (layout.count > maxLinkedActuators)
         return Failure{"A link holds at most " + std::to_string(maxLinkedActuators) + " actuators, found " +
                        std::to_string(layout.count)};
     if (mix.exponent != 1.0) return Failure{"A link holds no exponent: expected 1"};
-    const Scene* const builtIn = findBuiltInScene(drawn.name);
-    const bool isBuiltIn = builtIn != nullptr && *builtIn == drawn;
-    std::string link = "scene=" + urlEncoded(isBuiltIn ? drawn.name : drawn.name + ".json");
-    if (!isBuiltIn) link += "&file=" + deflatedBase64(sceneJson(drawn));
+    const Scene* const builtIn = findBuiltInScene(scene.name);
+    const bool isBuiltIn = builtIn != nullptr && *builtIn == scene;
+    std::string link = "scene=" + urlEncoded(isBuiltIn ? scene.name : scene.name + ".json");
+    if (!isBuiltIn) link += "&file=" + deflatedBase64(sceneJson(scene));
     if (mix.seed != 1) link += "&seed=" + std::to_string(mix.seed);
     std::string places;
     for (int j = 0; j < layout.count; ++j) {

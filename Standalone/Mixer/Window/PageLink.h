@@ -9,7 +9,7 @@ namespace physvib {
 
 /// The fragment of the page's address (after the #) with scene as drawn, seed, actuators and law; or one line
 /// with what a link cannot hold. Places are rounded to thousandths of the field, as by the page. Any thread.
-Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
+Result<std::string> pageLink(const Mix& mix, const Scene& scene);
 
 /// Whether the address of a page reaches this computer only. Any thread.
 bool isLoopback(const juce::String& address);

@@ -12,14 +12,14 @@ constexpr int updatesPerClock = 3, updatesPerNumbers = 12;
 constexpr int sceneFileId = 1000; // item id; those of the user's scenes follow
 constexpr std::array<int, 4> slownessSteps{1, 2, 4, 8};
 
-juce::String clock(std::int64_t ns) {
+juce::String clockText(std::int64_t ns) {
     const auto hundredths = ns / 10'000'000;
     return juce::String{hundredths / 6000}.paddedLeft('0', 2) + ":" +
            juce::String{hundredths / 100 % 60}.paddedLeft('0', 2) + "." +
            juce::String{hundredths % 100}.paddedLeft('0', 2);
 }
 
-juce::String count(std::uint64_t n, const char* noun) {
+juce::String countedText(std::uint64_t n, const char* noun) {
     return number(static_cast<double>(n), 0) + " " + noun;
 }
 
@@ -47,8 +47,8 @@ TopBar::TopBar(MixerModel& model)
     step_.onClick = [this] { model_.session().world().stepOnce(); };
     describe(slow_, "Slow motion", "Slow motion: each press halves the speed of the world");
     slow_.onClick = [this] {
-        const auto at = std::ranges::find(slownessSteps, std::max(1, model_.session().world().slowness()));
-        model_.setSlowness(at + 1 < slownessSteps.end() ? at[1] : 1);
+        const auto step = std::ranges::find(slownessSteps, std::max(1, model_.session().world().slowness()));
+        model_.setSlowness(step + 1 < slownessSteps.end() ? step[1] : 1);
     };
     restart_.onClick = [this] { model_.restart(model_.mix().seed); };
     describe(seed_, "Seed", "Seed of the scene: another seed is another course");
@@ -56,8 +56,8 @@ TopBar::TopBar(MixerModel& model)
     seed_.setEditable(true);
     seed_.setWantsKeyboardFocus(true);
     seed_.onTextChange = [this] {
-        const auto typed = seed_.getText().retainCharacters("0123456789").getLargeIntValue();
-        model_.restart(static_cast<std::uint32_t>(juce::jlimit<juce::int64>(0, 0xffffffffll, typed)));
+        const auto typedSeed = seed_.getText().retainCharacters("0123456789").getLargeIntValue();
+        model_.restart(static_cast<std::uint32_t>(juce::jlimit<juce::int64>(0, 0xffffffffll, typedSeed)));
         mixChanged();
     };
     time_.setTitle("Time");
@@ -142,18 +142,18 @@ void TopBar::setRecording(bool isRecording) {
 
 void TopBar::refresh(const MixerSnapshot& snapshot) {
     const int phase = updates_++ % updatesPerNumbers; // faster numbers are illegible
-    if (phase % updatesPerClock == 0) time_.setText(clock(snapshot.session.sessionNs), dontNotify);
+    if (phase % updatesPerClock == 0) time_.setText(clockText(snapshot.session.sessionNs), dontNotify);
     if (phase != 0) return;
     if (isRecording_) {
         if (recordingStartNs_ < 0) recordingStartNs_ = snapshot.session.sessionNs;
-        record_.setButtonText(discSymbol +
-                              clock(snapshot.session.sessionNs - recordingStartNs_).dropLastCharacters(3));
+        record_.setButtonText(
+            discSymbol + clockText(snapshot.session.sessionNs - recordingStartNs_).dropLastCharacters(3));
     }
     // the device and its latency, as long as there is room
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isWithoutDevice = name.startsWith(juce::String{nullDeviceType} + ":");
-    const auto numbers =
+    const auto rateText =
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
     const auto latencyText = "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms ",
                longText = latencyText + "after the contact";
@@ -167,7 +167,7 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
                     Shade::limit);
     else
         device_.set(isPlayMode_ ? deviceText
-                                : joinedByDots({deviceText, numbers, juce::String{output.blockFrames()}}),
+                                : joinedByDots({deviceText, rateText, juce::String{output.blockFrames()}}),
                     isVisualOnly ? juce::String{"seen, not felt"}
                     : hasRoom    ? longText
                                  : latencyText + "later",
@@ -175,16 +175,16 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
     device_.setTooltip(name);
     // load and recent losses
     const bool hadWarning = warnsOfLoad_;
-    const auto& r = snapshot.session.render;
+    const auto& render = snapshot.session.render;
     constexpr double lossDisplayMs = 5e3; // then only Telemetry shows them, in its totals
-    const Losses losses{r.late, model_.session().world().drops() + r.unsent};
+    const Losses losses{render.late, model_.session().world().drops() + render.unsent};
     if (std::exchange(losses_, losses) != losses) lostAtMs_ = nowMs();
     if (nowMs() - lostAtMs_ > lossDisplayMs || losses.late < seenLosses_.late ||
         losses.lost < seenLosses_.lost)
         seenLosses_ = losses; // counts become smaller when another device is opened
     const Losses newLosses{losses.late - seenLosses_.late, losses.lost - seenLosses_.lost};
     load_.set("Load " + number(100.0 * snapshot.device.load, 1) + " %",
-              joinedByDots({count(newLosses.late, "late"), count(newLosses.lost, "lost")}),
+              joinedByDots({countedText(newLosses.late, "late"), countedText(newLosses.lost, "lost")}),
               newLosses == Losses{} ? Shade::text : Shade::highlight);
     warnsOfLoad_ = newLosses.lost > 0 || snapshot.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
@@ -193,8 +193,8 @@ void TopBar::refresh(const MixerSnapshot& snapshot) {
                : areReady    ? displayTitle(sinks.front().name) + ": ready"
                              : "No " + utf8(std::ranges::find(sinks, false, &SinkState::isReady)->name),
                model_.isSilent() ? juce::String{"silenced"}
-                                 : count(static_cast<std::uint64_t>(r.liveModes),
-                                         r.liveModes == 1 ? "tone rings" : "tones ring"),
+                                 : countedText(static_cast<std::uint64_t>(render.liveModes),
+                                               render.liveModes == 1 ? "tone rings" : "tones ring"),
                sinks.empty() ? Shade::muted
                : areReady    ? Shade::accent
                              : Shade::limit);
@@ -224,34 +224,34 @@ void TopBar::showControls() {
 void TopBar::resized() {
     auto area = getLocalBounds().reduced(gap, 9);
     const bool isOneLine = getHeight() <= lineHeight;
-    const auto states = area.removeFromBottom(isOneLine ? 0 : secondLineHeight).translated(0, 5);
+    const auto stateArea = area.removeFromBottom(isOneLine ? 0 : secondLineHeight).translated(0, 5);
     area.setHeight(lineHeight - 18);
-    constexpr int buttonWidth = 36, between = 8, tight = 2;
+    constexpr int buttonWidth = 36, wideGap = 8, narrowGap = 2;
     silence_.setBounds(area.removeFromRight(166));
-    area.removeFromRight(between);
+    area.removeFromRight(wideGap);
     struct Control {
         juce::Component* component;
         int width, gapAfter;
     };
     for (const auto& [component, width, gapAfter] :
-         std::initializer_list<Control>{{&menu_, 60, between},
-                                        {&save_, buttonWidth, tight},
-                                        {&undo_, buttonWidth, tight},
-                                        {&redo_, buttonWidth, between},
-                                        {&scene_, 134, between},
-                                        {&pause_, buttonWidth, tight},
-                                        {&step_, buttonWidth, tight},
-                                        {&slow_, buttonWidth, tight},
-                                        {&restart_, buttonWidth, between},
+         std::initializer_list<Control>{{&menu_, 60, wideGap},
+                                        {&save_, buttonWidth, narrowGap},
+                                        {&undo_, buttonWidth, narrowGap},
+                                        {&redo_, buttonWidth, wideGap},
+                                        {&scene_, 134, wideGap},
+                                        {&pause_, buttonWidth, narrowGap},
+                                        {&step_, buttonWidth, narrowGap},
+                                        {&slow_, buttonWidth, narrowGap},
+                                        {&restart_, buttonWidth, wideGap},
                                         {&seed_, 66, 0},
                                         {&time_, 82, 0},
-                                        {&record_, 90, between},
-                                        {&mode_, 66, between}}) {
+                                        {&record_, 90, wideGap},
+                                        {&mode_, 66, wideGap}}) {
         if (!component->isVisible()) continue;
         component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // hidden without room
         area.removeFromLeft(gapAfter);
     }
-    if (!isShowMode_) placeStates(isOneLine ? area : states);
+    if (!isShowMode_) placeStates(isOneLine ? area : stateArea);
 }
 
 // In play mode, and where there is little room, load and board are shown only with a warning or a board.

@@ -20,7 +20,8 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
         getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
         g.setColour(shade(*this, getToggleState() ? Shade::well : Shade::text));
-        g.fillPath(iconOf(tool), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+        g.fillPath(toolIcon(tool),
+                   juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
     }
     const DrawTool tool;
 };
@@ -52,28 +53,28 @@ namespace {
 constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
 
 /// Group of a button: 0 hand and selection, 1 shapes, 2 joints, 3 eraser and grid.
-int groupOf(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
+int buttonGroup(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
 
 constexpr std::array<RainPattern, 7> rainPatterns{
     {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
 
 /// Kinds of surfaces (moving, material, haptic source), on which silentBodyReason() depends.
-std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
-    std::set<std::tuple<bool, int, bool>> all;
+std::set<std::tuple<bool, int, bool>> collectSurfaces(const Scene& scene) {
+    std::set<std::tuple<bool, int, bool>> surfaces;
     for (const BodyDescription& body : scene.bodies)
-        for (const FixtureDescription& f : body.fixtures)
-            all.emplace(body.type == BodyType::dynamicBody, f.material, f.isCamera);
-    return all;
+        for (const FixtureDescription& fixture : body.fixtures)
+            surfaces.emplace(body.type == BodyType::dynamicBody, fixture.material, fixture.isCamera);
+    return surfaces;
 }
 
 bool vibrates(const Scene& scene, const BodyDescription& body) {
     return nth(scene.materials, body.fixtures[0].material).frequencyHz > 0.0;
 }
 /// Opens the menu of a material, or directly the editor of its name and colour.
-void editMaterial(juce::Component& from, bool isMenu, MixerModel& model, int material,
+void editMaterial(juce::Component& target, bool isMenu, MixerModel& model, int material,
                   const std::function<void(int)>& onCreated, const OpenMaterialPage& openPage) {
-    if (!isMenu) return askMaterial(from, model, material, false, [](int) {});
-    showMaterialMenu(from, model, material, onCreated,
+    if (!isMenu) return askMaterial(target, model, material, false, [](int) {});
+    showMaterialMenu(target, model, material, onCreated,
                      [&openPage, material](bool isRecording) { openPage(material, isRecording); });
 }
 } // namespace
@@ -103,7 +104,7 @@ void DrawBar::resized() {
         auto& button = k < static_cast<int>(tools_.size()) ? static_cast<juce::Component&>(*nth(tools_, k))
                                                            : snapButton_;
         button.setBounds(k / rows * (buttonWidth + spacing),
-                         k % rows * (height + spacing) + groupOf(k) * groupGap, buttonWidth, height);
+                         k % rows * (height + spacing) + buttonGroup(k) * groupGap, buttonWidth, height);
     }
 }
 
@@ -182,8 +183,8 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     , pane_{pane}
     , openPage_{openPage} {
     setTitle("Chosen bodies");
-    const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
-        pane_.changeSelected(name, what, continuesEdit);
+    const auto change = [this](const juce::String& name, auto bodyChange, bool continuesEdit = false) {
+        pane_.changeSelected(name, bodyChange, continuesEdit);
         refresh(); // shows the old value again if the change was refused
     };
     const auto bindSlider = [change](juce::Slider& slider, const char* name, auto set) {
@@ -202,13 +203,13 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     };
     describe(source_, "Haptic source", "Its collisions are felt");
     source_.onClick = [this, change] {
-        bool canBe = !source_.getToggleState();
-        change("Haptic source", [&canBe, is = !canBe](const Scene& s, BodyDescription& b) {
-            if (is && !vibrates(s, b)) return;
-            setSource(s, b, is);
-            canBe = true;
+        bool hasAny = !source_.getToggleState();
+        change("Haptic source", [&hasAny, setsSource = !hasAny](const Scene& s, BodyDescription& b) {
+            if (setsSource && !vibrates(s, b)) return;
+            setSource(s, b, setsSource);
+            hasAny = true;
         });
-        if (!canBe) model_.report("Nothing chosen has a material that vibrates: choose another one below");
+        if (!hasAny) model_.report("Nothing chosen has a material that vibrates: choose another one below");
     };
     for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_, &belt_}) {
         // set before the style, which creates the text box
@@ -270,15 +271,15 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     });
     // material
     newButton_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, assignMaterial_); };
-    material_ = makeLinkButton({}, "Material of what is chosen");
-    material_->setTooltip("The material: name, colour, copy, figures, recording");
-    material_->onClick = [this] {
+    editLink_ = makeLinkButton({}, "Material of what is chosen");
+    editLink_->setTooltip("The material: name, colour, copy, figures, recording");
+    editLink_->onClick = [this] {
         const auto* body =
             pane_.selected().empty() ? nullptr : model_.world().drawing().find(pane_.selected()[0]);
         if (body != nullptr)
-            editMaterial(*material_, true, model_, body->fixtures[0].material, assignMaterial_, openPage_);
+            editMaterial(*editLink_, true, model_, body->fixtures[0].material, assignMaterial_, openPage_);
     };
-    addAll(*this, {&newButton_, material_.get(), &nameLabel_, &moves_, &source_, &densityLabel_, &density_,
+    addAll(*this, {&newButton_, editLink_.get(), &nameLabel_, &moves_, &source_, &densityLabel_, &density_,
                    &bounceLabel_, &bounce_, &speedLabel_, &speed_, &torqueLabel_, &torque_, &springLabel_,
                    &spring_, &beltLabel_, &belt_});
 }
@@ -286,53 +287,53 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
 BodyPanel::~BodyPanel() = default;
 
 void BodyPanel::refresh() {
-    const auto& chosen = pane_.selected();
-    const auto* body = chosen.empty() ? nullptr : model_.world().drawing().find(chosen[0]);
+    const auto& selection = pane_.selected();
+    const auto* body = selection.empty() ? nullptr : model_.world().drawing().find(selection[0]);
     setVisible(body != nullptr && pane_.tool() != DrawTool::hand);
     if (body == nullptr) return;
     const Scene& scene = model_.world().drawing().drawn();
     // motor, spring and belt of a single body
-    const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
+    const auto* motor = selection.size() == 1 ? findMotor(scene, selection[0]) : nullptr;
     motorJoint_ = motor ? motor->name : std::string{};
     physvib::setVisible({&speedLabel_, &speed_, &torqueLabel_, &torque_}, motor != nullptr);
     if (motor && !speed_.isMouseButtonDown() && !torque_.isMouseButtonDown()) {
         speed_.setValue(driveOf(*motor).speedRadiansPerSecond, juce::dontSendNotification);
         torque_.setValue(driveOf(*motor).maxTorqueNewtonMetres, juce::dontSendNotification);
     }
-    const auto* spring = chosen.size() == 1 ? springOf(scene, chosen[0]) : nullptr;
+    const auto* spring = selection.size() == 1 ? findSpring(scene, selection[0]) : nullptr;
     springJoint_ = spring ? spring->name : std::string{};
     physvib::setVisible({&springLabel_, &spring_}, spring != nullptr);
     if (spring && !spring_.isMouseButtonDown())
         spring_.setValue(springHzOf(*spring), juce::dontSendNotification);
     const double belt = body->velocityMetresPerSecond.x;
     physvib::setVisible({&beltLabel_, &belt_},
-                        chosen.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
+                        selection.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
     if (!belt_.isMouseButtonDown()) belt_.setValue(belt, juce::dontSendNotification);
     // properties in which the bodies may differ
     const auto differs = [&](auto property) {
-        return std::ranges::any_of(chosen, [&](const std::string& name) {
-            const auto* other = model_.world().drawing().find(name);
-            return other != nullptr && property(*other) != property(*body);
+        return std::ranges::any_of(selection, [&](const std::string& name) {
+            const auto* otherBody = model_.world().drawing().find(name);
+            return otherBody != nullptr && property(*otherBody) != property(*body);
         });
     };
-    const auto bounceOf = [&scene](const BodyDescription& b) {
+    const auto effectiveBounce = [&scene](const BodyDescription& b) {
         const auto& f = b.fixtures[0];
         return f.restitution.value_or(nth(scene.materials, f.material).restitution);
     };
-    const auto marked = [](const char* caption, bool isMarked) {
+    const auto captionText = [](const char* caption, bool isMarked) {
         return caption + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
     };
-    densityLabel_.setText(marked("density", differs([&](const auto& b) { return densityOf(scene, b); })),
+    densityLabel_.setText(captionText("density", differs([&](const auto& b) { return densityOf(scene, b); })),
                           juce::dontSendNotification);
-    bounceLabel_.setText(marked("bounce", differs(bounceOf)), juce::dontSendNotification);
+    bounceLabel_.setText(captionText("bounce", differs(effectiveBounce)), juce::dontSendNotification);
     // ticked if all bodies that can have the property have it; otherwise a press gives it to them
-    const auto showToggle = [&](juce::ToggleButton& button, const char* caption, auto canHave, auto has) {
+    const auto showToggle = [&](juce::ToggleButton& button, const char* caption, auto canHave, auto isOn) {
         int capableCount = 0, tickedCount = 0;
-        for (const std::string& name : chosen)
+        for (const std::string& name : selection)
             if (const auto* b = model_.world().drawing().find(name); b != nullptr && canHave(*b))
-                ++capableCount, tickedCount += has(*b) ? 1 : 0;
+                ++capableCount, tickedCount += isOn(*b) ? 1 : 0;
         button.setToggleState(capableCount > 0 && tickedCount == capableCount, juce::dontSendNotification);
-        button.setButtonText(marked(caption, tickedCount > 0 && tickedCount < capableCount));
+        button.setButtonText(captionText(caption, tickedCount > 0 && tickedCount < capableCount));
     };
     showToggle(
         moves_, "moves",
@@ -347,30 +348,30 @@ void BodyPanel::refresh() {
     const auto material = isMixed ? juce::String{"several materials"}
                                   : utf8(nth(scene.materials, body->fixtures[0].material).name);
     if (std::exchange(shownMaterials_, scene.materials) != scene.materials) {
-        materials_.clear();
+        swatches_.clear();
         for (int i = 0; i < static_cast<int>(shownMaterials_.size()); ++i) {
-            auto& swatch = *materials_.emplace_back(std::make_unique<MaterialSwatch>(
+            auto& swatch = *swatches_.emplace_back(std::make_unique<MaterialSwatch>(
                 nth(shownMaterials_, i), palette::material(shownMaterials_, i)));
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
             swatch.onClick = [this, i] { assignMaterial_(i); };
-            swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
-                editMaterial(from, isMenu, model_, i, assignMaterial_, openPage_);
+            swatch.onEdit = [this, i](MaterialSwatch& target, bool isMenu) {
+                editMaterial(target, isMenu, model_, i, assignMaterial_, openPage_);
             };
             addAndMakeVisible(swatch);
             prepareControls(swatch);
         }
         resized();
     }
-    for (int i = 0; auto& swatch : materials_)
+    for (int i = 0; auto& swatch : swatches_)
         swatch->setToggleState(i++ == body->fixtures[0].material && !isMixed, juce::dontSendNotification);
-    nameLabel_.setText(chosen.size() == 1 ? utf8(chosen[0])
-                                          : juce::String{static_cast<int>(chosen.size())} + " bodies",
+    nameLabel_.setText(selection.size() == 1 ? utf8(selection[0])
+                                             : juce::String{static_cast<int>(selection.size())} + " bodies",
                        juce::dontSendNotification);
-    material_->setButtonText(material);
-    material_->setEnabled(!isMixed);
+    editLink_->setButtonText(material);
+    editLink_->setEnabled(!isMixed);
     if (!density_.isMouseButtonDown()) density_.setValue(densityOf(scene, *body), juce::dontSendNotification);
-    if (!bounce_.isMouseButtonDown()) bounce_.setValue(bounceOf(*body), juce::dontSendNotification);
+    if (!bounce_.isMouseButtonDown()) bounce_.setValue(effectiveBounce(*body), juce::dontSendNotification);
 }
 
 // A control stays in one line with its label; in a narrow panel each slider has its own line.
@@ -392,7 +393,7 @@ int BodyPanel::layOut(int width, bool setsBounds) {
         x += gapWidth;
     };
     place({{&nameLabel_, nameWidth},
-           {material_.get(), width > 2 * preferredWidth ? materialWidth : widerMaterial}});
+           {editLink_.get(), width > 2 * preferredWidth ? materialWidth : widerMaterial}});
     // marked buttons (the bodies differ) are wider, and each has a line of its own
     const auto isMarked = [](const juce::Button& button) {
         return button.getButtonText().containsChar(0x2260);
@@ -402,8 +403,8 @@ int BodyPanel::layOut(int width, bool setsBounds) {
         place({{&source_, sourceWidth + markWidth}});
     } else
         place({{&moves_, movesWidth}, {&source_, sourceWidth}});
-    for (auto& swatch : materials_) // the button for a new material stays beside the last swatch
-        if (swatch != materials_.back())
+    for (auto& swatch : swatches_) // the button for a new material stays beside the last swatch
+        if (swatch != swatches_.back())
             place({{swatch.get(), swatchWidth}}), x -= gapWidth;
         else
             place({{swatch.get(), swatchWidth}, {&newButton_, swatchWidth}});
@@ -462,8 +463,8 @@ void MaterialPalette::refresh() {
             auto& swatch = *swatches_.emplace_back(
                 std::make_unique<MaterialSwatch>(nth(materials, i), palette::material(materials, i)));
             swatch.onClick = [this, i] { selectMaterial_(i); };
-            swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
-                editMaterial(from, isMenu, model_, i, selectMaterial_, openPage_);
+            swatch.onEdit = [this, i](MaterialSwatch& target, bool isMenu) {
+                editMaterial(target, isMenu, model_, i, selectMaterial_, openPage_);
             };
             // the result is ignored: the tooltip already says that a material is silent
             swatch.onEnter = [this, i] { model_.eventPlayer().audition(i, 0.5, 0.5); };
@@ -471,8 +472,8 @@ void MaterialPalette::refresh() {
             prepareControls(swatch); // it is created after the other controls
         }
     }
-    if (haveChanged || surfaces_ != surfacesOf(scene)) {
-        surfaces_ = surfacesOf(scene);
+    if (haveChanged || surfaces_ != collectSurfaces(scene)) {
+        surfaces_ = collectSurfaces(scene);
         for (int i = 0; i < static_cast<int>(swatches_.size()); ++i)
             nth(swatches_, i)->setSilentReason(silentBodyReason(scene, i));
         resized();

@@ -87,13 +87,13 @@ private:
     MixerModel& model_;
     DrawPane& pane_;
     std::vector<Material> shownMaterials_;
-    std::vector<std::unique_ptr<MaterialSwatch>> materials_;
+    std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
     std::string motorJoint_, springJoint_; // joints of the single selected body; empty: none
     const OpenMaterialPage& openPage_;
     const std::function<void(int)> assignMaterial_{
         [this](int material) { pane_.setSelectedMaterial(material), refresh(); }}; ///< to the selected bodies
     IconButton newButton_{Icon::plus, "New material for what is chosen"};
-    std::unique_ptr<juce::TextButton> material_;
+    std::unique_ptr<juce::TextButton> editLink_;
     Caption nameLabel_{{}, Shade::text};
     Caption densityLabel_{"density"}, bounceLabel_{"bounce"}, speedLabel_{"motor"}, torqueLabel_{"torque"},
         springLabel_{"spring"}, beltLabel_{"belt"};

@@ -25,8 +25,8 @@ int defaultMaterial(const Scene& scene, DrawTool tool) {
 double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 constexpr float handlePixels = 9.0f;
-
-double angleOf(const Vector& from, const Vector& to) { return std::atan2(to.y - from.y, to.x - from.x); }
+constexpr double newBodyShare = 0.06; // size of a body drawn by a click, share of the height of the field
+double angleOf(const Vector& a, const Vector& b) { return std::atan2(b.y - a.y, b.x - a.x); }
 
 } // namespace
 
@@ -95,23 +95,23 @@ void DrawPane::select(std::vector<std::string> names) {
 }
 
 void DrawPane::selectAll() {
-    std::vector<std::string> all;
-    for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
+    std::vector<std::string> names;
+    for (const auto& body : drawing().drawn().bodies) names.push_back(body.name);
     setTool(DrawTool::select);
-    select(std::move(all));
+    select(std::move(names));
 }
 
 void DrawPane::mixChanged() {
-    const auto before = selected_.size();
+    const auto oldCount = selected_.size();
     std::erase_if(selected_, [&](const std::string& name) { return drawing().find(name) == nullptr; });
     const auto& materials = drawing().drawn().materials;
-    if (scene_ != model_.mix().scene) {
-        scene_ = model_.mix().scene;
+    if (materialScene_ != model_.mix().scene) {
+        materialScene_ = model_.mix().scene;
         isMaterialChosen_ = false;
         material_ = defaultMaterial(drawing().drawn(), tool_);
     }
     if (material_ >= static_cast<int>(materials.size())) material_ = 0;
-    if (before != selected_.size() && onChange) onChange();
+    if (oldCount != selected_.size() && onChange) onChange();
     repaint();
 }
 
@@ -119,11 +119,11 @@ void DrawPane::changeSelected(const juce::String& name,
                               const std::function<void(const Scene&, BodyDescription&)>& change,
                               bool continuesEdit) {
     std::vector<Action> actions;
-    for (const std::string& chosen : selected_)
-        if (const auto* body = drawing().find(chosen)) {
-            BodyDescription next = *body;
-            change(drawing().drawn(), next);
-            if (next != *body) actions.push_back(changeAction(std::move(next)));
+    for (const std::string& bodyName : selected_)
+        if (const auto* body = drawing().find(bodyName)) {
+            BodyDescription changedBody = *body;
+            change(drawing().drawn(), changedBody);
+            if (changedBody != *body) actions.push_back(changeAction(std::move(changedBody)));
         }
     edit(name, std::move(actions), continuesEdit);
 }
@@ -134,8 +134,8 @@ void DrawPane::edit(const juce::String& name, std::vector<Action> actions, bool 
 }
 
 std::optional<BodyPlace> DrawPane::currentPlace(const std::string& name) const {
-    const auto shown = view_.poseOfBody(name);
-    const auto pose = shown ? poseWithinLimits(*shown) : std::nullopt;
+    const auto shownPose = view_.poseOfBody(name);
+    const auto pose = shownPose ? poseWithinLimits(*shownPose) : std::nullopt;
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 
@@ -195,13 +195,13 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
         else if (grip_ == Grip::move || grip_ == Grip::turn)
             edit(grip_ == Grip::turn ? "Turn" : "Move", moveActions(drawing(), movedPlaces()));
         else if (grip_ == Grip::marquee && !stroke_.empty()) {
-            std::vector<std::string> inside = e.mods.isShiftDown() ? selected_ : std::vector<std::string>{};
+            std::vector<std::string> names = e.mods.isShiftDown() ? selected_ : std::vector<std::string>{};
             for (const auto& body : drawing().drawn().bodies)
                 if (const auto place = currentPlace(body.name);
                     place && (place->metres.x - stroke_[0].x) * (place->metres.x - pointerMetres_.x) < 0.0 &&
                     (place->metres.y - stroke_[0].y) * (place->metres.y - pointerMetres_.y) < 0.0)
-                    if (std::ranges::find(inside, body.name) == inside.end()) inside.push_back(body.name);
-            select(inside);
+                    if (std::ranges::find(names, body.name) == names.end()) names.push_back(body.name);
+            select(names);
         }
     }
     cancelStroke();
@@ -212,20 +212,20 @@ void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
 }
 
 Result<BodyDescription> DrawPane::strokeBody() const {
-    const double height = model_.world().scene().fieldHeightMetres, size = 0.06 * height;
-    const Vector from = stroke_.empty() ? pointerMetres_ : stroke_[0];
-    const bool isClick = distance(from, pointerMetres_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    const double height = model_.world().scene().fieldHeightMetres, size = newBodyShare * height;
+    const Vector start = stroke_.empty() ? pointerMetres_ : stroke_[0];
+    const bool isClick = distance(start, pointerMetres_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
     switch (tool_) {
-    case DrawTool::ball: return makeBall(from, isClick ? Vector{from.x + size, from.y} : pointerMetres_);
+    case DrawTool::ball: return makeBall(start, isClick ? Vector{start.x + size, start.y} : pointerMetres_);
     case DrawTool::box:
-        return isClick ? makeBox({from.x - 1.1 * size, from.y - 0.8 * size},
-                                 {from.x + 1.1 * size, from.y + 0.8 * size})
-                       : makeBox(from, pointerMetres_);
+        return isClick ? makeBox({start.x - 1.1 * size, start.y - 0.8 * size},
+                                 {start.x + 1.1 * size, start.y + 0.8 * size})
+                       : makeBox(start, pointerMetres_);
     case DrawTool::line: return makeLine(stroke_, 0.004 * height);
     case DrawTool::conveyor: return strokeBelt();
     case DrawTool::wall:
-        return makeWall(isClick ? Vector{from.x - 2.0 * size, from.y} : from,
-                        isClick ? Vector{from.x + 2.0 * size, from.y} : pointerMetres_, 0.03 * height);
+        return makeWall(isClick ? Vector{start.x - 2.0 * size, start.y} : start,
+                        isClick ? Vector{start.x + 2.0 * size, start.y} : pointerMetres_, 0.03 * height);
     default: return makePolygon(stroke_);
     }
 }
@@ -234,15 +234,15 @@ Result<BodyDescription> DrawPane::strokeBody() const {
 // that, because the balls of a flat rain would be too small.
 Result<std::vector<BodyDescription>> DrawPane::strokeRain() const {
     const auto& scene = model_.world().scene();
-    const Vector from = stroke_.empty() ? pointerMetres_ : stroke_[0];
-    const bool isClick = distance(from, pointerMetres_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    const Vector start = stroke_.empty() ? pointerMetres_ : stroke_[0];
+    const bool isClick = distance(start, pointerMetres_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
     const auto side = [isClick](double a, double b, double field) { // centre and half length
         const double half = 0.5 * std::abs(b - a), minHalf = (isClick ? 0.15 : 0.075) * field;
         return half < minHalf ? std::pair{std::clamp(0.5 * (a + b), minHalf, field - minHalf), minHalf}
                               : std::pair{0.5 * (a + b), half};
     };
-    const auto [x, halfWidth] = side(from.x, pointerMetres_.x, scene.fieldWidthMetres);
-    const auto [y, halfHeight] = side(from.y, pointerMetres_.y, scene.fieldHeightMetres);
+    const auto [x, halfWidth] = side(start.x, pointerMetres_.x, scene.fieldWidthMetres);
+    const auto [y, halfHeight] = side(start.y, pointerMetres_.y, scene.fieldHeightMetres);
     return makeRain({x - halfWidth, y - halfHeight}, {x + halfWidth, y + halfHeight}, rainCount_);
 }
 
@@ -250,12 +250,12 @@ Result<std::vector<BodyDescription>> DrawPane::strokeRain() const {
 Result<BodyDescription> DrawPane::strokeBelt() const {
     constexpr double thicknessShare = 0.05, speedShare = 0.8; // of the field's height; speed per second
     const double height = model_.world().scene().fieldHeightMetres, thickness = thicknessShare * height;
-    const Vector from = stroke_.empty() ? pointerMetres_ : stroke_[0];
-    const bool isClick = distance(from, pointerMetres_) < thickness;
+    const Vector start = stroke_.empty() ? pointerMetres_ : stroke_[0];
+    const bool isClick = distance(start, pointerMetres_) < thickness;
     auto belt =
-        makeWall(from, isClick ? Vector{from.x + 8.0 * thickness, from.y} : pointerMetres_, thickness);
+        makeWall(start, isClick ? Vector{start.x + 8.0 * thickness, start.y} : pointerMetres_, thickness);
     belt.value.velocityMetresPerSecond.x =
-        (!isClick && pointerMetres_.x < from.x ? -1.0 : 1.0) * speedShare * height;
+        (!isClick && pointerMetres_.x < start.x ? -1.0 : 1.0) * speedShare * height;
     return belt;
 }
 
@@ -276,7 +276,7 @@ bool DrawPane::prepareBodies(std::vector<BodyDescription>& bodies) {
     if (drawing().drawn().materials.empty())
         return model_.report("The scene has no materials to draw with"), false;
     const auto names =
-        drawing().unusedNames(juce::String{infoOf(tool_).name}.toLowerCase().toStdString(), bodies.size());
+        drawing().unusedNames(juce::String{toolInfo(tool_).name}.toLowerCase().toStdString(), bodies.size());
     const bool vibrates = nth(drawing().drawn().materials, material_).frequencyHz > 0.0;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         bodies[k].name = names[k];
@@ -293,7 +293,7 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     std::vector<Action> actions;
     const std::vector<std::string> names{bodies.value.front().name};
     for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
-    edit("Draw a " + juce::String{infoOf(tool_).name}.toLowerCase(), std::move(actions));
+    edit("Draw a " + juce::String{toolInfo(tool_).name}.toLowerCase(), std::move(actions));
     if (tool_ != DrawTool::conveyor) hintOnBody(model_, names.front()); // a belt is not felt
     if (drawing().find(names.front()) != nullptr) select(names);        // keeps the body panel visible
 }
@@ -304,19 +304,19 @@ void DrawPane::closePolygon() {
 }
 
 void DrawPane::addAt(DrawTool tool, Vector place) {
-    const DrawTool before = tool_;
+    const DrawTool previousTool = tool_;
     setTool(tool);
     pointerMetres_ = place;
     stroke_ = {place};
     constexpr double length = 0.2; // of an upward spring, as a share of the field's height
     if (tool == DrawTool::spring) pointerMetres_.y += length * model_.world().scene().fieldHeightMetres;
     isJointTool(tool) ? addJoint() : addStroke();
-    setTool(before);
+    setTool(previousTool);
 }
 
 void DrawPane::addAtCentre() {
     const auto& scene = model_.world().scene();
-    const double size = 0.06 * scene.fieldHeightMetres;
+    const double size = newBodyShare * scene.fieldHeightMetres;
     pointerMetres_ = {0.5 * scene.fieldWidthMetres, 0.5 * scene.fieldHeightMetres};
     stroke_ = {pointerMetres_};
     if (tool_ == DrawTool::line)
@@ -362,47 +362,47 @@ std::string DrawPane::findOrAddAnchor(std::vector<Action>& actions, const Vector
 }
 
 void DrawPane::addJoint() {
-    const Vector from = stroke_.empty() ? pointerMetres_ : stroke_[0];
-    const bool isPoint = tool_ == DrawTool::pin || tool_ == DrawTool::motor;
+    const Vector start = stroke_.empty() ? pointerMetres_ : stroke_[0];
+    const bool hasOnePoint = tool_ == DrawTool::pin || tool_ == DrawTool::motor;
     const auto drawnBodiesAt = [&](const Vector& place) {
         auto names = view_.bodiesAt(view_.pixelOfMetres(place));
         std::erase_if(names, [&](const std::string& name) { return drawing().find(name) == nullptr; });
         return names;
     };
-    const auto first = drawnBodiesAt(from), second = isPoint ? first : drawnBodiesAt(pointerMetres_);
-    const std::size_t index = isPoint ? 1 : 0;
+    const auto first = drawnBodiesAt(start), second = hasOnePoint ? first : drawnBodiesAt(pointerMetres_);
+    const std::size_t index = hasOnePoint ? 1 : 0;
     if (first.empty() && (second.empty() || tool_ == DrawTool::slider))
         return model_.messages().show({"A joint holds a body: begin on one, in a pause if they move",
                                        false,
                                        {"Pause", [&model = model_] { model.setSlowness(0); }},
                                        attemptLabel});
     std::vector<Action> actions;
-    std::string b = first.empty() ? std::string{} : first[0],
-                a = second.size() > index && second[index] != b ? second[index] : std::string{};
-    if (tool_ == DrawTool::slider) a.clear(); // its axis is fixed to the field
-    if (b.empty()) b = findOrAddAnchor(actions, from);
-    if (a.empty()) a = findOrAddAnchor(actions, isPoint ? from : pointerMetres_);
+    std::string bodyB = first.empty() ? std::string{} : first[0],
+                bodyA = second.size() > index && second[index] != bodyB ? second[index] : std::string{};
+    if (tool_ == DrawTool::slider) bodyA.clear(); // its axis is fixed to the field
+    if (bodyB.empty()) bodyB = findOrAddAnchor(actions, start);
+    if (bodyA.empty()) bodyA = findOrAddAnchor(actions, hasOnePoint ? start : pointerMetres_);
     SceneDrawing draft = drawing();
     for (const Action& action : actions) draft.apply(action);
-    const auto place = [&](const std::string& name) {
-        const auto now = currentPlace(name);
+    const auto namedPlace = [&](const std::string& name) {
+        const auto shownPlace = currentPlace(name);
         const auto* body = draft.find(name);
-        return std::pair{name, now    ? *now
-                               : body ? BodyPlace{body->positionMetres, body->angleRadians}
-                                      : BodyPlace{}};
+        return std::pair{name, shownPlace ? *shownPlace
+                               : body     ? BodyPlace{body->positionMetres, body->angleRadians}
+                                          : BodyPlace{}};
     };
     const auto kind = tool_ == DrawTool::pin      ? JointKind::pin
                       : tool_ == DrawTool::motor  ? JointKind::motor
                       : tool_ == DrawTool::rope   ? JointKind::rope
                       : tool_ == DrawTool::spring ? JointKind::spring
                                                   : JointKind::slider;
-    const bool isReversed = tool_ == DrawTool::rope || tool_ == DrawTool::spring; // the stroke begins on b
-    auto joint = joinActions(draft, kind, place(a), place(b), isReversed ? pointerMetres_ : from,
-                             isReversed ? from : pointerMetres_);
+    const bool isReversed = tool_ == DrawTool::rope || tool_ == DrawTool::spring; // stroke begins on bodyB
+    auto joint = joinActions(draft, kind, namedPlace(bodyA), namedPlace(bodyB),
+                             isReversed ? pointerMetres_ : start, isReversed ? start : pointerMetres_);
     if (!joint) return model_.report(utf8(joint.error));
     actions.insert(actions.end(), joint.value.begin(), joint.value.end());
     model_.messages().withdraw(attemptLabel);
-    edit(infoOf(tool_).name, std::move(actions));
+    edit(toolInfo(tool_).name, std::move(actions));
 }
 
 juce::Rectangle<float> DrawPane::selectionBounds() const {
@@ -414,8 +414,8 @@ juce::Rectangle<float> DrawPane::selectionBounds() const {
         const LocalBounds box = localBounds(*body);
         for (const double x : {box.min.x, box.max.x})
             for (const double y : {box.min.y, box.max.y}) {
-                const auto at = view_.pixelOfMetres(detail::Motion{{}, *place}({x, y}));
-                area = area.getUnion(juce::Rectangle<float>{1.0f, 1.0f}.withCentre(at));
+                const auto corner = view_.pixelOfMetres(detail::Motion{{}, *place}({x, y}));
+                area = area.getUnion(juce::Rectangle<float>{1.0f, 1.0f}.withCentre(corner));
             }
     }
     return area;
@@ -429,10 +429,10 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
     const auto toPixels = [&](double x, double y) {
         return view_.pixelOfMetres(detail::Motion{{}, *place}({x, y}));
     };
-    const double above = box.max.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
+    const double turnHandleY = box.max.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
     return Handles{{toPixels(box.min.x, box.min.y), toPixels(box.max.x, box.min.y),
                     toPixels(box.max.x, box.max.y), toPixels(box.min.x, box.max.y)},
-                   toPixels(0.5 * (box.min.x + box.max.x), above),
+                   toPixels(0.5 * (box.min.x + box.max.x), turnHandleY),
                    toPixels(0.0, 0.0)};
 }
 
@@ -449,13 +449,13 @@ void DrawPane::beginGrip(const juce::MouseEvent& e) {
         if (!e.mods.isShiftDown()) select({});
         return void(grip_ = Grip::marquee);
     }
-    auto next = selected_;
-    const auto place = std::ranges::find(next, *grippedBody);
+    auto newSelection = selected_;
+    const auto entry = std::ranges::find(newSelection, *grippedBody);
     if (e.mods.isShiftDown())
-        place == next.end() ? next.push_back(*grippedBody) : void(next.erase(place));
-    else if (place == next.end())
-        next = {*grippedBody};
-    select(next);
+        entry == newSelection.end() ? newSelection.push_back(*grippedBody) : void(newSelection.erase(entry));
+    else if (entry == newSelection.end())
+        newSelection = {*grippedBody};
+    select(newSelection);
     grip_ = Grip::move;
 }
 
@@ -463,13 +463,13 @@ BodyDescription DrawPane::resizedBody() const {
     const auto& body = *drawing().find(selected_[0]);
     const auto place = currentPlace(selected_[0]);
     if (!place || stroke_.empty()) return body;
-    const auto local = [&](const Vector& p) {
-        const Vector in = detail::Motion{*place, {}}(p);
-        return Vector{std::abs(in.x), std::abs(in.y)};
+    const auto toExtent = [&](const Vector& p) {
+        const Vector offset = detail::Motion{*place, {}}(p);
+        return Vector{std::abs(offset.x), std::abs(offset.y)};
     };
-    const Vector before = local(stroke_[0]), now = local(pointerMetres_);
+    const Vector startExtent = toExtent(stroke_[0]), newExtent = toExtent(pointerMetres_);
     const auto factor = [](double a, double b) { return a > 1e-6 ? std::clamp(b / a, 0.05, 20.0) : 1.0; };
-    return scaledBody(body, factor(before.x, now.x), factor(before.y, now.y));
+    return scaledBody(body, factor(startExtent.x, newExtent.x), factor(startExtent.y, newExtent.y));
 }
 
 std::map<std::string, BodyPlace> DrawPane::movedPlaces() const {
@@ -490,13 +490,13 @@ std::map<std::string, BodyPlace> DrawPane::movedPlaces() const {
     return places;
 }
 
-void DrawPane::nudge(Vector byMetres, double byRadians) {
+void DrawPane::nudge(Vector shiftMetres, double turnRadians) {
     std::map<std::string, BodyPlace> places;
     for (const std::string& name : selected_)
         if (auto place = currentPlace(name))
-            places.emplace(name, BodyPlace{{place->metres.x + byMetres.x, place->metres.y + byMetres.y},
-                                           place->angleRadians + byRadians});
-    edit(byRadians != 0.0 ? "Turn" : "Move", moveActions(drawing(), places));
+            places.emplace(name, BodyPlace{{place->metres.x + shiftMetres.x, place->metres.y + shiftMetres.y},
+                                           place->angleRadians + turnRadians});
+    edit(turnRadians != 0.0 ? "Turn" : "Move", moveActions(drawing(), places));
 }
 
 void DrawPane::scaleSelected(double factor) {
@@ -504,16 +504,16 @@ void DrawPane::scaleSelected(double factor) {
         "Size", [factor](const Scene&, BodyDescription& body) { body = scaledBody(body, factor, factor); });
 }
 
-void DrawPane::paste(const CopiedBodies& copy, Vector beside) {
+void DrawPane::paste(const CopiedBodies& copy, Vector shiftMetres) {
     std::vector<std::string> names;
-    edit("Paste", pasteActions(drawing(), copy, beside, names));
+    edit("Paste", pasteActions(drawing(), copy, shiftMetres, names));
     setTool(DrawTool::select);
     select(names);
 }
 
 void DrawPane::pasteAt(Vector place) {
-    const Vector& from = clipboard_.bodies.front().positionMetres;
-    paste(clipboard_, {place.x - from.x, place.y - from.y});
+    const Vector& origin = clipboard_.bodies.front().positionMetres;
+    paste(clipboard_, {place.x - origin.x, place.y - origin.y});
 }
 
 // Bodies that the script still needs are erased with their script inputs; the world then restarts.
@@ -550,13 +550,13 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
         return closePolygon(), true;
     if (key == KeyPress::returnKey && (isStrokeTool(tool_) || tool_ == DrawTool::polygon))
         return addAtCentre(), true;
-    const double step = model_.world().scene().fieldHeightMetres / gridsPerField;
-    const Vector beside{2.0 * step, 2.0 * step};
-    if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(clipboard_, beside), true;
+    const double step = model_.world().scene().fieldHeightMetres / gridCellsPerField;
+    const Vector shiftMetres{2.0 * step, 2.0 * step};
+    if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(clipboard_, shiftMetres), true;
     if (key == KeyPress::tabKey || tool_ != DrawTool::select || selected_.empty()) return false;
     if (key == KeyPress::deleteKey || key == KeyPress::backspaceKey) return eraseBodies(selected_), true;
     if (key == KeyPress{'c', command, 0}) return copy(selected_), true;
-    if (key == KeyPress{'d', command, 0}) return paste(copyBodies(drawing(), selected_), beside), true;
+    if (key == KeyPress{'d', command, 0}) return paste(copyBodies(drawing(), selected_), shiftMetres), true;
     if (key == KeyPress::leftKey) return nudge({-step, 0.0}, 0.0), true;
     if (key == KeyPress::rightKey) return nudge({step, 0.0}, 0.0), true;
     if (key == KeyPress::upKey) return nudge({0.0, step}, 0.0), true;
@@ -579,16 +579,16 @@ Vector DrawPane::atCurrentPose(const Vector& point, const std::string& name) con
 
 juce::Line<float> DrawPane::jointLine(const JointDescription& joint) const {
     const auto pose = jointPose(joint);
-    const bool isBetween = std::holds_alternative<DistanceJoint>(joint.joint);
+    const bool joinsTwoPoints = std::holds_alternative<DistanceJoint>(joint.joint);
     return {view_.pixelOfMetres(atCurrentPose(pose.aMetres, joint.bodyA)),
-            view_.pixelOfMetres(atCurrentPose(pose.bMetres, isBetween ? joint.bodyB : joint.bodyA))};
+            view_.pixelOfMetres(atCurrentPose(pose.bMetres, joinsTwoPoints ? joint.bodyB : joint.bodyA))};
 }
 
 std::string DrawPane::jointAt(juce::Point<float> pixel) const {
     constexpr float hitPixels = 8.0f;
     for (const auto& joint : drawing().drawn().joints) {
-        juce::Point<float> on;
-        if (jointLine(joint).getDistanceFromPoint(pixel, on) < hitPixels) return joint.name;
+        juce::Point<float> nearestPoint;
+        if (jointLine(joint).getDistanceFromPoint(pixel, nearestPoint) < hitPixels) return joint.name;
     }
     return {};
 }
@@ -618,12 +618,12 @@ void DrawPane::drawBelts(juce::Graphics& g) const {
         juce::Line<float> line{toPixels(box.min.x, 0.0), toPixels(box.max.x, 0.0)};
         if (speed * std::cos(place->angleRadians) < 0.0) line = line.reversed();
         const float size = 0.3f * toPixels(0.0, box.min.y).getDistanceFrom(toPixels(0.0, box.max.y));
-        for (float at = 0.5f * spacing; at < line.getLength(); at += spacing) {
+        for (float offset = 0.5f * spacing; offset < line.getLength(); offset += spacing) {
             juce::Path arrow;
             arrow.addTriangle(-size, -size, -size, size, size, 0.0f);
             g.fillPath(arrow, juce::AffineTransform::rotation(line.getAngle() -
                                                               0.5f * juce::MathConstants<float>::pi)
-                                  .translated(line.getPointAlongLine(at)));
+                                  .translated(line.getPointAlongLine(offset)));
         }
     }
 }
@@ -651,48 +651,48 @@ void DrawPane::drawSelection(juce::Graphics& g) const {
     for (const auto& badge : view_.badges()) g.excludeClipRegion(badge.getSmallestIntegerContainer());
     const auto accent = shade(*this, Shade::accent);
     const bool isMoving = isDrawing_ && (grip_ == Grip::move || grip_ == Grip::turn);
-    const auto moved = isMoving ? movedPlaces() : std::map<std::string, BodyPlace>{};
+    const auto newPlaces = isMoving ? movedPlaces() : std::map<std::string, BodyPlace>{};
     for (const std::string& name : selected_) {
         const auto* body = drawing().find(name);
         const auto place = currentPlace(name);
         if (body == nullptr || !place) continue;
         drawOutline(g, *body, *place, accent, false);
-        if (const auto next = moved.find(name); next != moved.end())
-            drawOutline(g, *body, next->second, accent, true);
+        if (const auto newPlace = newPlaces.find(name); newPlace != newPlaces.end())
+            drawOutline(g, *body, newPlace->second, accent, true);
     }
     if (isDrawing_ && grip_ == Grip::size && selected_.size() == 1)
         if (const auto place = currentPlace(selected_[0]))
             drawOutline(g, resizedBody(), *place, accent, true);
     const auto handleAreas = handles();
     if (!handleAreas || tool_ != DrawTool::select) return;
-    const auto handle = [&](juce::Point<float> at, bool isRound) {
-        const auto area = juce::Rectangle<float>{10.0f, 10.0f}.withCentre(at);
+    const auto drawHandle = [&](juce::Point<float> centre, bool isRound) {
+        const auto area = juce::Rectangle<float>{10.0f, 10.0f}.withCentre(centre);
         g.setColour(shade(*this, Shade::well));
         isRound ? g.fillEllipse(area) : g.fillRect(area);
         g.setColour(accent);
         isRound ? g.drawEllipse(area, 1.8f) : g.drawRect(area, 1.8f);
     };
-    for (const auto& corner : handleAreas->corners) handle(corner, false);
-    handle(handleAreas->turn, true);
+    for (const auto& corner : handleAreas->corners) drawHandle(corner, false);
+    drawHandle(handleAreas->turn, true);
 }
 
 void DrawPane::drawStroke(juce::Graphics& g) const {
     if (!isDrawing_ || stroke_.empty()) return;
     const auto accent = shade(*this, Shade::accent);
-    const auto from = view_.pixelOfMetres(stroke_[0]), to = view_.pixelOfMetres(pointerMetres_);
+    const auto start = view_.pixelOfMetres(stroke_[0]), end = view_.pixelOfMetres(pointerMetres_);
     g.setColour(accent);
     if (tool_ == DrawTool::select)
-        return grip_ == Grip::marquee ? g.drawRect(juce::Rectangle<float>{from, to}, 1.2f) : void();
+        return grip_ == Grip::marquee ? g.drawRect(juce::Rectangle<float>{start, end}, 1.2f) : void();
     if (tool_ == DrawTool::polygon || tool_ == DrawTool::line) {
         juce::Path path;
-        path.startNewSubPath(from);
+        path.startNewSubPath(start);
         for (const Vector& place : stroke_) path.lineTo(view_.pixelOfMetres(place));
-        path.lineTo(to);
+        path.lineTo(end);
         return g.strokePath(path, juce::PathStrokeType{2.0f});
     }
     if (tool_ == DrawTool::spring)
-        return g.strokePath(coilOutline<juce::Path>(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
-    if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
+        return g.strokePath(coilOutline<juce::Path>(start, end, 6.0f, 6), juce::PathStrokeType{2.0f});
+    if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({start, end}, 2.0f);
     if (tool_ == DrawTool::rain) {
         for (const auto& body : strokeRain().value)
             drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);

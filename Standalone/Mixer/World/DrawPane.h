@@ -71,7 +71,7 @@ public:
     void mouseDoubleClick(const juce::MouseEvent& e) override;
 
 private:
-    static constexpr double gridsPerField = 40.0, turnStep = juce::MathConstants<double>::pi / 12.0;
+    static constexpr double gridCellsPerField = 40.0, turnStep = juce::MathConstants<double>::pi / 12.0;
     enum class Grip { none, move, size, turn, marquee }; // what a drag with the tool select changes
     struct Handles {                                     // of one body, in pixels
         std::array<juce::Point<float>, 4> corners;
@@ -82,7 +82,7 @@ private:
         return snapToGrid(view_.metresAt(e.position), gridMetres());
     }
     double gridMetres() const {
-        return isSnapping_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
+        return isSnapping_ ? model_.world().scene().fieldHeightMetres / gridCellsPerField : 0.0;
     }
     bool isOutsideField(juce::Point<float> pixel) const;
     std::optional<Handles> handles() const;
@@ -98,9 +98,9 @@ private:
     void eraseAt(const juce::MouseEvent& e);
     void edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit = false);
     void beginGrip(const juce::MouseEvent& e);
-    void nudge(Vector byMetres, double byRadians);
+    void nudge(Vector shiftMetres, double turnRadians);
     void scaleSelected(double factor);
-    void paste(const CopiedBodies& copy, Vector beside);
+    void paste(const CopiedBodies& copy, Vector shiftMetres);
     void closePolygon();
     void addAtCentre();
     bool handleToolKey(const juce::KeyPress& key);
@@ -119,8 +119,8 @@ private:
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
     int material_ = 0;
-    bool isMaterialChosen_ = false;      // the user chose the material
-    std::shared_ptr<const Scene> scene_; // scene for which it was chosen
+    bool isMaterialChosen_ = false;              // the user chose the material
+    std::shared_ptr<const Scene> materialScene_; // scene for which it was chosen
     int rainCount_ = 50;
     Rain rain_;
     bool isSnapping_ = false, isDrawing_ = false;

@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-juce::Path iconOf(DrawTool tool) {
+juce::Path toolIcon(DrawTool tool) {
     juce::Path icon, line;
     const auto stroke = [&icon, &line](float width = 1.8f) {
         juce::PathStrokeType{width}.createStrokedPath(icon, line);

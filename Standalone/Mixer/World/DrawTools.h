@@ -61,10 +61,10 @@ inline bool isJointTool(DrawTool tool) { // a click or a drag joins two bodies
            tool == DrawTool::slider || tool == DrawTool::motor;
 }
 
-inline const DrawToolInfo& infoOf(DrawTool tool) { return nth(drawTools, tool); }
+inline const DrawToolInfo& toolInfo(DrawTool tool) { return nth(drawTools, tool); }
 
 /// Icon around (0, 0), within 9 pixels in each direction.
-juce::Path iconOf(DrawTool tool);
+juce::Path toolIcon(DrawTool tool);
 
 /// How the bodies of a rain appear: all at once or at a rate in simulated time, where they were drawn or
 /// upwards from one place.

@@ -11,8 +11,9 @@ namespace {
 constexpr double minHitTextMs = 900.0;  // minimum time that a hit is described, unless a stronger one comes
 constexpr double gripIntervalMs = 10.0; // between inputs while a body is held; mice report more often
 constexpr double gripSeconds = 0.02;    // duration of each grip; the next one comes before its end
-// widths of the panel in pixels at which law, master and drag knob have room; height of the bottom row
-constexpr int minWidthWithLaw = 700, masterWidth = 260, minWidthWithKnob = 820, footerHeight = 42;
+// widths of the panel in pixels at which law, master and drag knob have room; bottom row and knobs
+constexpr int minWidthWithLaw = 700, masterWidth = 260, minWidthWithKnob = 820, footerHeight = 42,
+              knobWidth = 38;
 const juce::String separator = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
@@ -34,8 +35,8 @@ WorldPanel::WorldPanel(MixerModel& model)
         model_.reportIfError(
             model_.world().apply(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
     };
-    view_.onHold = [this](const std::string& body, Vector point, Vector to) {
-        pendingGrip_ = GripAction{body, to, point, gripSeconds};
+    view_.onHold = [this](const std::string& body, Vector point, Vector target) {
+        pendingGrip_ = GripAction{body, target, point, gripSeconds};
         sendGrip();
     };
     view_.onRelease = [this](const std::string& body) {
@@ -46,23 +47,23 @@ WorldPanel::WorldPanel(MixerModel& model)
         return "drag " + number(1e-3 * model_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
                kiloNewtonSeconds;
     };
-    view_.onAttach = [this](FieldShare at) { model_.attach(at.x, at.y); };
+    view_.onAttach = [this](FieldShare share) { model_.attach(share.x, share.y); };
     view_.onDetach = [this](int actuator) { model_.detach(actuator); };
     view_.acceptsFiles = isClipDrag;
-    view_.onFiles = [this](const juce::StringArray& files, int actuator, FieldShare at) {
+    view_.onFiles = [this](const juce::StringArray& files, int actuator, FieldShare share) {
         if (actuator >= 0)
             model_.eventPlayer().playClipOn(files, actuator);
         else
-            model_.eventPlayer().playClipAt(files, at.x, at.y);
+            model_.eventPlayer().playClipAt(files, share.x, share.y);
     };
-    view_.onMove = [this](int actuator, FieldShare to) {
+    view_.onMove = [this](int actuator, FieldShare newShare) {
         model_.change(
             "Move " + labelOf(model_.mix(), actuator),
             [&](Mix& mix) {
                 auto& layout = mix.layout.geometry;
                 auto& place = nth(layout.places, actuator); // depth and part of the body stay unchanged
-                place.xMetres = to.x * layout.extentWidthMetres;
-                place.yMetres = to.y * layout.extentHeightMetres;
+                place.xMetres = newShare.x * layout.extentWidthMetres;
+                place.yMetres = newShare.y * layout.extentHeightMetres;
                 mix.layout.name = "own";
             },
             std::exchange(isBadgeMoving_, true));
@@ -91,7 +92,7 @@ WorldPanel::WorldPanel(MixerModel& model)
                      "double click: as in the thesis");
     drag_.setRange(minDrag, maxDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
-    drag_.setDoubleClickReturnValue(true, thesisDrag);
+    drag_.setDoubleClickReturnValue(true, defaultDrag);
     drag_.textFromValueFunction = [](double push) {
         return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m";
     };
@@ -100,9 +101,9 @@ WorldPanel::WorldPanel(MixerModel& model)
             "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
             continuesEdit);
     });
-    compare_.setTitle("Compare A and B");
-    compare_.onClick = [this] { comparison_.toggle(); };
-    addAll(*this, {&view_, &pane_, &bar_, &hitLabel_, &lawLabel_, &compare_, &tilt_, &tiltLabel_, &drag_,
+    abButton_.setTitle("Compare A and B");
+    abButton_.onClick = [this] { comparison_.toggle(); };
+    addAll(*this, {&view_, &pane_, &toolBar_, &hitLabel_, &lawLabel_, &abButton_, &tilt_, &tiltLabel_, &drag_,
                    &dragLabel_});
     addHidden(*this, {&master_, &palette_, &bodyPanel_, &scriptStrip_});
     pane_.onChange = [this] { showTools(); };
@@ -134,14 +135,14 @@ void WorldPanel::mixChanged() {
     lawLabel_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + separator + "exponent " +
                           number(mix.exponent, 1),
                       juce::dontSendNotification);
-    const bool isB = comparison_.isOn() && comparison_.activeState() == 'B';
-    compare_.setButtonText(!comparison_.isOn() ? "A/B" : isB ? "B" : "A");
-    compare_.setToggleState(comparison_.isOn(), juce::dontSendNotification);
-    compare_.setTooltip(!comparison_.isOn()
-                            ? juce::String{"Compare two laws, layouts or mixes (A): B begins as a copy of A"}
-                            : juce::String{isB ? "B" : "A"} + " plays, " +
-                                  number(comparison_.loweredDb(), 1) +
-                                  " dB lower, as loud as the other (A changes; the menu ends it)");
+    const bool isB = comparison_.isComparing() && comparison_.activeState() == 'B';
+    abButton_.setButtonText(!comparison_.isComparing() ? "A/B" : isB ? "B" : "A");
+    abButton_.setToggleState(comparison_.isComparing(), juce::dontSendNotification);
+    abButton_.setTooltip(!comparison_.isComparing()
+                             ? juce::String{"Compare two laws, layouts or mixes (A): B begins as a copy of A"}
+                             : juce::String{isB ? "B" : "A"} + " plays, " +
+                                   number(comparison_.loweredDb(), 1) +
+                                   " dB lower, as loud as the other (A changes; the menu ends it)");
     if (!drag_.isMouseButtonDown())
         drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragLabel_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
@@ -150,7 +151,7 @@ void WorldPanel::mixChanged() {
 void WorldPanel::showTools() {
     if (isShowMode_ && pane_.tool() != DrawTool::hand)
         return pane_.setTool(DrawTool::hand); // calls this again
-    bar_.refresh();
+    toolBar_.refresh();
     palette_.refresh();
     palette_.setVisible(!isShowMode_ && pane_.tool() != DrawTool::hand);
     scriptStrip_.refresh(!isShowMode_ && pane_.tool() == DrawTool::hand);
@@ -165,24 +166,24 @@ juce::Rectangle<int> WorldPanel::bodyPanelAreaInField(int width, int height) con
                            .toNearestInt() +
                        view_.getPosition();
     const auto inner = field.reduced(24);
-    const auto chosen = pane_.selectionBounds().toNearestInt().expanded(4) + pane_.getPosition();
-    const auto covers = [&](juce::Rectangle<int> place) {
+    const auto selectionArea = pane_.selectionBounds().toNearestInt().expanded(4) + pane_.getPosition();
+    const auto coveredPixels = [&](juce::Rectangle<int> place) {
         const auto overlap = [&place](juce::Rectangle<int> other) {
             const auto common = place.getIntersection(other);
             return common.getWidth() * common.getHeight();
         };
-        int sum = overlap(chosen);
+        int sum = overlap(selectionArea);
         for (const auto& badge : view_.badges()) sum += overlap(badge.toNearestInt() + view_.getPosition());
         return sum;
     };
     auto best = bodyPanel_.getBounds();
     const bool isPlaced = best.getWidth() == width && best.getHeight() == height && inner.contains(best);
     if (isPlaced && bodyPanel_.isMouseOver(true)) return best;
-    int minCovered = isPlaced ? covers(best) : std::numeric_limits<int>::max();
+    int minCovered = isPlaced ? coveredPixels(best) : std::numeric_limits<int>::max();
     for (const int y : {inner.getY(), inner.getCentreY() - height / 2, inner.getBottom() - height})
         for (const int x : {inner.getRight() - width, inner.getX(), inner.getCentreX() - width / 2})
-            if (const juce::Rectangle<int> place{x, y, width, height}; covers(place) < minCovered)
-                best = place, minCovered = covers(place);
+            if (const juce::Rectangle<int> place{x, y, width, height}; coveredPixels(place) < minCovered)
+                best = place, minCovered = coveredPixels(place);
     return best;
 }
 
@@ -219,15 +220,15 @@ juce::Rectangle<int> WorldPanel::bannerArea() const {
     auto row = getLocalBounds().reduced(8, 4);
     if (isShowMode_) return row.withTrimmedRight(silenceWidth).withHeight(28);
     // beside the knobs and A/B if there is room
-    if (const auto beside = row.withRight(tilt_.getX() - 8); hasMaster_ || beside.getWidth() >= 280)
-        row = beside;
+    if (const auto freeRow = row.withRight(tilt_.getX() - 8); hasMaster_ || freeRow.getWidth() >= 280)
+        row = freeRow;
     return row.removeFromBottom(footerHeight - 9);
 }
 
 void WorldPanel::setShowMode(bool isShow) {
     isShowMode_ = isShow;
     if (isShow) pane_.setTool(DrawTool::hand);
-    physvib::setVisible({&bar_, &hitLabel_, &tilt_, &tiltLabel_}, !isShow);
+    physvib::setVisible({&toolBar_, &hitLabel_, &tilt_, &tiltLabel_}, !isShow);
     showTools();
     resized();
 }
@@ -282,14 +283,14 @@ double WorldPanel::fieldXMetres(float x) const {
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
     isBadgeMoving_ = false;
-    if (std::exchange(pointerMetres_, {}) && player_) sendInput(player_->steer(0));
+    if (std::exchange(pointerXMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
 void WorldPanel::cancelDrag() {
     view_.cancelDrag();
     pane_.cancelStroke();
     if (std::exchange(isBadgeMoving_, false)) model_.undoManager().undo();
-    if (std::exchange(pointerMetres_, {}) && player_) sendInput(player_->steer(0));
+    if (std::exchange(pointerXMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
 void WorldPanel::updatePlayer() {
@@ -298,10 +299,10 @@ void WorldPanel::updatePlayer() {
     if (!pendingInputs_.empty() && model_.savedSession().log.runs.size() > previousRunCount_)
         sendInput(std::exchange(pendingInputs_, {}));
     if (!player_->moves()) return;
-    const float at = view_.pixelOfBody(player_->body()).x;
-    if (at < -1e3f) return;
-    if (pointerMetres_) sendInput(player_->moveTowards(*pointerMetres_, fieldXMetres(at)));
-    for (const Action& action : player_->keepInside(fieldXMetres(at))) model_.world().apply(action);
+    const float bodyX = view_.pixelOfBody(player_->body()).x;
+    if (bodyX < -1e3f) return;
+    if (pointerXMetres_) sendInput(player_->moveTowards(*pointerXMetres_, fieldXMetres(bodyX)));
+    for (const Action& action : player_->keepInside(fieldXMetres(bodyX))) model_.world().apply(action);
 }
 
 void WorldPanel::sendGrip() {
@@ -316,17 +317,17 @@ juce::String WorldPanel::hitText(const CollisionEvent& hit) const {
     if (isClip(hit.sound)) return fitInLines({name, place});
     const double g = strongestActuatorFor(model_, hit).levelG; // 0: its actuators are muted or have no output
     const bool isOnlySeen = g < 0.005 || (isPlayMode_ && model_.isVisualOnly());
-    auto felt = (isOnlySeen    ? juce::String{"seen"}
-                 : isPlayMode_ ? strengthText(g)
-                               : number(g, 2) + " g") +
-                " " + place;
-    if (isOnlySeen) felt << ": " << reasonNotPlayed(model_, hit);
-    if (isPlayMode_) return fitInLines({name, felt});
+    auto feltText = (isOnlySeen    ? juce::String{"seen"}
+                     : isPlayMode_ ? strengthText(g)
+                                   : number(g, 2) + " g") +
+                    " " + place;
+    if (isOnlySeen) feltText << ": " << reasonNotPlayed(model_, hit);
+    if (isPlayMode_) return fitInLines({name, feltText});
     const auto hz = number(hit.frequencyHz, 0) + " Hz";
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
-    for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
-        if (const auto words = fitInLines(parts); words.isNotEmpty()) return words;
-    return fitInLines({name, felt});
+    for (const auto& parts : {juce::StringArray{name, hz, tau, feltText}, {name, hz, feltText}})
+        if (const auto fittingText = fitInLines(parts); fittingText.isNotEmpty()) return fittingText;
+    return fitInLines({name, feltText});
 }
 
 /// The parts in one or two lines; empty if they do not fit.
@@ -347,15 +348,15 @@ juce::String WorldPanel::fitInLines(const juce::StringArray& parts) const {
 /// Why nothing is felt; empty if something is or may soon be felt.
 juce::String WorldPanel::findNothingFeltReason(double nowMs, bool isRunning) const {
     constexpr double maxQuietMs = 4000.0;
-    if (const auto why = muteReason(); why.isNotEmpty()) return why;
+    if (const auto reason = muteReason(); reason.isNotEmpty()) return reason;
     if (!isRunning) return "no device plays";
     if (model_.session().world().slowness() == 0) return "paused";
     const Scene& drawn = model_.world().drawing().drawn();
-    const auto hasBody = [&drawn](auto is) {
-        return std::ranges::any_of(drawn.bodies, is) ||
-               std::ranges::any_of(drawn.script, [&is](const ScriptInput& input) {
-                   const auto* added = bodyAddedBy(input.action);
-                   return added != nullptr && is(*added);
+    const auto hasBody = [&drawn](auto matches) {
+        return std::ranges::any_of(drawn.bodies, matches) ||
+               std::ranges::any_of(drawn.script, [&matches](const ScriptInput& input) {
+                   const auto* addedBody = bodyAddedBy(input.action);
+                   return addedBody != nullptr && matches(*addedBody);
                });
     };
     if (!hasBody([](const BodyDescription& body) { return body.type != BodyType::staticBody; }))
@@ -363,9 +364,9 @@ juce::String WorldPanel::findNothingFeltReason(double nowMs, bool isRunning) con
     if (nowMs - hitTimeMs_ > minHitTextMs && !hasBody(isSource)) return "no body is a haptic source";
     if (nowMs - hitTimeMs_ <= maxQuietMs) return "";
     const bool haveAllLeft = std::ranges::all_of(drawn.bodies, [&](const BodyDescription& body) {
-        const auto at = body.type == BodyType::staticBody ? std::nullopt : pane_.currentPlace(body.name);
-        if (!at) return true;
-        const auto [x, y] = at->metres;
+        const auto place = body.type == BodyType::staticBody ? std::nullopt : pane_.currentPlace(body.name);
+        if (!place) return true;
+        const auto [x, y] = place->metres;
         return x < 0.0 || y < 0.0 || x > drawn.fieldWidthMetres || y > drawn.fieldHeightMetres;
     });
     return haveAllLeft && drawn.script.empty() ? "all that moves has left the field" : "no hits";
@@ -384,8 +385,8 @@ void WorldPanel::refresh(const MixerSnapshot& snapshot) {
     for (const auto& hit : snapshot.hits)
         if (now - hitTimeMs_ > minHitTextMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
             shownHit_ = hit, hitTimeMs_ = now, hasNewHit = true;
-    if (const auto why = findNothingFeltReason(now, snapshot.device.isRunning);
-        why != std::exchange(nothingFeltReason_, why) || hasNewHit)
+    if (const auto reason = findNothingFeltReason(now, snapshot.device.isRunning);
+        reason != std::exchange(nothingFeltReason_, reason) || hasNewHit)
         showHit();
     if (hasMaster_) master_.refresh(snapshot);
     updatePlayer();
@@ -394,9 +395,9 @@ void WorldPanel::refresh(const MixerSnapshot& snapshot) {
     if (model_.script().isRecording() || scriptStrip_.isVisible())
         scriptStrip_.refresh(pane_.tool() == DrawTool::hand);
     placeBodyPanel();
-    static constexpr decltype(snapshot.meters.peaks) none{};
+    static constexpr decltype(snapshot.meters.peaks) noPeaks{};
     const bool isFelt = muteReason().isEmpty();
-    const auto& peaks = isFelt ? snapshot.meters.peaks : none; // badges glow only for what is felt
+    const auto& peaks = isFelt ? snapshot.meters.peaks : noPeaks; // badges glow only for what is felt
     view_.update({snapshot.poses, snapshot.posesNs, snapshot.latencyNs, snapshot.hits,
                   std::span{peaks}.first(static_cast<std::size_t>(model_.mix().count())), isFelt});
 }
@@ -405,7 +406,7 @@ void WorldPanel::resized() {
     auto row = getLocalBounds().reduced(panelInset, 0).removeFromBottom(footerHeight).withTrimmedBottom(5);
     const bool showsFigures = !isShowMode_ && !isPlayMode_;
     lawLabel_.setVisible(showsFigures && getWidth() >= minWidthWithLaw + (hasMaster_ ? masterWidth : 0));
-    compare_.setVisible(showsFigures);
+    abButton_.setVisible(showsFigures);
     master_.setVisible(!isShowMode_ && hasMaster_);
     physvib::setVisible({&drag_, &dragLabel_},
                         showsFigures && (!hasMaster_ || getWidth() >= minWidthWithKnob));
@@ -413,24 +414,24 @@ void WorldPanel::resized() {
         master_.setBounds(row.removeFromRight(getWidth() >= minWidthWithKnob ? masterWidth : 200));
         row.removeFromRight(gap);
     }
-    if (showsFigures) compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
+    if (showsFigures) abButton_.setBounds(row.removeFromRight(46).reduced(2, 5));
     if (lawLabel_.isVisible()) lawLabel_.setBounds(row.removeFromRight(174));
     if (drag_.isVisible()) {
         dragLabel_.setBounds(row.removeFromRight(104));
-        drag_.setBounds(row.removeFromRight(38));
+        drag_.setBounds(row.removeFromRight(knobWidth));
     }
     tiltLabel_.setBounds(row.removeFromRight(58));
-    tilt_.setBounds(row.removeFromRight(38));
+    tilt_.setBounds(row.removeFromRight(knobWidth));
     hitLabel_.setBounds(row);
     showHit();
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(footerHeight);
-    const int tools = isShowMode_ ? 0 : DrawBar::widthFor(top.getHeight());
-    bar_.setBounds(top.removeFromLeft(tools));
+    const int toolsWidth = isShowMode_ ? 0 : DrawBar::widthFor(top.getHeight());
+    toolBar_.setBounds(top.removeFromLeft(toolsWidth));
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHeight = 40;             // the button lies over the corner of a show
-    view_.setPadding(isShowMode_
-                         ? juce::BorderSize<int>{silenceHeight, 0, 0, 0}
-                         : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, footerHeight - 14, 0});
+    view_.setPadding(
+        isShowMode_ ? juce::BorderSize<int>{silenceHeight, 0, 0, 0}
+                    : juce::BorderSize<int>{hasMaster_ ? 51 : 20, toolsWidth - 12, footerHeight - 14, 0});
     pane_.setBounds(view_.getBounds().withTrimmedBottom(isShowMode_ ? 0 : footerHeight - 4)); // above the row
     top.removeFromLeft(8);
     scriptStrip_.setBounds(top.withHeight(scriptStrip_.getHeight()));
@@ -479,14 +480,14 @@ void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Ve
                           });
     menu.addSectionHeader(utf8(body));
     menu.addSubMenu("Material", materials);
-    const auto choose = [this, body] { pane_.setTool(DrawTool::select), pane_.select({body}); };
-    menu.addItem("Select", isDrawn, false, choose);
-    if (isDrawn && motorOf(scene, body) != nullptr)
-        menu.addItem("Motor: speed and torque", choose);
+    const auto selectBody = [this, body] { pane_.setTool(DrawTool::select), pane_.select({body}); };
+    menu.addItem("Select", isDrawn, false, selectBody);
+    if (isDrawn && findMotor(scene, body) != nullptr)
+        menu.addItem("Motor: speed and torque", selectBody);
     else
         menu.addItem("Motor here", moves, false, [this, place] { pane_.addJointAt(DrawTool::motor, place); });
-    if (isDrawn && springOf(scene, body) != nullptr)
-        menu.addItem("Spring: stiffness", choose);
+    if (isDrawn && findSpring(scene, body) != nullptr)
+        menu.addItem("Spring: stiffness", selectBody);
     else
         menu.addItem("Spring here", moves, false,
                      [this, place] { pane_.addJointAt(DrawTool::spring, place); });
@@ -496,14 +497,14 @@ void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Ve
     menu.addItem("Delete", isDrawn, false, [this, body] { pane_.eraseBodies({body}); });
 }
 
-void WorldPanel::addFieldItems(juce::PopupMenu& menu, FieldShare at, Vector place) {
+void WorldPanel::addFieldItems(juce::PopupMenu& menu, FieldShare share, Vector place) {
     for (const DrawTool tool : {DrawTool::ball, DrawTool::box, DrawTool::wall, DrawTool::rain})
-        menu.addItem("Add " + juce::String{infoOf(tool).name}.toLowerCase(),
+        menu.addItem("Add " + juce::String{toolInfo(tool).name}.toLowerCase(),
                      [this, tool, place] { pane_.addAt(tool, place); });
     menu.addItem("Paste here", pane_.hasCopy(), false, [this, place] { pane_.pasteAt(place); });
     menu.addSeparator();
     menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxActuators, false,
-                 [this, at] { model_.attach(at.x, at.y); });
+                 [this, share] { model_.attach(share.x, share.y); });
 }
 
 ScriptStrip::ScriptStrip(MixerModel& model)
@@ -545,9 +546,9 @@ ScriptStrip::ScriptStrip(MixerModel& model)
 
 void ScriptStrip::refresh(bool isHandTool) {
     const auto& script = model_.script();
-    const RecordedInputs* recorded = script.recording();
+    const RecordedInputs* recording = script.recording();
     setVisible(isHandTool &&
-               (script.isRecording() || (recorded != nullptr && closedScene_ != model_.mix().scene)));
+               (script.isRecording() || (recording != nullptr && closedScene_ != model_.mix().scene)));
     if (!isVisible()) return;
     const bool hasNewScene = std::exchange(shownScene_, model_.mix().scene) != model_.mix().scene,
                hasToggled = std::exchange(isRecordingShown_, script.isRecording()) != script.isRecording();
@@ -558,8 +559,8 @@ void ScriptStrip::refresh(bool isHandTool) {
                             countText(script.inputs(), "input"),
                         juce::dontSendNotification);
     else
-        status_.setText("Script of hands" + separator + countText(recorded->inputs.size(), "input") + " in " +
-                            number(recorded->lengthSeconds, 2) + " s",
+        status_.setText("Script of hands" + separator + countText(recording->inputs.size(), "input") +
+                            " in " + number(recording->lengthSeconds, 2) + " s",
                         juce::dontSendNotification);
     status_.setColour(juce::Label::textColourId,
                       shade(*this, script.isRecording() ? Shade::limit : Shade::text));
@@ -572,10 +573,10 @@ void ScriptStrip::showScript() {
     endButton_.setVisible(isRecording);
     physvib::setVisible({&fromSlider_, &toSlider_, &repeatToggle_, &restartButton_, &closeButton_},
                         !isRecording);
-    if (const RecordedInputs* recorded = model_.script().recording()) {
+    if (const RecordedInputs* recording = model_.script().recording()) {
         const ScriptTrim trim = model_.script().trim();
         for (auto* slider : {&fromSlider_, &toSlider_})
-            slider->setRange(0.0, std::max(stepSeconds, recorded->lengthSeconds), stepSeconds);
+            slider->setRange(0.0, std::max(stepSeconds, recording->lengthSeconds), stepSeconds);
         fromSlider_.setValue(trim.fromSeconds, juce::dontSendNotification);
         toSlider_.setValue(trim.toSeconds, juce::dontSendNotification);
         repeatToggle_.setToggleState(trim.repeats, juce::dontSendNotification);
@@ -593,38 +594,38 @@ void ScriptStrip::applyTrim() {
     repaint();
 }
 
-float ScriptStrip::pixelOf(double seconds) const {
-    const auto at = track().toFloat();
-    return at.getX() +
-           static_cast<float>(seconds / std::max(stepSeconds, fromSlider_.getMaximum())) * at.getWidth();
+float ScriptStrip::toPixelX(double seconds) const {
+    const auto area = track().toFloat();
+    return area.getX() +
+           static_cast<float>(seconds / std::max(stepSeconds, fromSlider_.getMaximum())) * area.getWidth();
 }
 
 void ScriptStrip::paint(juce::Graphics& g) {
     fillRound(g, *this, Shade::raised, getLocalBounds().toFloat(), 8.0f, 0.96f);
-    const RecordedInputs* recorded = model_.script().recording();
-    if (recorded == nullptr) return;
-    const auto at = track().toFloat();
-    fillRound(g, *this, Shade::well, at, 4.0f);
-    const float from = pixelOf(fromSlider_.getValue()), to = pixelOf(toSlider_.getValue());
+    const RecordedInputs* recording = model_.script().recording();
+    if (recording == nullptr) return;
+    const auto area = track().toFloat();
+    fillRound(g, *this, Shade::well, area, 4.0f);
+    const float fromX = toPixelX(fromSlider_.getValue()), toX = toPixelX(toSlider_.getValue());
     g.setColour(shade(*this, Shade::accent).withAlpha(0.18f));
-    g.fillRect(at.withLeft(from).withRight(to));
-    for (const LiveInput& input : recorded->inputs) {
-        const float x = pixelOf(input.timeSeconds);
-        const bool isInTrim = x >= from && x <= to, isHeld = std::holds_alternative<GripAction>(input.action);
-        g.setColour(shade(*this, isInTrim ? Shade::text : Shade::muted).withAlpha(isInTrim ? 0.9f : 0.35f));
-        g.fillRect(juce::Rectangle<float>{1.5f, isHeld ? 7.0f : 16.0f}.withCentre({x, at.getCentreY()}));
+    g.fillRect(area.withLeft(fromX).withRight(toX));
+    for (const LiveInput& input : recording->inputs) {
+        const float x = toPixelX(input.timeSeconds);
+        const bool isUsed = x >= fromX && x <= toX, isHeld = std::holds_alternative<GripAction>(input.action);
+        g.setColour(shade(*this, isUsed ? Shade::text : Shade::muted).withAlpha(isUsed ? 0.9f : 0.35f));
+        g.fillRect(juce::Rectangle<float>{1.5f, isHeld ? 7.0f : 16.0f}.withCentre({x, area.getCentreY()}));
     }
     g.setColour(shade(*this, Shade::accent));
-    for (const float x : {from, to})
-        g.fillRect(juce::Rectangle<float>{3.0f, at.getHeight()}.withCentre({x, at.getCentreY()}));
+    for (const float x : {fromX, toX})
+        g.fillRect(juce::Rectangle<float>{3.0f, area.getHeight()}.withCentre({x, area.getCentreY()}));
 }
 
 // Drags the nearer end of the trimmed part.
 void ScriptStrip::mouseDown(const juce::MouseEvent& e) {
     draggedSlider_ = nullptr;
     if (model_.script().recording() == nullptr || !track().expanded(6, 4).contains(e.getPosition())) return;
-    draggedSlider_ = std::abs(e.position.x - pixelOf(fromSlider_.getValue())) <
-                             std::abs(e.position.x - pixelOf(toSlider_.getValue()))
+    draggedSlider_ = std::abs(e.position.x - toPixelX(fromSlider_.getValue())) <
+                             std::abs(e.position.x - toPixelX(toSlider_.getValue()))
                          ? &fromSlider_
                          : &toSlider_;
     mouseDrag(e);
@@ -632,9 +633,9 @@ void ScriptStrip::mouseDown(const juce::MouseEvent& e) {
 
 void ScriptStrip::mouseDrag(const juce::MouseEvent& e) {
     if (draggedSlider_ == nullptr) return;
-    const auto at = track().toFloat();
+    const auto area = track().toFloat();
     draggedSlider_->setValue(fromSlider_.getMaximum() *
-                                 static_cast<double>((e.position.x - at.getX()) / at.getWidth()),
+                                 static_cast<double>((e.position.x - area.getX()) / area.getWidth()),
                              juce::dontSendNotification);
     repaint();
 }

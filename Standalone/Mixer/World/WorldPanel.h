@@ -22,7 +22,7 @@ public:
 
 private:
     juce::Rectangle<int> track() const { return getLocalBounds().reduced(12, 8).removeFromBottom(22); }
-    float pixelOf(double seconds) const;
+    float toPixelX(double seconds) const;
     void showScript();
     void applyTrim();
 
@@ -72,7 +72,7 @@ public:
     void mouseDown(const juce::MouseEvent&) override { isBadgeMoving_ = false; }
     void mouseDrag(const juce::MouseEvent& e) override {
         if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding())
-            pointerMetres_ = fieldXMetres(e.position.x);
+            pointerXMetres_ = fieldXMetres(e.position.x);
     }
     void mouseUp(const juce::MouseEvent&) override;
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }
@@ -82,7 +82,7 @@ private:
     void sendGrip(); ///< sends the newest grip, at most every 10 ms
     void addActuatorItems(juce::PopupMenu& menu, int actuator);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
-    void addFieldItems(juce::PopupMenu& menu, FieldShare at, Vector place);
+    void addFieldItems(juce::PopupMenu& menu, FieldShare share, Vector place);
     void placeBodyPanel(); ///< lays the body panel beside, above or in the field
     juce::Rectangle<int> bodyPanelAreaInField(int width, int height) const;
     void showTools(); ///< updates all controls of drawing
@@ -98,18 +98,18 @@ private:
     MixerModel& model_;
     WorldView view_;
     DrawPane pane_{model_, view_};
-    DrawBar bar_{pane_};
+    DrawBar toolBar_{pane_};
     MaterialPalette palette_{model_, pane_, onMaterial};
     BodyPanel bodyPanel_{model_, pane_, onMaterial};
     ScriptStrip scriptStrip_{model_};
     Caption hitLabel_{{}, Shade::highlight}, lawLabel_, tiltLabel_, dragLabel_;
-    juce::TextButton compare_{"A/B"};
+    juce::TextButton abButton_{"A/B"};
     MixerCompare comparison_{model_};
     TiltKnob tilt_;
     juce::Slider drag_;
     MasterStrip master_{model_, true};
     std::optional<ScenePlayer> player_;     // for a scene with a player
-    std::optional<double> pointerMetres_;   // x of the pressed mouse on the field, m
+    std::optional<double> pointerXMetres_;  // x of the pressed mouse on the field, m
     std::vector<Action> pendingInputs_;     // replace the script; sent after the restart of the world
     std::size_t previousRunCount_ = 0;      // number of scene runs before that restart
     std::optional<GripAction> pendingGrip_; // not sent yet; see sendGrip()

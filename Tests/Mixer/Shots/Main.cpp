@@ -73,7 +73,7 @@ void runFor(double seconds, MixerView& view) {
            (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
         juce::Thread::sleep(33);
         view.refresh();
-        isStruck = std::ranges::any_of(view.latest().hits,
+        isStruck = std::ranges::any_of(view.snapshot().hits,
                                        [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
     }
     for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();

@@ -112,7 +112,7 @@ void measureSpread(int bodies, const juce::File& folder) {
     auto& world = view.world();
     Painted painted;
     view.addAndMakeVisible(painted);
-    runUntil([&] { return painted.count > 0 && !view.latest().poses.empty(); });
+    runUntil([&] { return painted.count > 0 && !view.snapshot().poses.empty(); });
     runFor(3.0);
     std::printf("%d bodies\n", bodies);
     share("moving", painted);
@@ -172,13 +172,13 @@ void measure(int bodies, const juce::File& folder) {
                                       folder.getChildFile("config")};
     Painted painted;
     window->view().addAndMakeVisible(painted);
-    runUntil([&] { return painted.count > 0 && !window->view().latest().poses.empty(); });
+    runUntil([&] { return painted.count > 0 && !window->view().snapshot().poses.empty(); });
     std::printf("%d bodies\nfirst picture: %.2f s after it was opened, %.2f s of processor time of the "
                 "window's thread\n",
                 bodies, seconds() - began, threadCpuSeconds() - beganThread);
     const bool isTold = runUntil([&] { return window->model().messageText().contains("of real time"); });
     std::printf("message: %.2f s after it was opened, at %.2f s of the session: %s\n", seconds() - began,
-                1e-9 * static_cast<double>(window->view().latest().session.sessionNs),
+                1e-9 * static_cast<double>(window->view().snapshot().session.sessionNs),
                 isTold ? window->model().messageText().toRawUTF8() : "none");
     painted.count = 0;
     painted.longest = 0.0;

@@ -280,7 +280,8 @@ TEST_F(Windows, APersonsWayThroughTheMixer) {
     ASSERT_EQ(recorded.getNumChannels(), 5);
     EXPECT_EQ(recorded.getMagnitude(1, 0, recorded.getNumSamples()), 0.0f) << "B was muted";
     EXPECT_GT(recorded.getMagnitude(0, recorded.getNumSamples()), 0.0f);
-    EXPECT_LE(recorded.getMagnitude(0, 0, recorded.getNumSamples()), ceilingOf(saved.value.mix->strips[0]));
+    EXPECT_LE(recorded.getMagnitude(0, 0, recorded.getNumSamples()),
+              channelCeiling(saved.value.mix->strips[0]));
     const auto events = loadEventsCsv(pathOf(wav.withFileExtension("csv")));
     ASSERT_TRUE(events) << events.error;
     EXPECT_FALSE(events.value.events.empty());
@@ -293,7 +294,7 @@ TEST_F(Windows, APersonsWayThroughTheMixer) {
                   {{48000, saved.value.channels, saved.value.panner, true, saved.value.ceilings},
                    frames,
                    512,
-                   controlsOf(saved.value.log, true, saved.value.channels)},
+                   logControls(saved.value.log, true, saved.value.channels)},
                   [&](const float* const* block, int n) {
                       for (int k = 0; k < n; ++k)
                           if (const auto frame = done + k - (from - playOut); frame >= 0)
@@ -598,7 +599,7 @@ TEST_F(Window, ARecordingOfNothingSaysSo) {
     model.setSlowness(0);
     ASSERT_TRUE(runUntil([&] {
         view.refresh();
-        return std::ranges::all_of(view.latest().heldPeaks, [](float h) { return h == 0.0f; });
+        return std::ranges::all_of(view.snapshot().heldPeaks, [](float h) { return h == 0.0f; });
     }));
     EXPECT_TRUE(record(false).startsWith("Nothing was played")) << model.messageText();
     EXPECT_EQ(model.messages().current().action.name, "Show");
@@ -837,7 +838,7 @@ TEST_F(Windows, EscClosesACardAndSilencesOnlyWhatSounds) {
     model.setSlowness(0);
     ASSERT_TRUE(runUntil([&] {
         hands.play(64), view.refresh();
-        return std::ranges::all_of(view.latest().heldPeaks, [](float hold) { return hold == 0.0f; });
+        return std::ranges::all_of(view.snapshot().heldPeaks, [](float hold) { return hold == 0.0f; });
     }));
     EXPECT_FALSE(isSilentAfterACard()) << "nothing sounded";
     model.eventPlayer().testPulse(0);
@@ -1424,7 +1425,7 @@ TEST_F(Windows, ACopyIsKeptUntilTheWindowIsClosedWell) {
         ASSERT_TRUE(runUntil([&] { return !copies().isEmpty(); }));
         const auto copy = loadSession(copies()[0].getFullPathName().toStdString());
         ASSERT_TRUE(copy) << copy.error;
-        EXPECT_EQ(mixOf(copy.value).levelDb, -18.0);
+        EXPECT_EQ(mixAtEnd(copy.value).levelDb, -18.0);
         window.save();
         EXPECT_TRUE(copies().isEmpty());
     }

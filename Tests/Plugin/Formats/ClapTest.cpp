@@ -236,7 +236,7 @@ TEST(Clap, ExpressionMovesOneNoteAndOddBlocksAreHeard) {
     auto state = strikeAt(0, 4);
     state.layout = presetLayout("phone4");
     state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlacement::middle, .isHeld = true};
+    state.voice = {.pitch = NotePitch::note, .placement = NotePlacement::middle, .isHeld = true};
     ASSERT_TRUE(host.load(pluginStateJson(state)));
     host.start();
     host.note(CLAP_EVENT_NOTE_ON, 3, 57);

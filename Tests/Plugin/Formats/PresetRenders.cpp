@@ -84,7 +84,7 @@ bool render(const std::string& name, int program, const juce::File& folder) {
             .toStdString();
     };
     const auto written =
-        exportPlayed({events, state, pannerOf(state, PanningLaw::linear, 1.0)}, path(".csv"));
+        exportPlayed({events, state, makePanner(state, PanningLaw::linear, 1.0)}, path(".csv"));
     std::string error = written ? writeFile(path(".json"), layoutJson(state.layout)) : written.error;
     float peak = 0.0f;
     if (error.empty()) {

@@ -507,7 +507,7 @@ TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
                                                       vst::kBrightnessTypeID}));
     auto state = strikeAt(0, 2);
     state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlacement::middle, .isHeld = true};
+    state.voice = {.pitch = NotePitch::note, .placement = NotePlacement::middle, .isHeld = true};
     ASSERT_TRUE(host.setState(pluginStateJson(state)));
     host.start(512);
     const auto strike = [&](int id, int frame) {
