@@ -5,10 +5,13 @@
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include "TestPlaces.h"
+#include <array>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -111,6 +114,33 @@ TEST(PhantomPanner, OtherArrangementsWeighByInverseSquareDistance) {
     for (int j = 0; j < 9; ++j) sum += weight(j);
     for (int j = 0; j < 9; ++j) EXPECT_NEAR(g[static_cast<std::size_t>(j)], weight(j) / sum, 1e-12);
     EXPECT_NEAR(gainsOf(layout, PanningLaw::log, 0.5 * W, 0.5 * H)[4], 1, 1e-9);
+}
+
+// All ways in which four can stand on the corners of a rectangle: each on one of its own, in any order, or
+// two on the same, which leaves one corner to nobody.
+TEST(PhantomPanner, FourAreARectangleOnlyIfEachHasACornerOfItsOwn) {
+    const ActuatorPlace corners[]{
+        {0.1 * W, 0.2 * H}, {0.8 * W, 0.2 * H}, {0.1 * W, 0.9 * H}, {0.8 * W, 0.9 * H}};
+    constexpr double x = 0.3 * W, y = 0.6 * H;
+    for (unsigned way = 0; way < 256; ++way) {
+        ActuatorLayout layout{W, H, 4, {}};
+        std::array<double, 4> products{}, weights{};
+        unsigned taken = 0;
+        for (std::size_t j = 0; j < 4; ++j) {
+            const std::size_t corner = way >> 2 * j & 3U;
+            taken |= 1U << corner;
+            layout.places[j] = corners[corner];
+            const double dx = x - corners[corner].xMetres, dy = y - corners[corner].yMetres;
+            products[j] = (1 - std::abs(dx) / W) * (1 - std::abs(dy) / H);
+            weights[j] = 1 / (dx * dx + dy * dy);
+        }
+        const int count = std::popcount(taken);
+        if (count < 3) continue; // on one line
+        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+        const auto gains = gainsOf(layout, PanningLaw::linear, x, y);
+        for (std::size_t j = 0; j < 4; ++j)
+            EXPECT_NEAR(gains[j], count == 4 ? products[j] : weights[j] / sum, 1e-12) << way << ' ' << j;
+    }
 }
 
 TEST(PhantomPanner, EnergySquaresSumToOneAndNoGainLeavesZeroToOne) {

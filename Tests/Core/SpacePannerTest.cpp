@@ -206,6 +206,35 @@ TEST(SpacePanner, APartPlaysOnItsActuatorsAlone) {
     for (std::size_t j = 4; j < 16; ++j) EXPECT_EQ(gains[j], 0.0);
 }
 
+// Equation 4.2 on the part alone, which has four on its corners, or on the ends of a line: each fades to
+// nothing over the width and the height of its part, whatever those of the layout and of the field are.
+TEST(SpacePanner, APartOfAFlatLayoutFadesOverItsOwnWidthAndHeight) {
+    const auto factor = [](double metres, double extent) {
+        return extent > 0.0 ? 1.0 - std::abs(metres) / extent : 1.0;
+    };
+    for (const auto& [width, height] :
+         {std::pair{0.3, 0.1}, {0.1, 0.4}, {0.3, 0.3}, {0.6, 0.0}, {0.0, 0.2}}) {
+        ActuatorLayout layout = layoutAt({{0.2, 0.5},
+                                          {0.2 + width, 0.5},
+                                          {0.2, 0.5 + height},
+                                          {0.2 + width, 0.5 + height},
+                                          {0.0, 0.0},
+                                          {1.0, 1.0}});
+        for (std::size_t j = 0; j < 4; ++j) layout.places[j].part = partNamed("left");
+        const PhantomPanner panner{layout, PanningLaw::linear, 1.0, 2.0, 3.0};
+        for (const double across : {0.0, 0.25, 1.0})
+            for (const double up : {0.0, 0.6, 1.0}) {
+                const double x = 0.2 + across * width, y = 0.5 + up * height;
+                const auto gains = gainsAtPlace(panner, {2.0 * x, 3.0 * y}, "left");
+                for (std::size_t j = 0; j < 6; ++j) {
+                    const ActuatorPlace& at = layout.places[j];
+                    const double own = factor(x - at.xMetres, width) * factor(y - at.yMetres, height);
+                    EXPECT_NEAR(gains[j], j < 4 ? own : 0.0, 1e-12) << width << ' ' << height << ' ' << j;
+                }
+            }
+    }
+}
+
 TEST(SpacePanner, APartInSpaceHasTrianglesOfItsOwn) {
     // two octahedra side by side
     ActuatorLayout both = octahedron();

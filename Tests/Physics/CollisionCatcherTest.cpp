@@ -184,4 +184,19 @@ TEST_F(CollisionCatcherWorld, GravityRaisesTheThresholdOverWhatRestingContactsGe
     EXPECT_FALSE(run(100).empty());
 }
 
+// What gravity gives a body in a step is no hit, and presses a balloon from below as a ball from above.
+TEST_F(CollisionCatcherWorld, GravityScalesRaiseTheThresholdBySizeAndNotBySign) {
+    world.SetGravity({0.0F, -40.0F}); // 0.4 m/s in every step
+    give(floor(), camera);
+    float x = 0.0F;
+    for (const float scale : {0.5F, 1.0F, 3.0F, -0.5F, -1.0F, -3.0F})
+        for (const float share : {0.75F, 1.25F}) { // of what it gains in a step
+            b2Fixture& pressed =
+                ball(x += 2.0F, std::copysign(0.249F, scale), 0.0F, -0.4F * scale * share, 0.0F);
+            pressed.GetBody()->SetGravityScale(scale);
+            give(pressed, object);
+            EXPECT_EQ(run(20).size(), share > 1.0F ? 1U : 0U) << scale << ' ' << share;
+        }
+}
+
 } // namespace physvib::collision_catcher_test

@@ -6,6 +6,7 @@
 #include "Support/Rendering.h"
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,37 @@ TEST_F(SilentBoxes, NameTheBodiesState) {
     fixture.GetBody()->SetTransform({0.5F, 1.0F}, 0.0F);
     fixture.GetBody()->SetAwake(false);
     expect(after(3), "body 0 is asleep");
+}
+
+// Box2D's own filter says what may touch: a mask of either side, or a group.
+TEST(SilentFilters, AreNamedExactlyWhereTheEngineLetsNoOtherTouchTheSource) {
+    b2Filter deaf, second, notSecond, friends, foes;
+    deaf.maskBits = 0;
+    second.categoryBits = 2;
+    notSecond.maskBits = 0xfffd;
+    friends.maskBits = 0;
+    friends.groupIndex = 1;
+    foes.groupIndex = -1;
+    const b2Filter filters[]{{}, deaf, second, notSecond, friends, foes};
+    std::set<bool> seen;
+    for (const b2Filter& own : filters)
+        for (const b2Filter& first : filters)
+            for (const b2Filter& last : filters) {
+                b2World world{{0.0F, 0.0F}};
+                Attachment attachment{world, unity()};
+                b2Fixture &source = addTo(world, discOf(0.25F), {0.0F, 5.0F}),
+                          &one = addStill(world, discOf(0.25F)), &other = addStill(world, discOf(0.5F));
+                source.SetFilterData(own), one.SetFilterData(first), other.SetFilterData(last);
+                EXPECT_TRUE(attachment.set(source, camera));
+                attachment.step(0.01F);
+                b2ContactFilter engine;
+                const bool isFiltered =
+                    !engine.ShouldCollide(&source, &one) && !engine.ShouldCollide(&source, &other);
+                EXPECT_EQ(attachment.explain().find("is filtered") != std::string::npos, isFiltered)
+                    << &own - filters << ' ' << &first - filters << ' ' << &last - filters;
+                seen.insert(isFiltered);
+            }
+    EXPECT_EQ(seen.size(), 2U);
 }
 
 TEST_F(SilentBoxes, NameWhatTheStepsLack) {

@@ -197,6 +197,23 @@ TEST(InputCheck, RefusedInputsDoNotCount) {
     EXPECT_EQ(check.accept(TiltAction{0.3}), "expected at most 2 inputs");
 }
 
+// As many as a file may hold: of what is taken beyond that, the take could not be loaded again.
+TEST(InputCheck, AGroupCountsForAllItsInputs) {
+    const Action tilt = TiltAction{0.1};
+    const std::string fault = "expected at most 6 inputs";
+    for (const auto& groups : std::vector<std::vector<std::size_t>>{
+             {6}, {1, 5}, {5, 1}, {2, 4}, {3, 3}, {2, 2, 2}, {3, 2, 1}, {1, 1, 1, 1, 1, 1}}) {
+        InputCheck check(dropScene(1.0), 6);
+        std::size_t left = 6;
+        for (const std::size_t size : groups) {
+            EXPECT_EQ(check.accept(std::vector(left + 1, tilt)), fault) << left << " left";
+            EXPECT_EQ(check.accept(std::vector(size, tilt)), "") << left << " left";
+            left -= size;
+        }
+        EXPECT_EQ(check.accept(tilt), fault) << groups.size() << " groups";
+    }
+}
+
 TEST(InputCheck, AJointGoesWithABodyThatIsForgotten) {
     InputCheck check(dropScene(1.0), InputCheck::unlimited);
     for (std::size_t i = 0; i < InputCheck::maxRemembered + 20; ++i) {

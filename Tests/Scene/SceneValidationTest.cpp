@@ -4,9 +4,11 @@
 #include "DropScene.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneLimits.h"
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 
 namespace physvib::scene_validation_test {
 
@@ -197,6 +199,41 @@ TEST(SceneValidation, TotalsAreNamed) {
         "fixtures: expected at most 8192 in all, found 12804");
     refuses([](Scene& s) { std::get<ChainShape>(shape(s, 2)).verticesMetres.resize(1025); },
             "bodies[2].fixtures[0].vertices_m: expected 2 to 1024 items, found 1025");
+}
+
+// Beside the two bodies of the scene, with a fixture each. A loop has as many edges as vertices.
+TEST(SceneValidation, TotalsCountBodiesOfTheSceneOfARepeatedScriptAndLiveOnesAlike) {
+    using namespace sceneLimits;
+    ChainShape loop{{}, true};
+    for (std::size_t i = 0; i < maxChainVertices; ++i) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / maxChainVertices;
+        loop.verticesMetres.push_back({10.0 * std::cos(angle), 10.0 * std::sin(angle)});
+    }
+    struct Limit {
+        std::string what;
+        std::size_t fixtures; // of each body
+        Shape shape;
+        std::size_t most; // bodies
+    };
+    for (const Limit& limit : {Limit{"bodies", 1, CircleShape{0.1}, maxBodies - 2},
+                               Limit{"fixtures", 10, CircleShape{0.1}, (maxFixtures - 2) / 10},
+                               Limit{"chain edges", 1, loop, maxChainEdges / maxChainVertices}}) {
+        BodyDescription body{"x", BodyType::staticBody};
+        body.fixtures.assign(limit.fixtures, FixtureDescription{limit.shape});
+        Scene own = dropScene(1.0), scripted = own, live = own;
+        scripted.script = {{0.0, 0, 0.0, SpawnAction{body, {}}}};
+        for (std::size_t count = 1; count <= limit.most + 1; ++count) {
+            body.name = "x" + std::to_string(count);
+            own.bodies.push_back(body);
+            ++scripted.script[0].times;
+            live.inputs.push_back({0.0, SpawnAction{body, {}}});
+            if (count < limit.most) continue;
+            for (const Scene* scene : {&own, &scripted, &live}) {
+                const std::string said = validate(*scene);
+                EXPECT_EQ(said.substr(0, said.find(':')), count > limit.most ? limit.what : "") << said;
+            }
+        }
+    }
 }
 
 TEST(SceneValidation, MaterialsAloneAreCheckedToo) {
