@@ -19,6 +19,8 @@ TEST(BoardLinkWithAFakeBoard, OneThatIsNotOursIsRefusedAndTold) {
          ": expected a board of 4 channels at 8000 Hz, found 4 at 0 Hz"},
         {[](wire::HelloReply& r) { r.watchdogMs = 65535; },
          ": expected a board that is silent 500 ms after its computer, and plays within a second"},
+        {[](wire::HelloReply& r) { r.aheadFrames = limits::board::sampleRateHz + 1; },
+         ": expected a board that is silent 500 ms after its computer, and plays within a second"},
     };
     for (const auto& one : cases) {
         auto reply = ours();
@@ -44,6 +46,21 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
     EXPECT_EQ(link.status().connections, 1u);
     EXPECT_EQ(link.status().refused, 0u);
     EXPECT_LT(link.status().outputLatencyMs, 200.0);
+}
+
+TEST(BoardLinkWithAFakeBoard, WhatItNeedsAheadIsInItsLatencyAndTold) {
+    auto slow = ours();
+    slow.aheadFrames = limits::board::sampleRateHz; // a second, the most that is taken
+    FakeBoard board{slow, 0};
+    board.count({.good = 1});
+    const SessionSetup setup = test::setupOfWalls();
+    BoardOutput onBoard{board.port(), setup.panner, 0.3};
+    ASSERT_TRUE(test::comesTrue([&] { return onBoard.state().isReady; }));
+    EXPECT_GE(onBoard.status().outputLatencyMs, 1000.0) << "and the way there";
+    EXPECT_LT(onBoard.status().outputLatencyMs, 2000.0) << "once";
+    EXPECT_NE(onBoard.state().error.find("more than 300 ms before they are felt"), std::string::npos);
+    EXPECT_EQ(onBoard.awaitReady([] { return true; }), "");
+    EXPECT_GE(onBoard.latencySeconds(), 1.0) << "a session that waits for it gives it that time";
 }
 
 TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {

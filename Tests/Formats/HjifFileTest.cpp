@@ -116,6 +116,42 @@ TEST(HjifFile, GivesEveryChannelABodyPartForMpegsReader) {
     EXPECT_EQ(channels, 4u);
 }
 
+// Times are ticks of the file's timescale, amplitudes shares of the channel's gain; an actuator's largest
+// amplitude is an acceleration in m/s^2: 9.80665 for each g. The grid has no unit there, and 1 mm here.
+TEST(HjifFile, WritesEachNumberInTheUnitOfTheFormat) {
+    ClipChannel channel{"A", ActuatorPlace{0.003, 0.004}, {50.0, 400.0, 205.0, 2.5}};
+    channel.bands = {{{{0.25, 1.5, ClipWaveform::sine, {{0.0, 4.0}, {0.5, 1.0}}, {{0.0, 120.0}}}}}};
+    channel.transients = {{2.0, 0.5, 90.0}};
+    const ClipChannel unknown{"B", {}, {}, {}, channel.transients};
+    const auto file = nlohmann::json::parse(hjifText({"units", 0.01, 0.02, {channel, unknown}}));
+    const double ticks = file["timescale"];
+    const std::string device = "reference_devices/0/", wave = "channels/0/bands/0/effects/0/",
+                      transient = "channels/0/bands/1/effects/0/";
+    for (const auto& [at, value] : {std::pair{device + "minimum_frequency", 50.0},
+                                    {device + "maximum_frequency", 400.0},
+                                    {device + "resonance_frequency", 205.0},
+                                    {device + "maximum_amplitude", 24.516625},
+                                    {"channels/0/gain", 4.0},
+                                    {"channels/0/actuator_resolution/X", 11.0},
+                                    {"channels/0/actuator_resolution/Y", 21.0},
+                                    {"channels/0/actuator_target/0/X", 3.0},
+                                    {"channels/0/actuator_target/0/Y", 4.0},
+                                    {wave + "position", 0.25 * ticks},
+                                    {wave + "phase", 1.5},
+                                    {wave + "keyframes/0/amplitude_modulation", 1.0},
+                                    {wave + "keyframes/0/frequency_modulation", 120.0},
+                                    {wave + "keyframes/1/relative_position", 0.5 * ticks},
+                                    {wave + "keyframes/1/amplitude_modulation", 0.25},
+                                    {transient + "position", 2.0 * ticks},
+                                    {transient + "keyframes/0/amplitude_modulation", 0.125},
+                                    {transient + "keyframes/0/frequency_modulation", 90.0}})
+        EXPECT_NEAR(file["perceptions"][0].at(nlohmann::json::json_pointer{"/" + at}).get<double>(), value,
+                    1e-6)
+            << at;
+    EXPECT_EQ(file["perceptions"][0]["reference_devices"][1].size(), 2u)
+        << "number and name: no more is known";
+}
+
 TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {
     const auto perceptions = [](const std::string& modality, const std::string& band) {
         return R"({"perceptions": [{"perception_modality": ")" + modality + R"(", "channels": [{"bands": [)" +

@@ -159,6 +159,39 @@ TEST(JustOutside, AnEventWithoutLengthIsNone) {
     }
 }
 
+/// Of so many bands; each has a wave of so many points.
+ClipChannel channelOf(std::size_t bands, std::size_t points, double seconds) {
+    ClipChannel channel;
+    channel.bands.resize(bands);
+    for (ClipBand& band : channel.bands) {
+        ClipWave& wave = band.waves.emplace_back();
+        wave.amplitude.assign(points, {seconds, 0.5});
+        wave.frequencyHz = {{0.0, 100.0}};
+    }
+    return channel;
+}
+
+// Counted for each channel alone, a limit would let 64 times as much pass.
+TEST(JustOutside, IsCountedOverAllChannelsOfAClip) {
+    const ClipChannel least = channelOf(1, 1, 1e-3);
+    const std::size_t longWaves = static_cast<std::size_t>(limits::maxClipSoundingSeconds / longest);
+    const struct {
+        std::size_t channels;
+        ClipChannel each;
+        const char* unit;
+    } most[]{{limits::maxActuators, least, " channels"},
+             {2, channelOf(1, limits::maxClipPoints / 2, 1e-3), " points of curves"},
+             {2, channelOf(limits::maxClipBands / 2, 1, 1e-3), " bands"},
+             {2, channelOf(longWaves / 2, 1, longest), " seconds of all waves together"}};
+    for (const auto& full : most) {
+        Clip clip;
+        clip.channels.assign(full.channels, full.each);
+        EXPECT_EQ(clipError(clip), "");
+        clip.channels.push_back(least);
+        EXPECT_NE(clipError(clip).find(full.unit), std::string::npos) << full.unit << ": " << clipError(clip);
+    }
+}
+
 // Strikes as lines: how near, how few, and what is merged.
 
 using namespace test;

@@ -276,6 +276,29 @@ TEST(SessionStart, PreparedAgainASessionPlaysAsANewOne) {
     EXPECT_EQ(again.minMarginFrames, expected.minMarginFrames);
 }
 
+// A held level leaves room for what still sounds; of a run that is over nothing does.
+TEST(SessionStart, AWorldStartedAgainHasTheSameHitsByEveryRenderingMethod) {
+    const auto setup = shakeTheBoxSetup(0.02);
+    const auto scene = std::make_shared<const Scene>(setup.scene);
+    for (const char* method : {"AV-FV-DRV", "AF-FV-DRV", "AF-FV-DRF", "AF-FF-DRF"})
+        for (const bool holdsLevel : {false, true}) {
+            EventShaping shaping;
+            ASSERT_TRUE(parseRenderingMethod(method, shaping.method));
+            shaping.method.holdsLevel = holdsLevel;
+            SessionWorld world{setup.run(), shaping};
+            const auto hits = [&] {
+                std::vector<CollisionEvent> events;
+                for (int step = 0; step < 200; ++step) world.step(events);
+                return events;
+            };
+            world.start(0, scene, setup.seed);
+            const auto first = hits();
+            ASSERT_FALSE(first.empty());
+            world.reset();
+            EXPECT_TRUE(hits() == first) << method << (holdsLevel ? " held" : " of each hit");
+        }
+}
+
 TEST(SessionStart, AClipStaysKeptAndIsInTheNextLog) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, block);

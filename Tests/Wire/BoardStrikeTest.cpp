@@ -157,6 +157,26 @@ TEST(BoardSteps, AStrikeThatDecaysEnds) {
     EXPECT_EQ(steps.back().course.toneAgeNs, steps.back().timeNs) << "as weak as it is by then";
 }
 
+TEST(BoardSteps, OfATonesLaterPartAreAsStrongAndWhereTheToneIsByThen) {
+    for (const std::int64_t age : {std::int64_t{0}, second / 8, 3 * second / 2}) {
+        CollisionEvent part = fromAToD();
+        part.timeNs = 7 * second + 1;
+        part.decayPerSecond = 2.0;
+        part.course.toneAgeNs = age;
+        for (const auto& step : stepsOf(part)) {
+            const std::int64_t sinceNs = step.timeNs - part.timeNs;
+            const double decayed = 0.5 * std::exp(-2.0e-9 * static_cast<double>(age + sinceNs));
+            EXPECT_NEAR(toBoardEvent(step, {1.0}).amplitudes[0], decayed * limits::board::amplitudeUnit, 0.51)
+                << "ns of the tone before: " << age << ", of this part: " << sinceNs;
+            EXPECT_EQ(step.decayPerSecond, 2.0);
+            const double middle =
+                1e-9 * (static_cast<double>(sinceNs) + 0.5 * static_cast<double>(step.durationNs));
+            EXPECT_NEAR(step.x, middle, 1e-9) << "from A at (0, 1) to D at (1, 0) in a second";
+            EXPECT_NEAR(step.y, 1.0 - middle, 1e-9);
+        }
+    }
+}
+
 TEST(BoardSteps, OnTheBoardItIsEquallyStrongAllTheWay) {
     const auto renderer = std::make_unique<BoardRenderer>();
     renderer->prepare();
