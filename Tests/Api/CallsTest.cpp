@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -84,6 +85,44 @@ TEST(Calls, WhatIsPulledIsWhatIsRendered) {
     EXPECT_EQ(status.played, 2);
     EXPECT_EQ(status.late, 0);
     EXPECT_EQ(status.frames, frames);
+    for (const auto each : {one, two}) EXPECT_EQ(physvib_renderer_free(each), PHYSVIB_OK);
+}
+
+// Both calls render in blocks, of at most 8192 and of 64 frames.
+TEST(Calls, PullsOfAnyLengthAreWhatIsRendered) {
+    constexpr std::array pulls{1, 65, 16'385, 64}; // the third: in two blocks, and a frame
+    constexpr int channels = 4, frames = std::accumulate(pulls.begin(), pulls.end(), 0);
+    const auto values = settings();
+    const physvib_renderer one = renderer(), two = renderer();
+    std::vector<physvib_event> events;
+    for (physvib_int64 ns = 0; ns < 350'000'000; ns += 35'000'000) { // which ring all the while
+        events.push_back(test::hitAt(ns));
+        for (const auto each : {one, two})
+            ASSERT_EQ(physvib_renderer_strike(each, &events.back()), PHYSVIB_OK) << physvib_error();
+    }
+    std::vector<float> whole(channels * frames), pulled(channels * frames), interleaved(channels * frames);
+    ASSERT_EQ(physvib_render(&values, events.data(), std::ssize(events), frames, whole.data()), PHYSVIB_OK);
+    int done = 0;
+    for (const int length : pulls) {
+        std::array<float*, channels> at{};
+        for (int j = 0; j < channels; ++j)
+            at[static_cast<std::size_t>(j)] = pulled.data() + j * frames + done;
+        ASSERT_EQ(physvib_renderer_pull(one, at.data(), channels, length), PHYSVIB_OK);
+        ASSERT_EQ(
+            physvib_renderer_pull_interleaved(two, interleaved.data() + channels * done, channels, length),
+            PHYSVIB_OK);
+        done += length;
+    }
+    const int latency = physvib_renderer_latency_frames(one);
+    int heardFrames = 0;
+    for (int j = 0; j < channels; ++j)
+        for (int n = latency; n < frames; ++n) {
+            const auto expected = whole[static_cast<std::size_t>(j * frames + n - latency)];
+            ASSERT_EQ(pulled[static_cast<std::size_t>(j * frames + n)], expected) << j << ' ' << n;
+            ASSERT_EQ(interleaved[static_cast<std::size_t>(channels * n + j)], expected) << j << ' ' << n;
+            heardFrames += expected != 0.0f ? 1 : 0;
+        }
+    EXPECT_GT(heardFrames, frames / 2);
     for (const auto each : {one, two}) EXPECT_EQ(physvib_renderer_free(each), PHYSVIB_OK);
 }
 

@@ -4,8 +4,12 @@
 #include "Support/SizedEvents.h"
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
@@ -90,8 +94,9 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
     body.is_camera = 1;
     body.frequency_hz = 200.0;
     body.decay_per_s = 30.0;
-    for (int k = 1; k <= 4; ++k) { // of the first device, two of the second, and of one that is not there
-        body.device = std::array{0, 1, 1, 7}[static_cast<std::size_t>(k - 1)];
+    constexpr int bodies = 5;
+    for (int k = 1; k <= bodies; ++k) { // of the first device, two of the second, two of ones not there
+        body.device = std::array{0, 1, 1, 7, 2}[static_cast<std::size_t>(k - 1)];
         ASSERT_EQ(physvib_world_set_body(world, k, &body), PHYSVIB_OK);
     }
     body.device = -1;
@@ -102,7 +107,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
     physvib_int64 sent = 0;
     for (int step = 0; step < 5; ++step) {
         physvib_world_begin_step(world, 0.01, 9.81);
-        for (int k = 1; k <= 4 && step == 1; ++k) {
+        for (int k = 1; k <= bodies && step == 1; ++k) {
             auto contact = test::begun(physvib_contact_init);
             contact.a = 0;
             contact.b = k;
@@ -117,15 +122,15 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
         ASSERT_GE(count, 0) << physvib_live_error();
         sent += count;
     }
-    EXPECT_EQ(sent, 4);
+    EXPECT_EQ(sent, bodies);
     const auto played = [](physvib_live live) {
         auto status = test::begun(physvib_live_status_init);
         physvib_live_get_status(live, &status);
         return status.played;
     };
-    for (int i = 0; i < 500 && (played(lives[0]) < 2 || played(lives[1]) < 2); ++i)
+    for (int i = 0; i < 500 && played(lives[0]) + played(lives[1]) < bodies; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    EXPECT_EQ(played(lives[0]), 2);
+    EXPECT_EQ(played(lives[0]), 3) << "with those of devices that are not there";
     EXPECT_EQ(played(lives[1]), 2);
     EXPECT_EQ(physvib_live_send_each(nullptr, 0, world, starts.data()), PHYSVIB_ERROR_ARGUMENT);
     physvib_world_free(world);
@@ -237,6 +242,42 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
     EXPECT_EQ(physvib_live_strike(live, refused.data(), 3), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_session_create(nullptr, refused.data(), 3, 0, &none), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
+}
+
+/// Each stage between a hit and what is rendered is kept in the file, and is in the list.
+TEST(LiveCalls, EventsOfASessionAreThoseThatWereFelt) {
+    const auto path = std::filesystem::temp_directory_path() / ("felt-" + std::to_string(getpid()) + ".json");
+    auto hit = test::hitAt(1'000'000, 0.4);
+    hit.frequency_hz = 1000.0;
+    hit.decay_per_s = 40.0;
+    struct Felt {
+        const char* shaping;
+        double frequencyHz, decayPerSecond, amplitude, durationNs;
+    };
+    for (const Felt& felt : {Felt{R"("method": "AF-FF-DRF", "fixed_amplitude": 0.25)", 250.0, 0.0, 0.25, 2e7},
+                             {R"("remap_hz": [100, 200])", 200.0, 40.0, 0.4, 0.0}, // of 20 to 1000 Hz
+                             {R"("gain": 0.5)", 1000.0, 40.0, 0.2, 0.0},
+                             {R"("perceived_level": true)", 1000.0, 40.0, 0.8, 0.0}, // twice, from 500 Hz on
+                             {R"("gamma": 0.1)", 1000.0, 40.0, 0.4, 1e9 * std::log(10.0) / 40.0}}) {
+        physvib_session session = nullptr;
+        ASSERT_EQ(physvib_session_create(nullptr, &hit, 1, 100'000'000, &session), PHYSVIB_OK);
+        ASSERT_EQ(physvib_session_save(session, path.c_str()), PHYSVIB_OK) << physvib_live_error();
+        EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
+        std::ostringstream text;
+        text << std::ifstream{path}.rdbuf();
+        std::string edited = text.str();
+        edited.insert(edited.find("\"takes\""), "\"shaping\": { " + std::string{felt.shaping} + " }, ");
+        std::ofstream{path} << edited;
+        ASSERT_EQ(physvib_session_load(path.c_str(), &session), PHYSVIB_OK) << physvib_live_error();
+        auto told = test::places<2>();
+        EXPECT_EQ(physvib_session_events(session, 100'000'000, told.data(), 2), 1) << felt.shaping;
+        EXPECT_NEAR(told[0].frequency_hz, felt.frequencyHz, 1e-9) << felt.shaping;
+        EXPECT_EQ(told[0].decay_per_s, felt.decayPerSecond) << felt.shaping;
+        EXPECT_NEAR(told[0].amplitude, felt.amplitude, 1e-12) << felt.shaping;
+        EXPECT_NEAR(static_cast<double>(told[0].duration_ns), felt.durationNs, 2.0) << felt.shaping;
+        EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
+    }
+    std::filesystem::remove(path);
 }
 
 TEST(LiveCalls, ASessionsLayoutIsToldAsFarAsItGoes) {

@@ -221,6 +221,27 @@ TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
     EXPECT_EQ(read.value.lengthNs, lines.completeNs());
 }
 
+// What a file limits, and what a line replaces, is of one take.
+TEST(SessionLog, InputsAndStallsInAJournalCountForTheirTakeAlone) {
+    constexpr std::size_t portion = 1000;
+    const auto setup = emptyBoxSetup(0.05);
+    const auto scene = std::make_shared<const Scene>(setup.scene);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    SessionLog log;
+    const auto linesOf = [&](std::size_t inputs) {
+        log.runs.back().inputs.assign(inputs, {0.5, TiltAction{1.0}});
+        return lines.nextLines(log, 1'000'000'000);
+    };
+    for (const std::size_t inputs : {portion, sceneLimits::maxLiveInputs}) {
+        log.runs.push_back({0, 0, 1, scene, {}, {{200'000'000, 10'000'000}}});
+        EXPECT_NE(linesOf(0).find("\n{ \"stall\": "), std::string::npos) << "also if it is as the last was";
+        for (std::size_t told = 0; told < inputs; told += portion) ASSERT_NE(linesOf(portion), "") << told;
+        EXPECT_EQ(lines.limitError(), "");
+    }
+    EXPECT_EQ(linesOf(1), "");
+    EXPECT_EQ(lines.limitError(), std::to_string(sceneLimits::maxLiveInputs) + " inputs");
+}
+
 TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
     const auto setup = shakeTheBoxSetup(0.05);
     JournalLines lines{saved(setup, {}, 0), {}};
