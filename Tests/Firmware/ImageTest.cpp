@@ -62,6 +62,27 @@ TEST(BoardMutants, WithoutSetUpDelayTheConvertersTimesAreViolated) {
     EXPECT_LT(t.writePulse, 50.0);
 }
 
+// The same converters without an image, each change a microsecond after the other: no time is too short.
+TEST(BoardMutants, ALineThatChangesWhileALatchIsOpenIsAViolation) {
+    constexpr std::uint32_t idle = 0xFFF, write = 1u << 9, chip1 = 1u << 10;
+    for (int line = 0; line < 12; ++line) {
+        if (1u << line == write) continue;
+        for (const bool isOpen : {false, true}) {
+            virtualboard::Converters converters;
+            double ns = 0.0;
+            const auto set = [&](std::uint32_t pins) { converters.drive(pins, ns += 1000.0); };
+            const std::uint32_t selected = idle & ~chip1, changed = selected ^ 1u << line;
+            set(selected);
+            set(selected & ~write);
+            if (isOpen) set(changed & ~write);
+            set(isOpen ? changed : selected);
+            set(changed);
+            EXPECT_EQ(converters.observedTimes().violations, isOpen ? 1 : 0) << "PC" << line;
+            EXPECT_EQ(converters.observedTimes().writes, 1);
+        }
+    }
+}
+
 TEST(BoardMutants, SwappedChipSelectsPlayWrongCodes) {
     test::Rig rig(mutant("swapped-chips"));
     EXPECT_GT(play(rig).differing, 1000u);

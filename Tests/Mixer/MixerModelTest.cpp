@@ -195,6 +195,33 @@ TEST(MixerModel, ARecordingThatRunsWhenTheMixerIsClosedIsKept) {
     EXPECT_FALSE(folder("take.wav.physvib.part").exists());
 }
 
+// The recorder's buffer has four seconds; what finds it full at once is missing.
+TEST(MixerModel, WhatARecordingLacksIsToldAtItsEnd) {
+    FakeInterface hands; // it asks for no block but those of play()
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    TestFolder folder;
+    constexpr int room = 4 * 48000;
+    const std::vector<float> samples(room + 1);
+    const std::vector<const float*> channels(static_cast<std::size_t>(model.mix().count()), samples.data());
+    struct Take {
+        int frames, rateHz;
+        const char* told;
+    };
+    for (const auto& [frames, rateHz, told] :
+         {Take{480, 48000, ""}, Take{room + 1, 48000, "frames missing in the recording: 1"},
+          Take{480, 44100, "the recording ends where the device changed its rate"}}) {
+        std::optional<juce::String> end;
+        model.recording().onEnd = [&](const juce::File&, const juce::String& error) { end = error; };
+        ASSERT_EQ(model.recording().start(folder("take.wav")), "");
+        model.session().sinks().onBlock({channels.data(), frames, 0, rateHz});
+        model.recording().stop();
+        for (int block = 0; block < 3; ++block) hands.play(hands.block); // the recorder is released
+        model.poll();
+        ASSERT_TRUE(end.has_value()) << told;
+        EXPECT_EQ(*end, told);
+    }
+}
+
 TEST(MixerModel, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};

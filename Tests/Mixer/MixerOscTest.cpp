@@ -108,6 +108,27 @@ TEST_F(OscOfMixer, StripsAndSilenceAreMovedInTheMixer) {
     EXPECT_TRUE(runUntil([&] { return counts().refused == 3; }));
 }
 
+TEST_F(OscOfMixer, TheSignOfAGainIsTheStripsPolarityAndItsSizeTheFader) {
+    listen();
+    struct Gain {
+        double value, faderDb;
+        bool isInverted;
+    };
+    bool isMuted = false;
+    for (const auto& [value, faderDb, isInverted] :
+         {Gain{-1.0, 0.0, true}, Gain{0.5, -6.02, false}, Gain{-0.25, -12.04, true},
+          Gain{0.0, minStripDb, false}}) {
+        send("/physvib/gain", {{"channel", 2.0}, {"value", value}});
+        isMuted = !isMuted; // comes behind the gain, and so tells that it has come
+        send("/physvib/mute", {{"channel", 1.0}, {"on", isMuted ? 1.0 : 0.0}});
+        ASSERT_TRUE(runUntil([&] { return model.mix().strips[0].isMuted == isMuted; }));
+        EXPECT_NEAR(model.mix().strips[1].gainDb, faderDb, 0.01) << value;
+        EXPECT_EQ(model.mix().strips[1].isInverted, isInverted) << value;
+        EXPECT_FALSE(model.mix().strips[0].isInverted) << "another strip";
+    }
+    EXPECT_EQ(counts().refused, 0U);
+}
+
 // The window's thread does nothing here: what is for it waits, and is refused at last.
 TEST_F(OscOfMixer, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
     listen();

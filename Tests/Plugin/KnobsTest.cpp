@@ -148,6 +148,34 @@ TEST(Knobs, AsThePresetEveryKeyIsWhatItsStateSays) {
     }
 }
 
+// The layout's extent lies on the whole field, whatever the shapes of both.
+TEST(Knobs, APlacementIsThatPlaceOfTheFieldInEveryLayout) {
+    bool hasAnOblong = false;
+    for (const auto name : layoutPresetNames)
+        for (const auto placement : {NotePlacement::octave, NotePlacement::actuators, NotePlacement::middle})
+            for (const bool isByKnob : {false, true}) {
+                auto state = knobPreset("Keys");
+                state.layout = presetLayout(name);
+                if (!isByKnob) state.voice.placement = placement;
+                const auto& layout = state.layout.geometry;
+                const NoteKnobs knobs{.placement = isByKnob ? 1 + static_cast<int>(placement) : 0};
+                const MidiTable table{state};
+                for (int note = 0; note < 128; ++note) {
+                    const auto& on = layout.places[static_cast<std::size_t>(note % layout.count)];
+                    hasAnOblong = hasAnOblong ||
+                                  (on.yMetres > 0.0 && layout.extentWidthMetres != layout.extentHeightMetres);
+                    double x = 0.5, y = 0.5;
+                    if (placement == NotePlacement::octave) x = note % 12 / 11.0;
+                    if (placement == NotePlacement::actuators)
+                        x = on.xMetres / layout.extentWidthMetres, y = on.yMetres / layout.extentHeightMetres;
+                    const auto strike = table.strikeOf(note, knobs, layout);
+                    ASSERT_NEAR(strike.x, x * state.scene.fieldWidthMetres, 1e-9) << name << ' ' << note;
+                    ASSERT_NEAR(strike.y, y * state.scene.fieldHeightMetres, 1e-9) << name << ' ' << note;
+                }
+            }
+    EXPECT_TRUE(hasAnOblong) << "where width and height are alike, no mistake of them is seen";
+}
+
 TEST(Knobs, AreKeptInAStateAndSetBackByAPreset) {
     KnobHost host{knobPreset("Keys")}, other{knobPreset("Bass")};
     host.turn(Parameter::decay, "4");

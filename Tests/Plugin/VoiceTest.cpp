@@ -118,6 +118,29 @@ TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     }
 }
 
+// Of its own channel, and of channel 1, whose pedal holds all others.
+TEST(Voice, AfterAResetOfAllControllersANoteIsAsItWasPlayedAndEndsWithItsKey) {
+    auto state = heldVoice();
+    state.voice.bendSemitones = 12.0;
+    state.voice.releaseSeconds = 0.05;
+    for (const int channel : {1, 2}) {
+        SCOPED_TRACE(channel);
+        const auto signal = playedBy(state,
+                                     {{0, on(45, 64, channel)},
+                                      {4000, Message::pitchWheel(channel, 16383)},
+                                      {4000, Message::channelPressureChange(channel, 127)},
+                                      {4000, Message::controllerEvent(channel, 74, 127)},
+                                      {4000, Message::controllerEvent(channel, 64, 127)},
+                                      {8000, Message::controllerEvent(channel, 121, 0)},
+                                      {24000, off(45, channel)}},
+                                     36000);
+        EXPECT_NEAR(pitchOf(signal, 12000, 24000), 110.0, 5.0);
+        for (std::size_t c = 0; c < 4; ++c)
+            EXPECT_NEAR(peakBetween(signal, 12000, 24000, c), 64.0f / 127.0f, 1e-3f) << c;
+        EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f) << "the pedal is up";
+    }
+}
+
 TEST(Voice, OneKeyOnTwoChannelsIsTwoNotes) {
     auto state = heldVoice();
     state.voice.releaseSeconds = 0.05;
@@ -149,6 +172,32 @@ std::vector<TimedMessage> zoneOf(int members) {
     return {{0, Message::controllerEvent(1, 101, 0)},
             {0, Message::controllerEvent(1, 100, 6)},
             {0, Message::controllerEvent(1, 6, members)}};
+}
+
+// MPE 1.1: a lower zone of n has channels 2 to 1 + n, an upper one 15 down to 16 - n; where they would
+// overlap, the older shrinks, and it stays so small when the newer ends.
+TEST(Voice, TwoMpeZonesNeverShareAChannelAndTheOlderGivesWay) {
+    for (const int newer : {1, 16})
+        for (int first = 1; first <= 14; ++first)
+            for (int second = 1; second <= 14; ++second) {
+                ChannelExpression zones;
+                std::array<int, 17> masters{}; // 0: of no zone
+                const auto configure = [&](int master, int members) {
+                    zones.handleController(master, 101, 0);
+                    zones.handleController(master, 100, 6);
+                    zones.handleController(master, 6, members);
+                    std::ranges::replace(masters, master, 0);
+                    for (int k = 1; k <= members; ++k)
+                        masters[static_cast<std::size_t>(master == 1 ? 1 + k : 16 - k)] = master;
+                    masters[1] = masters[16] = 0; // it would lead itself
+                    for (int channel = 1; channel <= 16; ++channel)
+                        ASSERT_EQ(zones.findMaster(channel), masters[static_cast<std::size_t>(channel)])
+                            << channel << ": " << first << ", then " << second << " of " << newer;
+                };
+                configure(17 - newer, first);
+                configure(newer, second);
+                configure(newer, 0);
+            }
 }
 
 TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
