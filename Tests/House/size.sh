@@ -21,8 +21,8 @@ bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 say "products: lines of C++" "$(lines $products)" 116865
 say "products: files of C++" "$(cpp $products | wc -l)" 640
 say "products: bytes without white space" "$(bytes $products)" 4313022
-say "tests: lines of C++" "$(lines Tests)" 78762
-say "tests: files of C++" "$(cpp Tests | wc -l)" 432
+say "tests: lines of C++" "$(lines Tests)" 79338
+say "tests: files of C++" "$(cpp Tests | wc -l)" 433
 if [ -n "$bin" ]; then
     say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 12
     if [ -x "$bin/physvib-session-tests" ]; then
