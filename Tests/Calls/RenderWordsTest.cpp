@@ -122,11 +122,8 @@ TEST_F(CommonBand, IsWhatAllActuatorsOfALayoutPlay) {
             put(path, actuatorJson(profile));
             layout.actuators[j].actuator = path.string();
         }
-        RenderJob job;
-        job.actuator = "layout";
-        job.isEqualised = false;
-        job.isRemapped = true;
-        const auto choice = chooseActuators(job, layout);
+        const auto job = jobOf("drop --actuator layout --equalise off --remap on");
+        const auto choice = chooseActuators(job.value, layout);
         return choice ? plainNumber(choice.value.remap.band.lowHz) + " to " +
                             plainNumber(choice.value.remap.band.highHz)
                       : choice.error;

@@ -255,8 +255,7 @@ TEST(MaterialExtractor, TheBandSaysWhichPartialIsTaken) {
               std::string::npos);
 }
 
-/// Whoever cuts a recording tightly leaves less before the hit than is looked at: it is found there all the
-/// same.
+// Whoever cuts a recording tightly leaves less before the hit than is looked at.
 TEST(MaterialExtractor, AHitIsFoundHoweverLittleIsBeforeIt) {
     const auto whole = hit({{205, 60}}, clean, 1, 0.2);
     const auto onset = static_cast<std::ptrdiff_t>(

@@ -27,18 +27,10 @@ TEST(PlaceErrors, OfOneTargetAreMeanSpreadAndDistance) {
 }
 
 TEST(PlaceErrors, SpreadIsThatOfBothAxes) {
-    struct Case {
-        std::vector<std::pair<double, double>> answers;
-        double spread; // root of both sample variances
-    };
-    for (const auto& [answers, spread] :
-         {Case{{{-3, 0}, {3, 0}}, std::sqrt(18.0)}, Case{{{0, -3}, {0, 3}}, std::sqrt(18.0)},
-          Case{{{-1, 2}, {1, -2}}, std::sqrt(10.0)}, Case{{{1, 0}, {2, 5}, {3, 10}}, std::sqrt(26.0)},
-          Case{{{4, 7}, {4, 7}}, 0.0}}) {
-        std::vector<PlaceTrial> trials;
-        for (const auto& [x, y] : answers) trials.push_back({"P", "a", 10, 20, 10 + x, 20 + y});
-        EXPECT_NEAR(targetErrors(trials).front().variable, spread, 1e-12);
-        EXPECT_NEAR(participantErrors(trials).front().variable, spread, 1e-12);
+    for (const auto& [dx, dy] : {std::pair{3.0, 0.0}, {0.0, 3.0}, {1.0, 2.0}}) {
+        const std::vector<PlaceTrial> trials{{"P", "a", 10, 20, 10 + dx, 20 + dy},
+                                             {"P", "a", 10, 20, 10 - dx, 20 - dy}};
+        EXPECT_NEAR(targetErrors(trials).front().variable, std::sqrt(2 * dx * dx + 2 * dy * dy), 1e-12);
     }
 }
 
@@ -214,25 +206,16 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     EXPECT_NEAR(made.counts.sum(), 100.0, 1e-9);
 }
 
-// Deviations from each target's own mean, over the responses less one a target: here 7 - 3.
 TEST(ResponseMap, TheBorrowedCovarianceIsThatWithinAllTargets) {
-    const auto made = responseNormals({{1, 1, 0.1, 0.2},
-                                       {1, 1, 0.3, 0.2},
-                                       {1, 1, 0.2, 0.5},
-                                       {1, 1, 0.2, 0.7},
-                                       {2, 1, 0.7, 0.4},
-                                       {2, 1, 0.9, 0.6},
-                                       {3, 1, 0.5, 0.5}});
+    const auto made = responseNormals(
+        {{1, 1, 0.1, 0.2}, {1, 1, 0.3, 0.2}, {1, 1, 0.2, 0.5}, {2, 1, 0.7, 0.4}, {2, 1, 0.9, 0.6}});
     ASSERT_EQ(made.error, "");
-    for (const std::size_t target : {1u, 2u}) {
-        const PlaceNormal& n = made.normals[target];
-        ASSERT_TRUE(n.usesPooledCovariance) << target;
-        EXPECT_NEAR(n.varianceX, (0.02 + 0.02) / 4, 1e-12) << target;
-        EXPECT_NEAR(n.varianceY, (0.18 + 0.02) / 4, 1e-12) << target;
-        EXPECT_NEAR(n.covariance, 0.02 / 4, 1e-12) << target;
-        EXPECT_NEAR(n.meanX, target == 1 ? 0.8 : 0.5, 1e-12) << "its own";
-        EXPECT_NEAR(n.meanY, 0.5, 1e-12) << "its own";
-    }
+    const PlaceNormal& n = made.normals[1]; // five responses to two targets: three degrees of freedom
+    EXPECT_NEAR(n.varianceX, (0.02 + 0.02) / 3, 1e-12);
+    EXPECT_NEAR(n.varianceY, (0.06 + 0.02) / 3, 1e-12);
+    EXPECT_NEAR(n.covariance, 0.02 / 3, 1e-12);
+    EXPECT_NEAR(n.meanX, 0.8, 1e-12) << "its own";
+    EXPECT_NEAR(n.meanY, 0.5, 1e-12) << "its own";
 }
 
 TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {
