@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A call of `render` is a value: each of its options is in it, and the same words are the same value.
 #include "Calls/CallOptions.h"
+#include "Calls/LoadedRender.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
 #include "Options/OptionTable.h"
+#include "Scene/ActuatorFile.h"
+#include "Support/FileTesting.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -102,6 +105,40 @@ TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     job = {};
     job.playsRecordings = true;
     EXPECT_EQ(sceneOptionsError(job), "--method SV: expected a --sound for each material");
+}
+
+// Frequencies are moved to where every actuator of the layout plays, whichever stands first.
+
+using CommonBand = FolderTest;
+
+TEST_F(CommonBand, IsWhatAllActuatorsOfALayoutPlay) {
+    const auto bandOf = [&](const std::vector<FrequencyBand>& bands) {
+        LayoutDescription layout = presetLayout("phone4"); // without actuators
+        for (std::size_t j = 0; j < bands.size(); ++j) {
+            const auto path = folder / (std::to_string(j) + ".json");
+            ActuatorProfile profile;
+            profile.name = "a" + std::to_string(j);
+            if (bands[j].isKnown()) profile.band = bands[j];
+            put(path, actuatorJson(profile));
+            layout.actuators[j].actuator = path.string();
+        }
+        const auto job = jobOf("drop --actuator layout --equalise off --remap on");
+        const auto choice = chooseActuators(job.value, layout);
+        return choice ? plainNumber(choice.value.remap.band.lowHz) + " to " +
+                            plainNumber(choice.value.remap.band.highHz)
+                      : choice.error;
+    };
+    const FrequencyBand deep{40, 200}, middle{100, 300}, high{150, 800}, wide{20, 1000}, far{400, 900};
+    EXPECT_EQ(bandOf({middle}), "100 to 300");
+    for (const auto& bands : {std::vector{deep, middle}, {middle, deep}})
+        EXPECT_EQ(bandOf(bands), "100 to 200");
+    for (const auto& bands : {std::vector{wide, middle}, {middle, wide}})
+        EXPECT_EQ(bandOf(bands), "100 to 300");
+    for (const auto& bands : {std::vector{deep, high, wide}, {high, wide, deep}, {wide, deep, high}})
+        EXPECT_EQ(bandOf(bands), "150 to 200");
+    for (const auto& bands : {std::vector{deep, far}, {far, deep}, {wide, deep, far}})
+        EXPECT_EQ(bandOf(bands), "--remap: the layout's actuators have no band in common");
+    EXPECT_EQ(bandOf({deep, {}}), "a1: band_hz is not known: nothing to remap into");
 }
 
 // What a row of a study says is read as the value that it was written from.

@@ -86,6 +86,24 @@ TEST(BeatDetector, TellsTheSameInPiecesOfAnySizeAndAfterAReset) {
     }
 }
 
+// Whoever starts a song again, wherever the one before was left and however loud that was.
+TEST(BeatDetector, AResetForgetsAllThatWasHeard) {
+    constexpr int rateHz = 22050;
+    const BeatSong before{2.1, rateHz, 3}, after{2.1, rateHz, 5};
+    // from just before its first beat on
+    std::vector<float> quiet(after.samples.begin() + 10'600, after.samples.begin() + 28'000);
+    for (float& x : quiet) x *= 0.1f;
+    BeatDetector fresh{rateHz}, again{rateHz};
+    const auto whole = onsetsOf(fresh, quiet);
+    EXPECT_GT(whole.size(), 2u);
+    for (const auto& hit : before.hits) {
+        onsetsOf(again,
+                 std::span{before.samples}.first(static_cast<std::size_t>((hit.seconds + 0.04) * rateHz)));
+        again.reset();
+        EXPECT_EQ(onsetsOf(again, quiet), whole) << "left after the beat at " << hit.seconds << " s";
+    }
+}
+
 TEST(BeatDetector, TellsEachWithinItsDelay) {
     for (const int rateHz : {5000, 44100, 95000, 192000}) {
         const BeatSong song{3.0, rateHz, 3};

@@ -143,6 +143,29 @@ TEST(WavSink, KeepsTheComment) {
     EXPECT_EQ(bytes.size(), chunkAt(bytes, "data") + 10 * 4 * sizeof(float)) << "behind it, whole";
 }
 
+// A header's sizes in bytes: of all behind the first eight, and of the samples; 64 bits from 4 GB on.
+TEST(WavSink, SizesInTheHeaderAreThoseOfTheFile) {
+    constexpr std::int64_t fourGb = std::int64_t{1} << 32;
+    for (const int channels : {1, 2, 3, 64})
+        for (const std::string comment : {"", "odd", "even", "of a length that no number of frames hides"})
+            for (const std::int64_t data :
+                 {std::int64_t{0}, std::int64_t{4000}, fourGb - 1024, fourGb - 4, fourGb, 3 * fourGb}) {
+                const auto header = wavHeader(channels, rateHz, data, wavInfoChunk(comment));
+                const std::int64_t riff = std::ssize(header) - 8 + data;
+                const bool isLong = riff >= fourGb;
+                const auto where = testing::Message()
+                                   << channels << " channels, " << data << " bytes, " << comment;
+                EXPECT_EQ(header.substr(0, 4), isLong ? "RF64" : "RIFF") << where;
+                EXPECT_EQ(numberAt<std::uint32_t>(header, 4), isLong ? 0xffff'ffff : riff) << where;
+                EXPECT_EQ(numberAt<std::uint32_t>(header, header.size() - 4), isLong ? 0xffff'ffff : data)
+                    << where;
+                EXPECT_EQ(chunkAt(header, "data"), header.size()) << where;
+                if (!isLong) continue;
+                EXPECT_EQ(numberAt<std::int64_t>(header, chunkAt(header, "ds64")), riff) << where;
+                EXPECT_EQ(numberAt<std::int64_t>(header, chunkAt(header, "ds64") + 8), data) << where;
+            }
+}
+
 /// 480 frames of 0.5 on a channel.
 void render(PlayedRecorder& recorder, std::int64_t frame, int rate = rateHz) {
     const std::vector<float> block(480, 0.5f);

@@ -255,6 +255,36 @@ TEST(MaterialExtractor, TheBandSaysWhichPartialIsTaken) {
               std::string::npos);
 }
 
+// Whoever cuts a recording tightly leaves less before the hit than is looked at.
+TEST(MaterialExtractor, AHitIsFoundHoweverLittleIsBeforeIt) {
+    const auto whole = hit({{205, 60}}, clean, 1, 0.2);
+    const auto onset = static_cast<std::ptrdiff_t>(
+        std::ranges::find_if(whole, [](float x) { return std::abs(x) > 1e-6f; }) - whole.begin());
+    for (const auto rule : {MaterialRule::fit, MaterialRule::twoPeaks})
+        for (const std::ptrdiff_t before : {0, 1, 700}) { // 20 ms are 960
+            const auto found = extractMaterial({whole.begin() + onset - before, whole.end()}, rate, {}, rule);
+            const auto where = testing::Message() << before << " samples before it";
+            ASSERT_TRUE(found) << found.error << ": " << where;
+            EXPECT_NEAR(found.value.frequencyHz, 205, 1) << where;
+            EXPECT_NEAR(found.value.decayPerSecond, 60, 0.6) << where;
+            EXPECT_NEAR(found.value.beginSeconds, static_cast<double>(before) / rate, 3e-4) << where;
+        }
+}
+
+// In white noise they are those of the bound: neither less sure nor surer than the samples allow.
+TEST(MaterialExtractor, StatesItsErrorsInHertzAndPerSecond) {
+    for (const Tone& tone : {Tone{80, 34.13}, {430, 12}}) {
+        const test::HitBound bound = boundIn20Decibels({tone});
+        const auto found = extractMaterial(hit({tone}, noisy, 1), rate);
+        ASSERT_TRUE(found) << found.error;
+        const double hz = bound.frequency * tone.frequencyHz, perSecond = bound.decay * tone.decayPerSecond;
+        EXPECT_GT(found.value.frequencyErrorHz, 0.6 * hz) << tone.frequencyHz;
+        EXPECT_LT(found.value.frequencyErrorHz, 2.0 * hz) << tone.frequencyHz;
+        EXPECT_GT(found.value.decayErrorPerSecond, 0.6 * perSecond) << tone.frequencyHz;
+        EXPECT_LT(found.value.decayErrorPerSecond, 2.0 * perSecond) << tone.frequencyHz;
+    }
+}
+
 TEST(MaterialExtractor, AHumIsNoMaterial) {
     auto samples = hit({{430, 60}}, noisy, 1);
     for (std::size_t i = 0; i < samples.size(); ++i)

@@ -40,6 +40,19 @@ TEST(PhoneSensors, AShakeIsFelt) {
     expectPull(pullOf(iPhone, "/gyrosc/accel", {-0.5, 0.0, 0.0}), -0.5 * standardGravity, -standardGravity);
 }
 
+// The last shake of one program is not felt for ever beside what another tells, which is all of it.
+TEST(PhoneSensors, AReadingOfAllForgetsTheMotionBefore) {
+    for (const auto& [address, sign] : {std::pair{"/accxyz", -1.0}, {"/accelerometer", 1.0}}) {
+        PhoneSensors phone;
+        pullOf(phone, "/gyrosc/grav", {0.0, -1.0, 0.0});
+        expectPull(pullOf(phone, "/gyrosc/accel", {-0.5, 0.25, 0.0}), -0.5 * standardGravity,
+                   -0.75 * standardGravity);
+        const double unit = sign < 0.0 ? standardGravity : 1.0;
+        expectPull(pullOf(phone, address, {0.0, sign, 0.0}), 0.0, -unit);
+        expectPull(pullOf(phone, "/gyrosc/grav", {1.0, 0.0, 0.0}), standardGravity, 0.0);
+    }
+}
+
 TEST(PhoneSensors, AxesMayComeOneByOne) {
     PhoneSensors phone;
     expectPull(pullOf(phone, "/accelerometer/X", {9.4}), -9.4, 0.0);

@@ -3,6 +3,7 @@
 #include "Live/Session/OfflineRender.h"
 #include "Core/Units.h"
 #include "Live/Session/ContactAudio.h"
+#include "Live/Session/SessionRender.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
@@ -73,6 +74,33 @@ TEST(OfflineRender, AMinuteOfShakeTheBoxPeaksNearMinus6dBFSAndUsesAllEnchanters)
     EXPECT_GT(20 * std::log10(*std::min_element(peaks.begin(), peaks.end())), loudest - 20);
     EXPECT_EQ(status.played, made.events.size());
     EXPECT_EQ(status.late + status.rejected + status.stolen + status.nonFinite + made.drops, 0u);
+}
+
+// Places are shares of the field's width and height from its upper left corner, whatever its shape.
+TEST(PlacedRecordings, AreFeltWhereTheyWereAskedFor) {
+    struct Case {
+        FieldPlace place;
+        std::vector<double> shares; // of A and B above, C and D below
+    };
+    const std::vector<Case> cases{{{0, 0}, {1, 0, 0, 0}},          {{1, 0}, {0, 1, 0, 0}},
+                                  {{0, 1}, {0, 0, 1, 0}},          {{1, 1}, {0, 0, 0, 1}},
+                                  {{0, 0.25}, {0.75, 0, 0.25, 0}}, {{0.75, 1}, {0, 0, 0.25, 0.75}}};
+    const StimulusSound recording{48000, {{0.0f, 0.25f, -0.5f}}}; // its peak becomes the level
+    for (const auto& [width, height] : {std::pair{0.3, 0.1}, {0.1, 0.3}, {0.2, 0.2}}) {
+        const ActuatorLayout geometry{width, height, 4, {{{0, height}, {width, height}, {0, 0}, {width, 0}}}};
+        LayoutDescription layout = describeLayout("four", geometry);
+        layout.actuators[3].fullScaleG = 2.0;
+        const PhantomPanner panner{geometry, PanningLaw::linear, 1.0, width, height};
+        for (const auto& [place, shares] : cases) {
+            const auto placed = placeRecording(recording, place, 0.8, panner, layout);
+            ASSERT_TRUE(placed) << placed.error;
+            for (std::size_t j = 0; j < 4; ++j)
+                EXPECT_NEAR(placed.value.channels[j][2], -0.8 * shares[j] / layout.actuators[j].fullScaleG,
+                            1e-6)
+                    << width << " m by " << height << " m, at " << place.x << ", " << place.y << ": "
+                    << layout.actuators[j].label;
+        }
+    }
 }
 
 // The audio of contacts: a render of it is what is played live, to the bit.

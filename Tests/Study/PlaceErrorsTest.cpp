@@ -26,6 +26,14 @@ TEST(PlaceErrors, OfOneTargetAreMeanSpreadAndDistance) {
     EXPECT_DOUBLE_EQ(errors[1].variable, 0.0) << "one trial has no spread";
 }
 
+TEST(PlaceErrors, SpreadIsThatOfBothAxes) {
+    for (const auto& [dx, dy] : {std::pair{3.0, 0.0}, {0.0, 3.0}, {1.0, 2.0}}) {
+        const std::vector<PlaceTrial> trials{{"P", "a", 10, 20, 10 + dx, 20 + dy},
+                                             {"P", "a", 10, 20, 10 - dx, 20 - dy}};
+        EXPECT_NEAR(targetErrors(trials).front().variable, std::sqrt(2 * dx * dx + 2 * dy * dy), 1e-12);
+    }
+}
+
 TEST(PlaceErrors, EachTargetCountsAsMuchHoweverOftenItWasAsked) {
     const auto people = participantErrors({{"P", "a", 0, 0, 1, 0},
                                            {"P", "a", 0, 0, 1, 0},
@@ -196,6 +204,18 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     for (const double percent : made.counts.percent) EXPECT_TRUE(std::isfinite(percent));
     EXPECT_EQ(made.counts.percent[3], 0.0);
     EXPECT_NEAR(made.counts.sum(), 100.0, 1e-9);
+}
+
+TEST(ResponseMap, TheBorrowedCovarianceIsThatWithinAllTargets) {
+    const auto made = responseNormals(
+        {{1, 1, 0.1, 0.2}, {1, 1, 0.3, 0.2}, {1, 1, 0.2, 0.5}, {2, 1, 0.7, 0.4}, {2, 1, 0.9, 0.6}});
+    ASSERT_EQ(made.error, "");
+    const PlaceNormal& n = made.normals[1]; // five responses to two targets: three degrees of freedom
+    EXPECT_NEAR(n.varianceX, (0.02 + 0.02) / 3, 1e-12);
+    EXPECT_NEAR(n.varianceY, (0.06 + 0.02) / 3, 1e-12);
+    EXPECT_NEAR(n.covariance, 0.02 / 3, 1e-12);
+    EXPECT_NEAR(n.meanX, 0.8, 1e-12) << "its own";
+    EXPECT_NEAR(n.meanY, 0.5, 1e-12) << "its own";
 }
 
 TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {

@@ -53,8 +53,8 @@ std::string wavInfoChunk(const std::string& comment) {
 // The chunk for 64-bit sizes, or padding of its length, comes first. It is longer before the shorter, plain
 // format chunk.
 std::string wavHeader(int channels, int sampleRateHz, std::int64_t dataBytes, const std::string& infoChunk) {
-    const bool isRf64 = dataBytes >= rf64Bytes, isExtensible = isRf64 || channels > 2;
     const std::int64_t riffBytes = wavHeaderBytes - 8 + std::ssize(infoChunk) + dataBytes;
+    const bool isRf64 = riffBytes >= rf64Bytes, isExtensible = isRf64 || channels > 2;
     std::string sizes;
     if (isRf64) {
         appendInt(sizes, riffBytes, 8);
