@@ -253,6 +253,21 @@ TEST(Experiment, AdjustedLevelsAreThoseOfTheSameConditionAndOfTheSessionThatIsNa
     EXPECT_EQ(chosen, 4);
 }
 
+TEST(Experiment, AnAnswerToWhatDidNotLeaveIsNeitherRightNorWrongInARow) {
+    const auto p = protocolOf(GridSet{2, 1}, {{.name = "main", .repetitions = 5, .untilCorrect = 3}});
+    for (const bool isRight : {false, true}) {
+        Experiment experiment{p, {}};
+        for (const bool wasDelivered : {true, true, false, true}) {
+            ASSERT_FALSE(experiment.isDone());
+            const std::string& truth = experiment.trial().stimulus;
+            const std::string wrong = truth == "1,1" ? "1,2" : "1,1";
+            experiment.acceptAnswer(
+                {.response = wasDelivered || isRight ? truth : wrong, .wasDelivered = wasDelivered});
+        }
+        EXPECT_TRUE(experiment.isDone()) << isRight;
+    }
+}
+
 TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
     SessionPlan matching{
         .name = "matching",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
 
 namespace physvib::quest_method_test {
 
@@ -277,6 +278,29 @@ TEST(QuestMethod, SeveralPeopleTellTheWidthTogether) {
     EXPECT_GT(together.halfInterval, studentQuantile(0.975, observers - 1) * together.deviation /
                                          std::sqrt(static_cast<double>(observers)))
         << "what is unknown of the widths counts";
+}
+
+TEST(QuestMethod, WhatIsUnknownOfTheWidthsCountsByTheShareOfThePlansRuns) {
+    QuestMethod coarse = method;
+    coarse.stepDb = 2.0;
+    const std::map<double, std::uint64_t> hits{{6.0, 6}, {10.0, 8}, {16.0, 10}};
+    std::vector<LevelTrial> trials;
+    const auto addRun = [&](const std::string& participant, const std::string& session,
+                            const QuestMethod& plan) {
+        for (const auto& [level, right] : hits)
+            for (std::uint64_t n = 0; n < 10; ++n)
+                trials.push_back({LevelTrial::Kind::quest, participant, "A", "", level, n < right ? 1.0 : 0.0,
+                                  session, questText(plan, 0.5)});
+    };
+    addRun("P1", "one", method), addRun("P2", "one", method), addRun("P2", "two", coarse);
+    std::vector<LevelCount> run;
+    for (const auto& [level, right] : hits) run.push_back({level, right, 10});
+    const double fine = pooledThresholds(questPlan(method, 0.5), std::vector{run, run}).deviation,
+                 other = pooledThresholds(questPlan(coarse, 0.5), std::span{&run, 1}).deviation;
+    const LevelSummary summary = summariseLevels(trials).front();
+    const double spread = studentQuantile(0.975, 1) * summary.deviation / std::sqrt(2.0);
+    EXPECT_NEAR(summary.halfInterval,
+                std::hypot(spread, normalQuantile(0.975) * std::hypot(fine * 2.0 / 3.0, other / 3.0)), 1e-9);
 }
 
 TEST(QuestMethod, ItsWordsAreThePlan) {
