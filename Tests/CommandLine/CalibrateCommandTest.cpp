@@ -63,6 +63,20 @@ TEST_F(CalibrateCommand, WiredTheOtherWayRoundAnActuatorIsAsStrong) {
     EXPECT_NEAR(*profile.value.fullScaleG, 2.0, 0.1);
 }
 
+TEST_F(CalibrateCommand, AnInvertedGainIsToldAsSuchOfAnActuatorAndOfACable) {
+    for (const float sign : {1.0f, -1.0f})
+        for (const bool isCable : {false, true}) {
+            std::vector<float> samples = isCable ? sweep_ : felt();
+            for (float& sample : samples) sample *= sign;
+            record(samples);
+            const auto outcome = runs(isCable ? "calibrate --played sweep.wav --recorded felt.wav --loopback"
+                                              : std::string{pair});
+            const auto at = outcome.out.find(" gain ");
+            ASSERT_NE(at, outcome.out.npos) << outcome.out;
+            EXPECT_NEAR(std::stod(outcome.out.substr(at + 6)), sign * (isCable ? 1.0 : 0.5), 0.03);
+        }
+}
+
 TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     record(felt());
     const auto plain = call(std::string{pair} + "--g-per-unit 10");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib study check`: what nobody should find out by feeling it.
+#include "Studies/StudyCheck.h"
 #include "Calls.h"
+#include "Core/Actuators/Exposure.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include <map>
@@ -146,6 +148,67 @@ TEST_F(StudyCheckCommand, BreaksThatDoNotHappenAreFound) {
     EXPECT_TRUE(has(call("study check mine.json").out,
                     "expected break_every beside break_s 180, found none: there is no break"))
         << read(".out");
+}
+
+/// Halfway between two actuators half of the acceleration is at each.
+TEST_F(StudyCheckCommand, TheExposureIsThatOfAllTrialsInG) {
+    const std::string values = R"(["0.05", "0.1", "0.2", "0.4", "0.8"])",
+                      place = "--at 0.5,0.5 --seconds 0.5", call = place + " --level-g {level_g}",
+                      sessions = R"("repetitions": 5)";
+    using Edits = std::vector<std::pair<std::string, std::string>>;
+    const auto exposureOf = [&](Edits edits) {
+        edits.insert(edits.begin(), {{values, R"(["0.2", "0.6"])"},
+                                     {call, "--at 0,0 --seconds 2 --frequency 40 --level-g {level_g}"},
+                                     {sessions, R"("repetitions": 200)"},
+                                     {"\"pink_noise\": true", "\"exposure_limit_m_per_s2\": 0.2"}});
+        change("magnitudes", edits);
+        const std::string words = "exposure: A(8) ", out = this->call("study check mine.json").out;
+        EXPECT_TRUE(has(out, words)) << out;
+        const double told = std::stod(out.substr(std::min(out.size(), out.find(words) + words.size())));
+        EXPECT_EQ(has(out, " is above the protocol's limit of 0.2,"), told > 0.2) << told;
+        return told;
+    };
+    const double squares = 200 * 2.0 * (0.2 * 0.2 + 0.6 * 0.6) / 2.0 * std::pow(handWeighting::gain(40.0), 2);
+    const double expected = dailyExposure(squares);
+    write("two.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 3},
+                          {"x_m": 0, "y_m": 0.1, "full_scale_g": 3}]})");
+    const std::pair<std::string, std::string> onTwo{R"("name": "PHONE")",
+                                                    R"("name": "PHONE", "layout": "two.json")"};
+    for (const auto& [share, edits] :
+         {std::pair{1.0, Edits{}},
+          {2.0, {{"200", "800"}}},
+          {0.5, {{"--seconds 2", "--seconds 0.5"}}},
+          {0.5, {{"0.2", "0.1"}, {"0.6", "0.3"}}},
+          {1.0, {onTwo, {"--at", "--layout two.json --at"}}},
+          {std::sqrt(0.5), {onTwo, {"--at 0,0", "--layout two.json --at 0,0.5"}}}})
+        EXPECT_NEAR(exposureOf(edits), share * expected, 0.02 * share * expected) << share;
+}
+
+/// A staircase that moves at every chance has its reversals after the fewest trials.
+TEST(StudyRules, TooFewTrialsForTheReversalsAreToldByTheFewestThatDo) {
+    for (const int down : {1, 2, 3, 4})
+        for (const int reversals : {2, 3, 8, 11}) {
+            StaircasePlan plan{.alternative = "b", .down = down, .reversals = reversals, .maxTrials = 1000};
+            Staircase stairs{plan, plan.startDb};
+            int trials = 0;
+            for (bool isRight = false; !stairs.isDone(); isRight = !isRight)
+                for (int n = 0; n < (isRight ? down : 1); ++n) stairs.answer(isRight), ++trials;
+            for (const int few : {0, 1}) {
+                plan.maxTrials = trials - few;
+                Protocol p;
+                p.conditions = {{"A", "", "phone4", 205.0, 1.0, GridSet{1, 1}}};
+                p.sessions = {{.name = "main", .task = StudyTask::choose, .alternatives = {{"a"}, {"b"}}}};
+                p.sessions[0].staircase = plan;
+                StudyCheck check;
+                checkRules(p, check);
+                std::vector<std::string> expected;
+                if (few == 1)
+                    expected = {"session main: staircase: reversals: " + std::to_string(reversals) +
+                                " need " + std::to_string(trials) + " trials at least, and most_trials is " +
+                                std::to_string(trials - 1)};
+                EXPECT_EQ(check.warnings, expected) << down;
+            }
+        }
 }
 
 } // namespace physvib::study_check_test

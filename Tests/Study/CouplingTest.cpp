@@ -167,6 +167,24 @@ TEST(Coupling, AttenuationIsEquation31And32) {
     EXPECT_NEAR(combinedAttenuation(ratios), std::sqrt(0.81 + 0.64 + 0.25), 1e-15);
 }
 
+TEST(IsolationLevels, ReferencesOfADriveCountByTheirMeanAndMustHaveTheSameChannels) {
+    const auto measured = [](double hz, bool isReference, std::vector<double> levels) {
+        return IsolationMeasurement{
+            {"foam", "", "3", "1.8", "x", hz}, isReference, std::move(levels), "f.wav"};
+    };
+    std::vector<IsolationMeasurement> all{measured(50.0, true, {0.5, 2.0}), measured(50.0, true, {1.5, 6.0}),
+                                          measured(80.0, true, {8.0, 8.0}), measured(50.0, false, {0.5, 1.0}),
+                                          measured(80.0, false, {2.0, 2.0})};
+    const IsolationStudy study = summariseIsolation(all);
+    ASSERT_EQ(study.error, "");
+    ASSERT_EQ(study.results.size(), 2u);
+    EXPECT_NEAR(study.results[0].mean, std::hypot(1.0 - 0.5 / 1.0, 1.0 - 1.0 / 4.0), 1e-12);
+    EXPECT_NEAR(study.results[1].mean, std::hypot(0.75, 0.75), 1e-12);
+    all.push_back(measured(50.0, true, {1.0, 4.0, 1.0}));
+    EXPECT_EQ(summariseIsolation(all).error, "f.wav: expected a reference of the same frequency, voltage and "
+                                             "axis, with as many channels");
+}
+
 // A measured coupling is read as it was written, and a bad one is named by its place.
 
 const std::string good =

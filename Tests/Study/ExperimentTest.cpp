@@ -173,6 +173,86 @@ TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
     }
 }
 
+/// A session may only take from the one before what its protocol says: also where a study was cut.
+TEST(Experiment, EverySessionOfEveryConditionBeginsAnewAndAFileOfThemGoesOn) {
+    const SessionPlan look{.name = "look", .isTraining = true, .task = StudyTask::explore};
+    const SessionPlan learn{.name = "learn", .isTraining = true, .repetitions = 4, .untilCorrect = 3};
+    const SessionPlan choose{
+        .name = "choose", .task = StudyTask::choose, .repetitions = 2, .alternatives = {{"a"}, {"b"}}};
+    SessionPlan stairs = choose;
+    stairs.name = "stairs", stairs.staircase = StaircasePlan{.alternative = "a", .maxTrials = 5};
+    const auto again = [](SessionPlan session) {
+        session.name += " again";
+        return session;
+    };
+    for (const auto& [sessions, expected] :
+         {std::pair{std::vector{look}, std::vector{2}},
+          std::pair{std::vector{look, again(look), learn, again(learn), stairs, again(stairs), choose},
+                    std::vector{2, 2, 3, 3, 5, 5, 4}}}) {
+        auto p = protocolOf(GridSet{2, 1}, sessions);
+        p.conditions.push_back(p.conditions.front());
+        p.conditions.back().name = "B";
+        Experiment experiment{p, {}, true};
+        std::vector<TrialRecord> records;
+        std::vector<int> counts(2 * sessions.size());
+        while (!experiment.isDone()) {
+            if (experiment.mayEnd()) {
+                experiment.endSession();
+                continue;
+            }
+            const Trial& trial = experiment.trial();
+            ++counts[trial.condition * sessions.size() + trial.session];
+            Answer answer{.response = trial.stimulus};
+            if (trial.task == StudyTask::explore) answer.response = trial.number == 1 ? "1,1" : "1,2";
+            if (trial.task == StudyTask::choose) answer.response = "a";
+            ASSERT_EQ(experiment.answerError(answer), "");
+            records.push_back(experiment.acceptAnswer(answer));
+        }
+        auto twice = expected;
+        twice.insert(twice.end(), expected.begin(), expected.end());
+        EXPECT_EQ(counts, twice);
+        Experiment resumed{p, {}, true};
+        for (const TrialRecord& record : records) ASSERT_EQ(resumed.replay(record), "");
+        EXPECT_TRUE(resumed.isDone() || resumed.mayEnd());
+        EXPECT_EQ(resumed.answeredTrials(), experiment.answeredTrials());
+    }
+}
+
+TEST(Experiment, AdjustedLevelsAreThoseOfTheSameConditionAndOfTheSessionThatIsNamed) {
+    const SessionPlan first{.name = "first",
+                            .task = StudyTask::adjust,
+                            .alternatives = {{"RM"}, {"SV"}},
+                            .adjustment = Adjustment{"RM"}};
+    SessionPlan second = first, main = first;
+    second.name = "second";
+    main.name = "main", main.task = StudyTask::choose, main.adjustment.reset(), main.levelsFrom = "first";
+    auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"},
+                        {first, second, main});
+    p.conditions.push_back(p.conditions.front());
+    p.conditions.back().name = "B";
+    for (Experiment experiment{p, {}}; !experiment.isDone();) {
+        const Trial trial = experiment.trial();
+        const double setDb = (trial.condition == 0 ? 0.0 : 10.0) + (trial.stimulus == "a" ? 1.0 : 2.0);
+        if (trial.task == StudyTask::choose) EXPECT_EQ(trial.levelDb, setDb) << trial.condition;
+        experiment.acceptAnswer({.response = "RM", .value = trial.session == 1 ? -setDb : setDb});
+    }
+}
+
+TEST(Experiment, AnAnswerToWhatDidNotLeaveIsNeitherRightNorWrongInARow) {
+    const auto p = protocolOf(GridSet{2, 1}, {{.name = "main", .repetitions = 5, .untilCorrect = 3}});
+    for (const bool isRight : {false, true}) {
+        Experiment experiment{p, {}};
+        for (const bool wasDelivered : {true, true, false, true}) {
+            ASSERT_FALSE(experiment.isDone());
+            const std::string& truth = experiment.trial().stimulus;
+            const std::string wrong = truth == "1,1" ? "1,2" : "1,1";
+            experiment.acceptAnswer(
+                {.response = wasDelivered || isRight ? truth : wrong, .wasDelivered = wasDelivered});
+        }
+        EXPECT_TRUE(experiment.isDone()) << isRight;
+    }
+}
+
 TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
     SessionPlan matching{
         .name = "matching",

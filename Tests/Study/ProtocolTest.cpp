@@ -284,6 +284,42 @@ TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
     EXPECT_EQ(trials, 135.0);
 }
 
+/// Whatever makes a trial play more or less than its stimulus once.
+TEST(StudyPlan, PlaysAndTimesAreThoseOfTheTrialsThatComeForEveryKindOfSession) {
+    const SessionPlan rate{.name = "main",
+                           .task = StudyTask::rate,
+                           .repetitions = 2,
+                           .answerSeconds = 3.0,
+                           .scales = {"liking"}};
+    std::vector<SessionPlan> sessions(5, rate);
+    sessions[0].comparesPairs = true;
+    sessions[1].objects = {"a", "b", "c"};
+    sessions[2].objects = {"a", "b", "c"}, sessions[2].scales.clear(), sessions[2].reference = "b";
+    sessions[3].task = StudyTask::estimate, sessions[3].scales.clear(), sessions[3].modulus = "2";
+    sessions[4].task = StudyTask::choose, sessions[4].scales.clear(), sessions[4].bothOrders = true;
+    sessions[4].alternatives = {{"a"}, {"b"}};
+    for (const SessionPlan& session : sessions) {
+        const bool hasParts = !session.objects.empty() || !session.alternatives.empty();
+        Protocol p = gridProtocol();
+        p.conditions[0].stimuli =
+            CallSet{{{"x", {"1", "2", "3"}}}, hasParts ? "render drop {x} {alternative}" : "render drop {x}"};
+        p.sessions = {session};
+        ASSERT_EQ(validate(p), "");
+        double plays = 0.0, planned = 0.0;
+        int trials = 0;
+        Experiment experiment{p, {}};
+        for (; !experiment.isDone(); ++trials) {
+            plays += static_cast<double>(experiment.trial().parts.size());
+            experiment.acceptAnswer({});
+        }
+        for (const PlannedTrials& play : plannedTrials(p)) planned += play.count;
+        EXPECT_NEAR(planned, plays, 1e-9) << session.reference << session.modulus;
+        const PlannedTime time =
+            plannedTime(p, [](std::size_t, const std::string&, const std::string&) { return 1.0; });
+        EXPECT_NEAR(time.seconds, plays + trials * 3.0, 1e-9) << session.reference << session.modulus;
+    }
+}
+
 TEST(StudyPlan, TouchesOfATrainingAreSharedByItsPlacesWithoutARest) {
     double touches = 0.0;
     for (const PlannedTrials& planned : plannedTrials(builtIn("phantom-places"))) touches += planned.count;

@@ -3,9 +3,11 @@
 #include "Lab/Study/Summaries.h"
 #include "Support/Studies.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
 
 namespace physvib::quest_method_test {
 
@@ -126,6 +128,73 @@ TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
     }
 }
 
+TEST(QuestMethod, EstimateAndDeviationAreThoseOfThePosterior) {
+    QuestPlan plan = questPlan(method, 0.5);
+    plan.lapses = {0.01, 0.05};
+    QuestPlus quest{plan};
+    SeededRandom random{24, "answers"};
+    std::vector<std::pair<double, bool>> answers;
+    for (int trial = 0; trial <= 30; ++trial) {
+        double sum = 0.0, widths = 0.0, lapses = 0.0, thresholds = 0.0, squares = 0.0;
+        for (const double threshold : plan.thresholds)
+            for (const double width : plan.widths)
+                for (const double lapse : plan.lapses) {
+                    const PsychometricFunction f{plan.shape, threshold, width, plan.guess, lapse};
+                    double p = 1.0;
+                    for (const auto& [level, isRight] : answers)
+                        p *= isRight ? f.probability(level) : 1.0 - f.probability(level);
+                    sum += p, thresholds += p * threshold, squares += p * threshold * threshold;
+                    widths += p * width, lapses += p * lapse;
+                }
+        const double mean = thresholds / sum;
+        EXPECT_NEAR(quest.estimate().threshold, mean, 1e-9) << trial;
+        EXPECT_NEAR(quest.estimate().width, widths / sum, 1e-9) << trial;
+        EXPECT_NEAR(quest.estimate().lapse, lapses / sum, 1e-9) << trial;
+        EXPECT_NEAR(quest.thresholdDeviation(), std::sqrt(squares / sum - mean * mean), 1e-6) << trial;
+        answers.emplace_back(quest.level(), random.chance(0.7));
+        quest.answer(answers.back().second);
+    }
+}
+
+/// As the header says it, by plain sums: widths are log-normal over people, with 25 medians and two spreads.
+TEST(QuestMethod, PooledThresholdsAndTheirDeviationAreThoseOfThePosteriorOfTheWidths) {
+    const QuestPlan plan = questPlan(method, 0.5);
+    const std::vector<std::vector<LevelCount>> runs{{{5.0, 6, 10}, {10.0, 8, 10}, {15.0, 10, 10}},
+                                                    {{8.0, 5, 10}, {12.0, 9, 10}}};
+    std::array<double, 25> widths{};
+    for (std::size_t w = 0; w < widths.size(); ++w)
+        widths[w] = 3.0 * std::pow(4.0, static_cast<double>(w) / 24.0);
+    double sum = 0.0, squares = 0.0;
+    std::array<double, 2> thresholds{};
+    for (const double spread : {0.15, 0.3})
+        for (const double median : widths) {
+            double weight = 1.0, mean = 0.0;
+            std::array<double, 2> own{};
+            for (std::size_t r = 0; r < runs.size(); ++r) {
+                double likelihood = 0.0, moment = 0.0, shares = 0.0;
+                for (const double width : widths) {
+                    const double share = std::exp(-0.5 * std::pow(std::log(width / median) / spread, 2));
+                    shares += share;
+                    for (const double threshold : plan.thresholds) {
+                        const double p =
+                            share *
+                            std::exp(logLikelihood(runs[r], {plan.shape, threshold, width, 0.5, 0.02}));
+                        likelihood += p, moment += p * threshold;
+                    }
+                }
+                weight *= likelihood / shares, own[r] = moment / likelihood, mean += 0.5 * own[r];
+            }
+            sum += weight, squares += weight * mean * mean;
+            for (std::size_t r = 0; r < runs.size(); ++r) thresholds[r] += weight * own[r];
+        }
+    const PooledThresholds pooled = pooledThresholds(plan, runs);
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        EXPECT_NEAR(pooled.thresholds[r], thresholds[r] / sum, 1e-9) << r;
+    const double mean = 0.5 * (thresholds[0] + thresholds[1]) / sum;
+    EXPECT_NEAR(pooled.deviation, std::sqrt(squares / sum - mean * mean), 1e-6);
+    EXPECT_GT(pooled.deviation, 0.01);
+}
+
 TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
     const Protocol p = questProtocol(method);
     const SimulatedObserver observer{{}, p, {}};
@@ -209,6 +278,29 @@ TEST(QuestMethod, SeveralPeopleTellTheWidthTogether) {
     EXPECT_GT(together.halfInterval, studentQuantile(0.975, observers - 1) * together.deviation /
                                          std::sqrt(static_cast<double>(observers)))
         << "what is unknown of the widths counts";
+}
+
+TEST(QuestMethod, WhatIsUnknownOfTheWidthsCountsByTheShareOfThePlansRuns) {
+    QuestMethod coarse = method;
+    coarse.stepDb = 2.0;
+    const std::map<double, std::uint64_t> hits{{6.0, 6}, {10.0, 8}, {16.0, 10}};
+    std::vector<LevelTrial> trials;
+    const auto addRun = [&](const std::string& participant, const std::string& session,
+                            const QuestMethod& plan) {
+        for (const auto& [level, right] : hits)
+            for (std::uint64_t n = 0; n < 10; ++n)
+                trials.push_back({LevelTrial::Kind::quest, participant, "A", "", level, n < right ? 1.0 : 0.0,
+                                  session, questText(plan, 0.5)});
+    };
+    addRun("P1", "one", method), addRun("P2", "one", method), addRun("P2", "two", coarse);
+    std::vector<LevelCount> run;
+    for (const auto& [level, right] : hits) run.push_back({level, right, 10});
+    const double fine = pooledThresholds(questPlan(method, 0.5), std::vector{run, run}).deviation,
+                 other = pooledThresholds(questPlan(coarse, 0.5), std::span{&run, 1}).deviation;
+    const LevelSummary summary = summariseLevels(trials).front();
+    const double spread = studentQuantile(0.975, 1) * summary.deviation / std::sqrt(2.0);
+    EXPECT_NEAR(summary.halfInterval,
+                std::hypot(spread, normalQuantile(0.975) * std::hypot(fine * 2.0 / 3.0, other / 3.0)), 1e-9);
 }
 
 TEST(QuestMethod, ItsWordsAreThePlan) {

@@ -145,6 +145,21 @@ TEST(LevelTrials, AnEndIsOneThoughNoTrialWasHeldThere) {
     EXPECT_TRUE(summariseLevels(trials).at(0).excluded.empty());
 }
 
+TEST(LevelTrials, TheEndThatAStaircaseWasHeldAtIsToldByItsName) {
+    for (const bool isUpper : {false, true}) {
+        std::vector<LevelTrial> trials;
+        for (const double level : {1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0})
+            trials.push_back(
+                {LevelTrial::Kind::staircase, "P", "A", "", isUpper ? 20.0 - level : level, 1.0});
+        for (LevelTrial& trial : trials) trial.range = {0.0, 20.0};
+        const auto excluded = summariseLevels(trials).at(0).excluded;
+        ASSERT_EQ(excluded.size(), 1u);
+        EXPECT_TRUE(excluded[0].second.ends_with(isUpper ? " at the upper end of its levels"
+                                                         : " at the lower end of its levels"))
+            << excluded[0].second;
+    }
+}
+
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {
     using Kind = LevelTrial::Kind;
     const auto summaries = summariseLevels({{Kind::adjustment, "P1", "A", "s", 0, -3},
