@@ -335,6 +335,14 @@ TEST(SilentWorlds, AreExplainedByTheFactsOfAnyOutput) {
     EXPECT_NE(why([](auto&) {}).find("1 event was made, at x 0.5 to 0.5 m"), std::string::npos);
 }
 
+TEST(SilentWorlds, InvertedChannelsAreNotMuted) {
+    Silent silent;
+    silent.open();
+    for (int j = 0; j < 4; ++j) physvib_renderer_set_gain(silent.renderer, 0, j, -1.0);
+    silent.play();
+    EXPECT_EQ(silent.explain().find("muted"), std::string::npos) << silent.explain();
+}
+
 TEST(SilentWorlds, AreExplainedByWhatIsSilentNow) {
     Silent silent;
     silent.play();
