@@ -2,8 +2,11 @@
 // A world of numbers: an engine's part is written here, and what is felt is known by pencil and paper.
 #include "Contacts/ContactFeed.h"
 #include "FedWorld.h"
+#include "Support/ClosedForm.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace physvib::contact_feed_test {
@@ -33,6 +36,31 @@ TEST_F(ContactFeedTest, TheMassIsThatOfTheMoment) {
     }
     EXPECT_NE(feed.setMass(ball, -1.0), "");
     EXPECT_NE(feed.setMass(7, 1.0), "");
+}
+
+/// Eq. 5.7: the hand is as heavy as the heaviest body that can be moved, whatever came, changed and went.
+TEST_F(ContactFeedTest, TheHandIsTheHeaviestBodyOfTheMoment) {
+    feed.configure({});
+    test::Random random{7};
+    std::map<std::int32_t, double> masses{{ball, 2.0}};
+    for (int edit = 0; edit < 500; ++edit) {
+        const std::int32_t id = 1 + random.below(4);
+        const double massKg = random.below(8); // 0: it is let go
+        const bool isKnown = masses.contains(id);
+        const int way = random.below(3);
+        if (isKnown && way == 0) {
+            EXPECT_EQ(feed.remove(id), "");
+            masses.erase(id);
+        } else if (masses[id] = massKg; isKnown && way == 1) {
+            EXPECT_EQ(feed.setMass(id, massKg), "");
+        } else {
+            set(id, {.massKg = massKg});
+        }
+        step();
+        double heaviest = 0.0;
+        for (const auto& [body, mass] : masses) heaviest = std::max(heaviest, mass);
+        ASSERT_EQ(feed.impactModel().handMassKg, heaviest) << "edit " << edit;
+    }
 }
 
 /// A ball of 2 kg falls from 0.8 m as engines move it: straight within a step, its speed changed between two.

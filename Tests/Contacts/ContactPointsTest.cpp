@@ -96,6 +96,28 @@ TEST_P(ToppledPoles, HaveTheShareOfTheirHeadWhereTheEngineTellsOnlyThePairs) {
 }
 INSTANTIATE_TEST_SUITE_P(Points, ToppledPoles, testing::Values(0, FedContact::byPlace));
 
+// Its foot has landed a step before and still comes down, as where springs push: it only stops, the head
+// bounces. Two points of a pole, by pencil: each stops its own speed and some of the other's.
+TEST_F(ContactPoints, OnlyWhatIsNewBounces) {
+    constexpr double perKg = 1.0 / 3.0, perInertia = 1.0, own = perKg + perInertia, of = perKg - perInertia;
+    setBody(1.0 / perKg, 1.0 / perInertia);
+    fall({1.0F, 0.0F}, {});
+    for (const double restitution : {0.0, 0.5, 1.0})
+        for (const double footSpeed : {0.0, 1.0, 3.0}) {
+            FedContact foot = at(0.0F, 4), head = at(2.0F, 9);
+            foot.restitution = head.restitution = restitution;
+            foot.approachMetresPerSecond = head.approachMetresPerSecond = 3.0;
+            step({foot});
+            EXPECT_NEAR(onlyImpulse(), (1.0 + restitution) * 3.0 / own, 1e-6);
+            foot.approachMetresPerSecond = footSpeed;
+            step({foot, head});
+            EXPECT_NEAR(onlyImpulse(),
+                        (own * (1.0 + restitution) * 3.0 - of * footSpeed) / (own * own - of * of), 1e-6)
+                << restitution << ", foot at " << footSpeed << " m/s";
+            step(); // apart again
+        }
+}
+
 TEST_F(ContactPoints, ABallThatRollsHasOnePointWhereverItIs) {
     setBody(2.0, 0.0125);
     for (int k = 0; k < 100; ++k) {

@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace physvib::linked_limiter_test {
@@ -308,6 +309,27 @@ TEST(ChannelDelay, ChangesWithoutAStep) {
     for (std::size_t n = 1; n < io.size(); ++n) ASSERT_LT(std::abs(io[n] - io[n - 1]), 0.04f) << n;
 }
 
+TEST(ChannelDelay, EndsWhereItWasMovedLastHoweverOftenAndSoon) {
+    const auto in = sine(4000);
+    for (const std::vector<int>& moves :
+         std::vector<std::vector<int>>{{400}, {400, 0}, {400, 250}, {100, 400, 30}, {300, 123, 300}})
+        for (const bool isSilent : {false, true}) { // while it moves
+            ChannelDelay<500> delay;
+            delay.prepare(200, 123);
+            const auto play = [&](int frames) {
+                std::vector<float> part(static_cast<std::size_t>(frames), isSilent ? 0.0f : 1.0f);
+                delay.process(part.data(), frames, isSilent);
+            };
+            for (const int frames : moves) delay.moveTo(frames), play(50); // a quarter of a fade
+            play(1000);
+            auto out = in;
+            delay.process(out.data(), 4000, false);
+            const auto last = static_cast<std::size_t>(moves.back());
+            for (std::size_t n = last; n < out.size(); ++n)
+                ASSERT_EQ(out[n], in[n - last]) << moves.size() << " moves, the last to " << last;
+        }
+}
+
 TEST(ChannelDelay, TellsWhenNothingIsOnItsWay) {
     std::vector<float> io(100, 0.0f);
     ChannelDelay<500> delay;
@@ -323,6 +345,42 @@ TEST(ChannelDelay, TellsWhenNothingIsOnItsWay) {
         EXPECT_EQ(isSilent, block >= 5) << block;
     }
     EXPECT_EQ(heard, 1);
+}
+
+TEST(ActuatorStage, KeepsEachSettingAtAnotherRate) {
+    for (const bool hasBegun : {false, true}) // else nothing is a ramp yet
+        for (const int newRate : {8000, 44100, 48000, 192000}) {
+            const auto stage = std::make_unique<ActuatorStage>();
+            ASSERT_TRUE(stage->prepare(rate, 3));
+            float next = 1.0f; // each sample is its number
+            const auto play = [&](int frames) {
+                Block io(3, std::vector<float>(static_cast<std::size_t>(frames)));
+                for (auto& channel : io) std::iota(channel.begin(), channel.end(), next);
+                next += static_cast<float>(frames);
+                stage->process(std::array{io[0].data(), io[1].data(), io[2].data()}.data(), frames, false);
+                return io;
+            };
+            if (hasBegun) play(10);
+            stage->setGain(0, -0.5f);
+            stage->setLevel(0.5f);
+            stage->setMuted(1, true);
+            stage->setDelay(2, 0.02f);
+            stage->setDelay(2, 0.01f); // waits until the one before is reached
+            if (hasBegun) play(10);
+            ASSERT_TRUE(stage->changeRate(newRate));
+            const float first = next;
+            const auto on = play(newRate / 20);
+            const std::size_t delay = static_cast<std::size_t>(newRate) / 100;
+            for (std::size_t n = 0; n < on[0].size(); ++n) {
+                const float in = first + static_cast<float>(n);
+                ASSERT_EQ(on[0][n], -0.25f * in) << newRate;
+                ASSERT_EQ(on[1][n], 0.0f) << newRate;
+                ASSERT_EQ(on[2][n], n < delay ? 0.0f : 0.5f * (in - static_cast<float>(delay))) << newRate;
+            }
+            stage->setDelay(2, 0.03f);
+            const auto later = play(newRate / 10);
+            EXPECT_EQ(later[2].back(), 0.5f * (next - 1.0f - 3.0f * static_cast<float>(delay))) << newRate;
+        }
 }
 
 } // namespace physvib::linked_limiter_test

@@ -160,6 +160,28 @@ TEST_P(OnEachModeBank, SoundsOnAtAnotherRate) {
     EXPECT_LT(worst, 1e-6);
 }
 
+TEST_P(OnEachModeBank, OfGatesThatOverlapOneClosesWithoutTheOtherAtAnotherRate) {
+    for (const int newRate : {5000, 44100, 96000, 192000}) {
+        Bank bank{GetParam()};
+        bank.renderTo(100);
+        bank.strike(180, 3, 1, 0.25, rate / 4);
+        bank.renderTo(1301);
+        bank.strike(180, 3, 0.5, 0.75, rate / 2);
+        bank.renderTo(2000);
+        bank.bank->moveTo(bank.frame, newRate, 7777);
+        bank.frame = 7777;
+        const auto on = bank.renderTo(7777 + newRate);
+        const double step = 1.0 * rate / newRate; // a gate may close a frame earlier
+        for (std::size_t n = 0; n < on.size(); ++n) {
+            const double frame = 2000 + static_cast<double>(n) * step;
+            if (std::abs(frame - 12100) <= step || std::abs(frame - 25301) <= step) continue;
+            const double first = frame < 12100 ? sinusoid(180, 3, (frame - 99.75) / rate) : 0.0,
+                         second = frame < 25301 ? 0.5 * sinusoid(180, 3, (frame - 1300.25) / rate) : 0.0;
+            ASSERT_NEAR(on[n], first + second, 2e-6) << newRate << " Hz, frame " << n;
+        }
+    }
+}
+
 TEST_P(OnEachModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
     Bank bank{GetParam()};
     const int modes = limits::maxModes;

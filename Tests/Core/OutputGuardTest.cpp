@@ -203,6 +203,34 @@ TEST(OutputGuard, NeitherBlocksNorInstructionSetsMatter) {
     }
 }
 
+// From where it was to where it goes, of each channel by itself: else each tile begins with a step, and those
+// of all tiles are a tone.
+TEST(OutputGuard, TheGainGoesInALineThroughEachTileOfEachChannel) {
+    for (const int rate : {8000, 44100, 48000, 192000}) {
+        const int tile = static_cast<int>(std::lround(rate / 3000.0)), frames = rate / tile * tile;
+        std::vector<Samples> together, alone;
+        for (const double hz : {8.0, 0.5, 20.0}) {
+            const auto guard = std::make_unique<OutputGuard>();
+            guard->prepare(rate, 1, GuardPlace::last);
+            const Samples& in = together.emplace_back(samplesOf(square(hz), rate, 1.0));
+            float* at = alone.emplace_back(in).data();
+            float start = 1.0f, end = 1.0f;
+            for (int n = 0; n < frames; ++n) {
+                if (float* const next = at + n; n % tile == 0) guard->process(&next, tile);
+                const float share = static_cast<float>(n % tile + 1) / static_cast<float>(tile);
+                ASSERT_NEAR(at[n], in[static_cast<std::size_t>(n)] * std::lerp(start, end, share), 1e-6)
+                    << hz << " Hz at " << rate << ", frame " << n;
+                if (n % tile == tile - 1) start = std::exchange(end, guard->gain());
+            }
+            EXPECT_LT(end, 0.9f) << hz << " Hz at " << rate;
+        }
+        const auto guard = std::make_unique<OutputGuard>();
+        guard->prepare(rate, 3, GuardPlace::last);
+        guard->process(std::array{together[0].data(), together[1].data(), together[2].data()}.data(), frames);
+        EXPECT_TRUE(together == alone) << rate;
+    }
+}
+
 TEST(OutputGuard, OpensAgainAndCountsHowOftenItActed) {
     constexpr int rate = 48000;
     const auto guard = std::make_unique<OutputGuard>();

@@ -151,6 +151,39 @@ TEST_F(ForeignWorld, OriginMovesAndEventsStayInTheField) {
     EXPECT_NEAR(later[0].x, 5.0, 0.01);
 }
 
+/// Events of a row whose end feels what is handed on, and of a ball that is struck itself; the origin moves
+/// by `perStep` after each step.
+std::vector<CollisionEvent> feltWhileTheOriginMoves(ImpactTiming timing, b2Vec2 perStep) {
+    b2World world({0.0F, 0.0F});
+    ImpactSettings settings = unity();
+    settings.timing = timing;
+    Attachment attachment(world, settings);
+    const auto add = [&](float x, float y, float speed, const HapticFixture& values) {
+        (void)attachment.set(addTo(world, discOf(0.25F), {x, y}, {speed, 0.0F}), values);
+    };
+    for (int i = 0; i < 5; ++i) add(0.499F * static_cast<float>(i), 0.0F, 0.0F, i == 4 ? camera : object);
+    add(-1.0F, 0.0F, 3.0F, object);
+    add(1.0F, 2.0F, 0.0F, camera);
+    add(-0.5F, 2.0F, 3.0F, object);
+    for (int i = 0; i < 40; ++i) attachment.step(0.01F), attachment.shiftOrigin(perStep);
+    std::vector<CollisionEvent> events;
+    attachment.take(events);
+    return events;
+}
+
+TEST(MovingOrigin, LeavesEveryEventOfEitherTimingWhereItWas) {
+    for (const ImpactTiming timing : {ImpactTiming::onset, ImpactTiming::release}) {
+        const auto still = feltWhileTheOriginMoves(timing, {0.0F, 0.0F}),
+                   moved = feltWhileTheOriginMoves(timing, {8.0F, -4.0F});
+        ASSERT_EQ(still.size(), 2U);
+        ASSERT_EQ(moved.size(), 2U);
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_NEAR(moved[i].x, still[i].x, 0.01);
+            EXPECT_NEAR(moved[i].y, still[i].y, 0.01);
+        }
+    }
+}
+
 TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
     give(floor(), camera);
     ImpactSettings settings = unity();

@@ -68,8 +68,7 @@ public:
     /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept {
         if (isSilent && silentFrames_ >= maxFrames_) {
-            fadedFrames_ = std::min(fadeFrames_, fadedFrames_ + frames);
-            startPendingMove();
+            for (; frames > 0 && fadedFrames_ < fadeFrames_; --frames) ++fadedFrames_, startPendingMove();
             return true;
         }
         const bool isCopied = isBypassed();

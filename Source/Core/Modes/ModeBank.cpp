@@ -77,7 +77,11 @@ void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toF
     }
     if (tiles_.isOn()) tiles_.begin();
     gates_.retime([=](std::int64_t closeFrame, Gate& gate) {
-        gate.onset.frame = toNewFrame(gate.onset.frame);
+        // exact, because what the gate takes away when it closes must be what sounds of its strike
+        const double onset =
+            ratio * (static_cast<double>(gate.onset.frame - fromFrame) - gate.onset.leadFrames);
+        const double first = std::ceil(onset);
+        gate.onset = {toFrame + static_cast<std::int64_t>(first), first - onset};
         return toNewFrame(closeFrame);
     });
 }
