@@ -3,7 +3,6 @@
 #include "MidiMap.h"
 #include "Core/PortableMath.h"
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace physvib {

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <limits>
 #include <pluginterfaces/vst/ivstnoteexpression.h>
-#include <string_view>
 
 namespace physvib {
 

@@ -5,7 +5,6 @@
 #include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,6 @@
 #include "Core/NameNumbers.h"
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>

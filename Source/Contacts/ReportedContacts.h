@@ -9,7 +9,6 @@
 #include "Contacts/LastingContacts.h"
 #include "Contacts/Vectors.h"
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

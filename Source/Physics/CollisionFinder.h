@@ -6,7 +6,6 @@
 #include "Contacts/IndexMaps.h"
 #include "Contacts/LastingContacts.h"
 #include "Physics/WorldBodies.h"
-#include <algorithm>
 #include <array>
 #include <box2d/box2d.h>
 #include <cstddef>

@@ -11,7 +11,6 @@
 #include "Core/HapticRenderer.h"
 #include "Core/Pads/PadMotors.h"
 #include "Core/RenderControl.h"
-#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <unordered_map>

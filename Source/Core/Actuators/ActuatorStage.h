@@ -68,7 +68,10 @@ public:
     /// In place. `isSilent`: all input is 0. True if all output is 0.
     bool process(float* io, int frames, bool isSilent) noexcept {
         if (isSilent && silentFrames_ >= maxFrames_) {
-            for (; frames > 0 && fadedFrames_ < fadeFrames_; --frames) ++fadedFrames_, startPendingMove();
+            for (; frames > 0 && fadedFrames_ < fadeFrames_; --frames) { // an ended move starts the next
+                ++fadedFrames_;
+                startPendingMove();
+            }
             return true;
         }
         const bool isCopied = isBypassed();

@@ -10,7 +10,6 @@
 #include "Core/Modes/TileKernels.h"
 #include "Core/Storage.h"
 #include "Core/Trigonometry.h"
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -12,7 +12,6 @@
 #include "Core/PortableMath.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace physvib {

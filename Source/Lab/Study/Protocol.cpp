@@ -3,7 +3,6 @@
 #include "Lab/Study/Protocol.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Experiment.h"
-#include <cmath>
 #include <tuple>
 
 namespace physvib {

@@ -3,7 +3,6 @@
 #include "Scene/World/BodyMass.h"
 #include "Core/PortableMath.h"
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>

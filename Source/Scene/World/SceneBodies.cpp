@@ -7,7 +7,6 @@
 #include "Scene/World/SceneWorld.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <type_traits>

@@ -5,7 +5,6 @@
 #include "Scene/World/BodyLists.h"
 #include "Scene/World/SceneBodies.h"
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace physvib {

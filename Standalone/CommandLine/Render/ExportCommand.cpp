@@ -6,7 +6,6 @@
 #include "Io/Disk/FileClash.h"
 #include "Live/Recordings/HitExport.h"
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -156,7 +156,6 @@ public:
     /// Sets the user's choice. Without one, or if it cannot be written, the folder is PhysVib in the
     /// documents or else in the home folder.
     void choose(const juce::File& folder) { chosenFolder_ = folder; }
-    const juce::File& chosenFolder() const noexcept { return chosenFolder_; }
 
     /// The first of these folders that can be written or created; an empty file if none can.
     juce::File location() const;

@@ -71,7 +71,6 @@ public:
     void resized() override;
 
     void rescan(); ///< reads the folder again
-    int selectedRow() const { return list_.getSelectedRow(); }
     void choose(int row) { list_.selectRow(row); }
     /// Plays the selected take as a clip of the session, each channel on the actuator of its number. Stops
     /// what plays; the same take does not start again then.

@@ -3,7 +3,6 @@
 // actuator: was its pulse felt, and where?
 #pragma once
 #include "Mixer/Widgets/Cards.h"
-#include <string_view>
 
 namespace physvib {
 
@@ -44,7 +43,6 @@ public:
     std::function<void(const DeviceChoice&)> onSink;
 
     void choose(int index);
-    int chosenIndex() const noexcept { return chosenIndex_; }
     void openChosen();      ///< opens the chosen device and starts the test
     void test(int outputs); ///< tests an actuator per output, in turn, from a low level; waits for sinks
     void pulse();           ///< repeats the pulse of the tested actuator
