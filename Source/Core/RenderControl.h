@@ -78,7 +78,8 @@ struct LastChanges {
         if (control.kind == Kind::level) level = static_cast<double>(control.value);
         if (control.kind == Kind::silence) silentUntilNs = control.untilNs;
         if (control.kind == Kind::mute) muted = control.value != 0.0F ? muted | bit : muted & ~bit;
-        if (control.kind == Kind::gain) zeroGains = control.value != 0.0F ? zeroGains & ~bit : zeroGains | bit;
+        if (control.kind == Kind::gain)
+            zeroGains = control.value != 0.0F ? zeroGains & ~bit : zeroGains | bit;
     }
 };
 
