@@ -297,6 +297,31 @@ TEST(HapticRenderer, ALayoutChangeMovesLaterStrikesOnly) {
         << "the one enchanter left is channel 0";
 }
 
+// Whatever sounds: a tone, one that moves, a recording. All four were struck before.
+TEST(HapticRenderer, ALayoutOfFewerActuatorsLeavesTheOtherOutputsSilent) {
+    const std::vector<float> ones(2400, 1.0f);
+    const RecordedContact wood[]{{100, ones}};
+    for (const int left : {1, 2, 3})
+        for (const RecordedContacts& recordings : {RecordedContacts{}, RecordedContacts{wood}})
+            for (const std::int64_t travelNs : {0, 50'000'000}) {
+                const PhantomPanner fewer{gridLayout(left, 1), PanningLaw::linear, 1, 1, 1};
+                CollisionEvent e{.frequencyHz = 100, .amplitude = 0.3, .x = 0.4, .y = 0.4};
+                e.durationNs = 50'000'000;
+                e.course = {.toX = 0.6, .toY = 0.4, .travelNs = travelNs};
+                Session session{{e, e}, {{.kind = Kind::recordings, .recordings = recordings}}};
+                session.controls.push_back({.timeNs = 100'000'000, .kind = Kind::panner, .panner = &fewer});
+                session.events[1].timeNs = 200'000'000;
+                RenderStatus status;
+                const auto out =
+                    renderSession(session, settingsFor(layoutOf(4), PanningLaw::linear, 8000), 256, status);
+                for (int j = 0; j < 4; ++j) {
+                    const auto& channel = out[static_cast<std::size_t>(j)];
+                    EXPECT_EQ(std::count(channel.begin() + 800, channel.end(), 0.0f) < 47'200, j < left)
+                        << j << " of " << left << ", " << recordings.list.size() << ' ' << travelNs;
+                }
+            }
+}
+
 TEST(HapticRenderer, StopAllFadesWhatRingsAndLaterEventsArePlayed) {
     const CollisionEvent e{.frequencyHz = 200, .decayPerSecond = 1, .amplitude = 0.5};
     Session session{{e, e}, {{300'000'000, Kind::stopAll}}};

@@ -512,6 +512,30 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
         << "a law that is named holds for parts too";
 }
 
+/// As if the actuators of the part were a layout of their own, with that law, that exponent and those grains.
+TEST(TiltedCells, WhatIsChosenForALayoutHoldsForItsParts) {
+    ActuatorLayout both = layoutAt({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {3, 0}, {4, 0}, {3, 1}, {4, 1}});
+    const ActuatorLayout left = layoutAt({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+    for (std::size_t j = 0; j < 8; ++j) both.places[j].part = partNamed(j < 4 ? "left" : "right");
+    for (const Spread spread : {Spread::layout, grainSpread, Spread::equal, Spread::nearest})
+        for (const auto& law : panningLaws)
+            for (const double exponent : {1.0, 2.0}) {
+                PhantomPanner whole{both, law.law, exponent, 1.0, 1.0},
+                    alone{left, law.law, exponent, 1.0, 1.0};
+                if (law.law != PanningLaw::automatic) // which chooses for each part by itself
+                    whole.setGrains(spread), alone.setGrains(spread);
+                for (const ContactKind kind : {ContactKind::hit, ContactKind::roll, ContactKind::slide}) {
+                    CollisionEvent event = eventAt(0.3, 0.6, 0.0, "left");
+                    event.source.kind = kind;
+                    PhantomPanner::Gains ofPart{}, expected{};
+                    whole.gainsAt(event, ofPart);
+                    alone.gainsAt(event, expected);
+                    EXPECT_EQ(ofPart, expected)
+                        << law.name << ' ' << exponent << ", grains " << nameOf(spread);
+                }
+            }
+}
+
 TEST(TiltedCells, KeptPannersOfPartsGiveTheSameGainsAndFollowTheLayout) {
     Places many;
     for (int j = 0; j < 60; ++j)

@@ -125,6 +125,27 @@ TEST(StopsOfSound, EndWhateverSoundsWithinATenthOfASecond) {
         }
 }
 
+/// As whoever presses a key twice does it: nothing grows again, and no fade is cut or drawn out.
+TEST(StopsOfSound, AnotherOneMeanwhileChangesNothing) {
+    const std::vector<float> samples(rate, 0.5f);
+    const RecordedContact wood[]{{60.0, samples}};
+    std::vector<CollisionEvent> states{tone(0, 0.5), tone(0, 0.5, 0, 0.5, 200.0),
+                                       tone(0, 0.5, 5000 * ms, 0.0, 200.0)}; // the first: a recording
+    states.push_back(states.back());
+    states.back().course = {.toX = 1.0, .toY = 0.5, .travelNs = 3000 * ms};
+    for (const auto kind : {RenderControl::Kind::stopAll, RenderControl::Kind::silence})
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            std::vector<RenderControl> stops{
+                {.kind = RenderControl::Kind::recordings, .recordings = {wood, true}},
+                {.timeNs = 100 * ms, .kind = kind}};
+            const auto once = rendered({states[i]}, stops, rate / 5);
+            for (const int later : {0, 1, 5, 9, 11})
+                stops.push_back({.timeNs = (100 + later) * ms, .kind = kind});
+            EXPECT_EQ(rendered({states[i]}, stops, rate / 5), once)
+                << "state " << i << ", kind " << static_cast<int>(kind);
+        }
+}
+
 /// A silence of collisions alone: bodies are silent from the first fixture on, what is struck by hand is not.
 TEST(StopsOfSound, OfCollisionsSilenceEveryFixtureAndNoStrike) {
     RenderControl silence = control(RenderControl::Kind::silence, 0, 1.0f);

@@ -100,6 +100,25 @@ TEST(LinkClock, IsNotReadyBeforeItKnows) {
     EXPECT_FALSE(clock.isReady());
 }
 
+// A board that is connected again has another clock.
+TEST(LinkClock, KnowsNothingOfAFormerConnection) {
+    for (const int pings : {1, LinkClock::minPings, LinkClock::window + 40}) {
+        LinkClock again, fresh;
+        Line former, line, same;
+        line.drift = same.drift = -200e-6;
+        for (int i = 0; i < pings; ++i) ping(again, former, i * 0.1);
+        again.clear();
+        for (int i = 0; i < LinkClock::window; ++i) {
+            ASSERT_EQ(again.unwrappedFrame(3U << 30, 7), fresh.unwrappedFrame(3U << 30, 7));
+            ping(again, line, 60 + i * 0.1);
+            ping(fresh, same, 60 + i * 0.1);
+            ASSERT_EQ(again.isReady(), fresh.isReady());
+            ASSERT_EQ(again.frameAt(ns(99)), fresh.frameAt(ns(99))) << pings << " before, then " << i;
+            ASSERT_EQ(again.worstDelaySeconds(), fresh.worstDelaySeconds());
+        }
+    }
+}
+
 // CRC-16 and COBS: published check values, round trips, broken frames.
 
 using Bytes = std::vector<std::uint8_t>;
