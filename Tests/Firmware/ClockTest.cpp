@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The link's clock through the image: random delays of 10 to 30 ms, a computer 300 ppm off.
 #include "Rig.h"
+#include "SoundLog.h"
 #include "Wire/LinkClock.h"
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <random>
+#include <unistd.h>
+#include <utility>
 
 namespace physvib::clock_test {
 
@@ -137,5 +143,28 @@ TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) {
     expectLoad(128, besideSegments, CostModel::pessimistic, 0.60, 4);
 }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
+
+// Of frames that are given by hand, each 9000 cycles of 72 MHz: in the log of physvib-virtual-board a silence
+// begins where the sound ended, and 159 frames are none.
+TEST(BoardClock, TheLogTellsWhereEachVibrationBeginsAndEnds) {
+    const std::string path = testing::TempDir() + "physvib-sound-" + std::to_string(getpid());
+    virtualboard::Peripherals io;
+    virtualboard::SoundLog log{path};
+    log.begin({});
+    const auto play = [&](int frames, std::uint8_t code) {
+        for (int i = 0; i < frames; ++i) {
+            io.frameCycles.push_back(9000 * io.frames.size());
+            io.frames.push_back({128, 128, code, 128});
+        }
+        log.writeFrames(io);
+    };
+    for (const auto& [frames, code] :
+         {std::pair{100, 128}, {50, 129}, {159, 128}, {1, 0}, {100, 128}, {60, 128}, {240, 128}, {1, 255}})
+        play(frames, static_cast<std::uint8_t>(code));
+    std::ifstream file{path};
+    const std::string written{std::istreambuf_iterator<char>{file}, {}};
+    EXPECT_EQ(written, "steady_ns,what\n12500000,sound\n38750000,silence\n88750000,sound\n");
+    std::filesystem::remove(path);
+}
 
 } // namespace physvib::clock_test
