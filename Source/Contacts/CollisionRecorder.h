@@ -251,7 +251,8 @@ public:
                                      bool hasSource, Vector3 newtonSeconds) {
         hasReports_ = true;
         if (stored.lastIndex != TouchingPairs::none) [[unlikely]]
-            aftermaths_[static_cast<std::size_t>(stored.lastIndex)].newtonSeconds += newtonSeconds;
+            aftermaths_[static_cast<std::size_t>(stored.lastIndex)].newtonSeconds +=
+                pair.a < pair.b ? newtonSeconds : -newtonSeconds;
         return hasSource ? &impulses_.add(pair, stored.loadIndex, newtonSeconds) : nullptr;
     }
     /// The faster path for an entry that impulses().findSteady() has returned.

@@ -117,10 +117,11 @@ std::string_view ContactFeed::setMass(std::int32_t id, double massKg) {
     if (!bodies.has(id)) return unknownBody;
     FedBody body = bodies.reported(id);
     if (massKg == body.massKg) return {};
-    if (body.massKg > 0.0 && massKg > 0.0) body.inertiaKgSquareMetres *= massKg / body.massKg;
+    const double inertiaMassKg = bodies.inertiaMassKg(id); // also of a body that stands meanwhile
+    if (inertiaMassKg > 0.0 && massKg > 0.0) body.inertiaKgSquareMetres *= massKg / inertiaMassKg;
     body.massKg = massKg;
     if (const std::string_view error = physvib::errorOf(body); !error.empty()) return error;
-    bodies.set(id, body);
+    bodies.set(id, body, massKg > 0.0 ? massKg : inertiaMassKg);
     const std::uint64_t fixture = ReportedBodies::idOf(id);
     if (const auto slot = contacts_->events().fixtures().find(fixture); slot != FixtureTable::none)
         contacts_->events().updateBody(slot, bodies.facts(fixture));

@@ -114,8 +114,12 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
         areStaticMassesStale_ = false;
     }
     double largest = 0.0;
-    for (const StaticBody& candidate : staticBodies_)
-        if (candidate.massKg > largest && bodies.facts(candidate.body).isEnabled) largest = candidate.massKg;
+    for (const StaticBody& candidate : staticBodies_) {
+        if (candidate.massKg <= largest) continue;
+        // the engine may have freed it since its last contact
+        if (const BodyFacts now = bodies.facts(candidate.body); now.isEnabled && !now.isDynamic)
+            largest = candidate.massKg;
+    }
     return largest;
 }
 

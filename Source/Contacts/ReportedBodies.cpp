@@ -25,7 +25,7 @@ double slideSpeed(Vector3 spin, Vector3 arm, Vector3 normal) noexcept {
 
 } // namespace
 
-void ReportedBodies::set(std::int32_t id, const FedBody& body) {
+void ReportedBodies::set(std::int32_t id, const FedBody& body, double inertiaMassKg) {
     std::int32_t slot = slots_.find(idOf(id));
     if (slot == IntegerMap::none) {
         slot = static_cast<std::int32_t>(bodies_.size());
@@ -35,6 +35,7 @@ void ReportedBodies::set(std::int32_t id, const FedBody& body) {
     Body& known = bodies_[static_cast<std::size_t>(slot)];
     invalidateLargestMass(known);
     known.reported = body;
+    known.inertiaMassKg = inertiaMassKg;
     largestMassKg_ = std::max(largestMassKg_, body.massKg);
 }
 

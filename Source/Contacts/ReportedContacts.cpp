@@ -434,8 +434,9 @@ void ReportedContacts::solvePair(Pair& pair) {
     for (const PendingContact* item : pairContacts_) {
         const FedContact& contact = item->contact;
         const bool isTurned = contact.a != first.a;
+        const Vector3 drag = dragOf(withMomentumImpulse(*item));
         solverPoints_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact),
-                                 contact.restitution, item->isNew, 0.0, dragOf(withMomentumImpulse(*item))});
+                                 contact.restitution, item->isNew, 0.0, isTurned ? -drag : drag});
     }
     solve(bodies_, first.a, first.b, solverPoints_);
     addSharedCollision();

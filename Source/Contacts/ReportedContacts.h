@@ -70,7 +70,9 @@ public:
     /// The number by which contacts and later stages identify that body.
     static std::uint64_t idOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
 
-    void set(std::int32_t id, const FedBody& body);
+    void set(std::int32_t id, const FedBody& body) { set(id, body, body.massKg); }
+    /// `inertiaMassKg`: the mass that its inertia belongs to; 0: not known.
+    void set(std::int32_t id, const FedBody& body, double inertiaMassKg);
     /// `inverse`: in the world's axes; without it, FedBody's moment of inertia counts about every axis.
     void move(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
               const std::optional<InverseInertia>& inverse = {});
@@ -82,6 +84,7 @@ public:
     bool hasAnyMotionAfter() const noexcept { return hasAnyMotionAfter_; }
     void endStep() noexcept { hasAnyMotionAfter_ = false, ++age_; }
     const FedBody& reported(std::int32_t id) const { return at(idOf(id)).reported; }
+    double inertiaMassKg(std::int32_t id) const { return at(idOf(id)).inertiaMassKg; }
     bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
     /// True if the body is immovable and at rest, as ground is.
     bool isFixedAtRest(std::int32_t id) const;
@@ -136,6 +139,7 @@ private:
         SpaceMotion motion, motionAfter;
         std::optional<InverseInertia> inverse{};
         std::uint64_t motionAfterAge = 0; // the step in which `motionAfter` was reported
+        double inertiaMassKg = 0.0;       // as of set()
     };
     const Body& at(std::uint64_t body) const { return bodies_[static_cast<std::size_t>(slots_.find(body))]; }
     static double angularCoupling(const Body& body, Vector3 lever, Vector3 other) noexcept;

@@ -3,6 +3,8 @@
 #include "Contacts/ContactCounts.h"
 #include "Api/Godot/Explanation.h"
 #include "TestPlaces.h"
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -106,6 +108,41 @@ TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     counts.minX = counts.minY = -1.23456e-100;
     counts.maxX = counts.maxY = -1.23456e-101;
     EXPECT_LT(explain(counts).size(), 512u) << "as physvib.h promises";
+}
+
+TEST(ContactCounts, OfTwoPeriodsAreSumsAndMaximaAndWhatHoldsNow) {
+    using C = ContactCounts;
+    constexpr std::array sums{&C::contacts,  &C::belowThreshold, &C::withoutSource, &C::unplayable,
+                              &C::muted,     &C::settling,       &C::dropped,       &C::handedOn,
+                              &C::steps,     &C::zeroSteps,      &C::outsideSteps,  &C::unknownBodies,
+                              &C::immovable, &C::parting,        &C::motionless};
+    constexpr std::array maxima{&C::longestStepSeconds, &C::strongestBelowMetresPerSecond,
+                                &C::fastestPartingMetresPerSecond, &C::fastestApproachMetresPerSecond};
+    constexpr std::array present{&C::thresholdMetresPerSecond, &C::gravityMetresPerSecond2,
+                                 &C::configuredThresholdMetresPerSecond, &C::fieldWidthMetres};
+    constexpr std::array states{&C::hasSources, &C::mayBePushed, &C::isMuted};
+    for (const unsigned later : {1U, 1000U}) { // than the first, which has 30 and more: less and more
+        ContactCounts both, second;
+        for (unsigned i = 0; i < sums.size(); ++i) both.*sums[i] = 30 + i, second.*sums[i] = later * (i + 1);
+        for (unsigned i = 0; i < 4; ++i) {
+            both.*maxima[i] = both.*present[i] = 30 + i;
+            second.*maxima[i] = second.*present[i] = later + i;
+        }
+        for (const auto state : states) both.*state = later == 1, second.*state = later != 1;
+        both.unknownBody = 3, second.unknownBody = 4;
+        both.note(EngineNote::sensor, 5), second.note(EngineNote::asleep, 6);
+        both += second;
+        for (unsigned i = 0; i < sums.size(); ++i) EXPECT_EQ(both.*sums[i], 30 + i + later * (i + 1)) << i;
+        for (unsigned i = 0; i < 4; ++i) {
+            EXPECT_EQ(both.*maxima[i], std::max(30U, later) + i) << i;
+            EXPECT_EQ(both.*present[i], later + i) << i;
+        }
+        for (const auto state : states) EXPECT_EQ(both.*state, later != 1);
+        EXPECT_EQ(both.notes[0].count, 0U);
+        EXPECT_EQ(both.notes[3].body, 6);
+        EXPECT_EQ(both.unknownBody, 4);
+        EXPECT_EQ((both += {}).unknownBody, 4) << "the last there was";
+    }
 }
 
 // Whatever the reason is, the addon for Godot explains it with names that Godot's inspector and manual have.

@@ -309,6 +309,35 @@ TEST_F(ContactFeedTest, ACollisionBesideTheCentreHasLessMass) {
     EXPECT_NEAR(onlyImpulse(), 3.0 * 2.0 / (1.0 / 2.0 + 0.25 / 0.5), 1.0e-6);
 }
 
+TEST_F(ContactFeedTest, WithItsMassABodysInertiaChangesAsMuch) {
+    set(ball, {.massKg = 2.0, .inertiaKgSquareMetres = 0.5}, source);
+    ASSERT_EQ(feed.move(ball, {0.0F, 0.5F}, {{0.0F, -3.0F}, 0.0F}), "");
+    for (const double massKg : {1.0, 6.0, 0.0, 3.0, 2.0}) { // 0: it is held meanwhile
+        EXPECT_EQ(feed.setMass(ball, massKg), "");
+        FedContact contact = landing();
+        contact.point.x = 0.5F;
+        step({contact});
+        step();
+        const auto felt = events();
+        ASSERT_EQ(felt.size(), massKg > 0.0 ? 1U : 0U);
+        if (massKg > 0.0)
+            EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 3.0 * massKg / (1.0 + 0.25 * 2.0 / 0.5), 1e-6);
+    }
+}
+
+TEST_F(ContactFeedTest, WhatStandsIsTheHandUntilItCanMove) {
+    feed.configure({});
+    HapticFixture heavy = source;
+    heavy.staticMassKg = 5.0;
+    set(ball, {2.0}, heavy);
+    for (const bool isSetAgain : {false, true})
+        for (const double massKg : {0.0, 3.0, 0.0, 7.0}) {
+            EXPECT_EQ(isSetAgain ? feed.set(ball, {massKg}, heavy) : feed.setMass(ball, massKg), "");
+            step();
+            EXPECT_EQ(feed.impactModel().handMassKg, massKg > 0.0 ? massKg : 5.0) << isSetAgain;
+        }
+}
+
 /// Five balls that touch, the last one a camera; what strikes the first goes through all of them.
 TEST_F(ContactFeedTest, AChainHandsACollisionOnAndItCountsOnce) {
     for (const std::int32_t id : {1, 2, 3, 4, 5})

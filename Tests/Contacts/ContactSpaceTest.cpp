@@ -40,8 +40,10 @@ struct Rotation {
 /// Exact: x stays, y becomes z.
 Rotation upright() { return {{Vector3{1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, -1.0F, 0.0F}}}; }
 
-/// A random world in the plane, told as it is turned. Style: how contacts are told.
-std::vector<CollisionEvent> randomWorld(unsigned seed, int style, const Rotation& turned) {
+/// A random world in the plane, told as it is turned. Style: how contacts are told. Mixed: every second one
+/// names its bodies in the other order.
+std::vector<CollisionEvent> randomWorld(unsigned seed, int style, const Rotation& turned,
+                                        bool isMixed = false) {
     std::mt19937 random{seed};
     const auto number = [&random](float least, float most) {
         return least + (most - least) * static_cast<float>(random() >> 8U) * 0x1p-24F;
@@ -81,8 +83,14 @@ std::vector<CollisionEvent> randomWorld(unsigned seed, int style, const Rotation
                 if (style == 0) {
                     contact.frictionNewtonSeconds =
                         turned(number(-1.0F, 1.0F) * Vector3{-normal.y, normal.x});
-                    contact.alongAMetresPerSecond = contact.alongBMetresPerSecond =
-                        static_cast<double>(number(0.0F, 2.0F));
+                    contact.alongAMetresPerSecond = static_cast<double>(number(0.0F, 2.0F));
+                    contact.alongBMetresPerSecond = static_cast<double>(number(0.0F, 2.0F));
+                }
+                if (isMixed && (step + point) % 2 == 0) {
+                    std::swap(contact.a, contact.b);
+                    std::swap(contact.alongAMetresPerSecond, contact.alongBMetresPerSecond);
+                    contact.normal = -contact.normal;
+                    contact.frictionNewtonSeconds = -contact.frictionNewtonSeconds;
                 }
                 EXPECT_EQ(feed.touch(contact), "");
             }
@@ -128,6 +136,22 @@ TEST_P(TurnedWorlds, InAnyDirectionAreTheSameButForRounding) {
     }
     EXPECT_GT(all, 500);
     EXPECT_GT(alike, all * 98 / 100);
+}
+
+TEST_P(TurnedWorlds, AreTheSameWhicheverBodyOfAContactIsNamedFirst) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const auto all = randomWorld(seed, GetParam(), {}), mixed = randomWorld(seed, GetParam(), {}, true);
+        ASSERT_EQ(all.size(), mixed.size()) << seed;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            EXPECT_EQ(all[i].source.fixture, mixed[i].source.fixture) << seed;
+            EXPECT_EQ(all[i].source.other, mixed[i].source.other) << seed;
+            EXPECT_NEAR(static_cast<double>(all[i].timeNs), static_cast<double>(mixed[i].timeNs), 10.0)
+                << seed;
+            EXPECT_NEAR(all[i].amplitude, mixed[i].amplitude, 1e-5 * all[i].amplitude) << seed;
+            EXPECT_NEAR(all[i].x, mixed[i].x, 1e-5) << seed;
+            EXPECT_NEAR(all[i].y, mixed[i].y, 1e-5) << seed;
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Styles, TurnedWorlds, testing::Values(0, 1, 2));

@@ -368,6 +368,10 @@ TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
     expectHand(massKg(heavy));
     foreign.world.DestroyBody(heavy.GetBody());
     expectHand(10.0);
+    foreign.floor->GetBody()->SetType(b2_dynamicBody);
+    expectHand(std::max(massKg(*foreign.floor), massKg(*foreign.ball)));
+    foreign.floor->GetBody()->SetType(b2_staticBody);
+    expectHand(10.0);
     settings.normalisation = 0.5;
     settings.handMassKg = 3.0;
     settings.driveGain = 2.0;
