@@ -295,6 +295,13 @@ TEST(ClipSound, PlaysEveryWaveform) {
     }
 }
 
+TEST(ClipSound, LeavesOutWhatTheSampleRateCannotHold) {
+    for (const double hertz : {1999.0, 2000.0, 2001.0, 3000.0, 1.0e5}) {
+        const auto sound = soundOf({0.0, 0.7, {}, {{0.0, 1.0}, {1.0, 1.0}}, {{0.0, hertz}}}, 4000);
+        EXPECT_EQ(std::ranges::any_of(sound, [](float x) { return x != 0.0f; }), hertz < 2000.0) << hertz;
+    }
+}
+
 TEST(ClipSound, FollowsAFrequencyThatGlides) {
     const auto sound = soundOf({0.25, 0.5, {}, {{0.0, 1.0}, {1.0, 0.5}}, {{0.1, 100.0}, {0.6, 300.0}}}, 8000);
     const auto phase = [](double t) { // 100 Hz, a glide of 400 Hz per second, 300 Hz

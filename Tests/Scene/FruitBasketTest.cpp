@@ -167,6 +167,18 @@ TEST(FruitBasket, IsNotMovedOffItsField) {
     EXPECT_EQ(std::get<VelocityAction>(stop.front()).velocityMetresPerSecond.x, 0.0);
 }
 
+TEST(FruitBasket, StopsHoweverSlowlyItMoves) {
+    ScenePlayer player{basket()};
+    ASSERT_EQ(player.steer(1).size(), 1U);
+    const double fullTilt = 0.5,
+                 fullSpeed = -std::get<VelocityAction>(player.tilt(fullTilt).at(0)).velocityMetresPerSecond.x;
+    ASSERT_EQ(player.tilt(fullTilt * -0.04 / fullSpeed).size(), 1U) << "0.04 m/s";
+    const auto stop = player.tilt(0.0);
+    ASSERT_EQ(stop.size(), 1U);
+    EXPECT_EQ(std::get<VelocityAction>(stop[0]).velocityMetresPerSecond.x, 0.0);
+    EXPECT_TRUE(player.tilt(0.0).empty()) << "it stands already";
+}
+
 TEST(FruitBasket, AFruitAtTwiceTheSpeedIsTwiceAsStrong) {
     const Fall full(kinds().at("orange"));
     Scene quarter = full.scene;

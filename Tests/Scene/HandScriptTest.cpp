@@ -148,6 +148,16 @@ TEST(HandScript, ATrimKeepsHowTheDeviceWasHeldAndLetsGoOfWhatIsHeld) {
     EXPECT_EQ(sceneToRecord(again), scene) << "another recording takes its place";
 }
 
+TEST(HandScript, OfTiltAndGravityATrimStartsWithTheLater) {
+    const Scene scene = sceneToRecord(*findBuiltInScene("shake-the-box"));
+    const Action tilt = TiltAction{0.3}, gravity = GravityAction{{0.0, -1.6}};
+    for (const auto& [before, later] : {std::pair{tilt, gravity}, {gravity, tilt}}) {
+        const RecordedInputs hands{{{0.5, before}, {1.0, later}}, 4.0};
+        EXPECT_EQ(trimmedInputs(scene, hands, {1.6, 2.5, false}).inputs,
+                  (std::vector<LiveInput>{{0.0, later}}));
+    }
+}
+
 TEST(HandScript, AScriptIsFullBeforeASceneIs) {
     Take take{sceneToRecord(*findBuiltInScene("shake-the-box"))};
     take.steps(1);

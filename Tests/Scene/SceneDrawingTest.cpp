@@ -259,6 +259,51 @@ TEST(SceneDrawing, ASeesawHoldsOnItsPinWhileItIsChanged) {
     EXPECT_LT(height(), 0.9) << "without a pin it falls";
 }
 
+TEST(SceneDrawing, AHingeKeepsItsLimitsWhileABodyIsChanged) {
+    Drawn drawn{blank()};
+    ASSERT_EQ(drawn.add(makeBox({1.2, 1.9}, {2.0, 2.0}).value, "arm"), "");
+    const RevoluteJoint hinge{{1.2, 1.95}, Interval{-0.1, 0.1}};
+    ASSERT_EQ(drawn.edit({JoinAction{{"hinge", "floor", "arm", hinge}}}), "");
+    const auto turn = [&] {
+        return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1).angleRadians;
+    };
+    drawn.steps(100);
+    EXPECT_NEAR(turn(), -0.1, 0.02) << "hangs at its limit";
+    ASSERT_EQ(drawn.edit({changeAction(scaledBody(*drawn.drawing.find("arm"), 0.9, 1.0))}), "");
+    drawn.steps(100);
+    EXPECT_NEAR(turn(), -0.1, 0.02);
+}
+
+TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {
+    Drawn drawn{blank()};
+    ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
+    ASSERT_EQ(drawn.add(makeBall({1.2, 1.7}, {1.3, 1.7}).value, "wheel"), "");
+    const std::array<Joint, 3> joints{WheelJoint{{1.2, 1.7}, {0.0, 1.0}}, SliderJoint{{1.2, 1.7}, {1.0, 0.0}},
+                                      RevoluteJoint{{1.2, 1.7}}};
+    for (const Joint& joint : joints) {
+        ASSERT_EQ(drawn.edit({JoinAction{{"joint", "car", "wheel", joint}}}), "");
+        const auto [name, from] = drawn.where("car");
+        const BodyPlace to{{2.0, 1.5}, from.angleRadians + 0.5 * std::numbers::pi};
+        const auto actions = moveActions(drawn.drawing, {{name, to}});
+        const auto joined = std::ranges::find_if(actions, isAnyOf<JoinAction>);
+        ASSERT_NE(joined, actions.end());
+        std::visit(
+            [&](const auto& kind) {
+                if constexpr (requires { kind.anchorMetres; }) {
+                    EXPECT_NEAR(kind.anchorMetres.x, to.metres.x - (1.7 - from.metres.y), 1e-9);
+                    EXPECT_NEAR(kind.anchorMetres.y, to.metres.y + (1.2 - from.metres.x), 1e-9);
+                }
+                if constexpr (requires { kind.axis; }) {
+                    const bool isSlider = std::is_same_v<decltype(kind), const SliderJoint&>;
+                    EXPECT_NEAR(kind.axis.x, isSlider ? 0.0 : -1.0, 1e-9);
+                    EXPECT_NEAR(kind.axis.y, isSlider ? 1.0 : 0.0, 1e-9);
+                }
+            },
+            std::get<JoinAction>(*joined).joint.joint);
+        ASSERT_EQ(drawn.edit({UnjoinAction{"joint"}}), "");
+    }
+}
+
 TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
     for (const bool isLeftToRight : {true, false}) {
         Drawn drawn{blank()};
