@@ -156,14 +156,17 @@ class Overlay:
                 elif words and (words[0].endswith("/ar") or (words[0].endswith("c++") and "-o" in words)):
                     self.link(words)
         running: list[tuple[subprocess.Popen, str]] = []
+        failed: list[str] = []
         for call, output in [*self.calls, ([], "")]:
             while len(running) >= (os.cpu_count() or 2) or (not call and running):
                 process, name = running.pop(0)
                 if process.wait():
-                    sys.exit(f"{name}: does not compile with its breaks")
+                    failed.append(f"{name}: does not compile with its breaks")
             if call:
                 print(f"compiles {output}", flush=True)
                 running.append((subprocess.Popen(call, cwd=self.build), output))
+        if failed:
+            sys.exit("\n".join(failed))
         for call, output in self.links:
             new = pathlib.Path(self.outputs[output])
             new.unlink(missing_ok=True)

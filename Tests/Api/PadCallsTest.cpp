@@ -136,6 +136,16 @@ TEST(PadCalls, StopRestsAndLetsTimeBeginAgain) {
     EXPECT_EQ(pads.pull(secondNs).high, 0.0);
 }
 
+TEST(PadCalls, AHitThatEndedWithinAFrameIsOverInTheNext) {
+    const PadHandle pads;
+    const physvib_event hit = padHit(secondNs);
+    physvib_pads_strike(pads.name, 0, &hit);
+    EXPECT_GT(pads.pull(9 * secondNs).high, 0.0) << "its strongest";
+    const physvib_motors next = pads.pull(10 * secondNs);
+    EXPECT_EQ(next.high, 0.0);
+    EXPECT_EQ(next.low, 0.0);
+}
+
 TEST(PadCalls, APullAfterALongPauseReturns) {
     const PadHandle pads;
     physvib_event hum = padHit(0);

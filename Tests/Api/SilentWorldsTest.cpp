@@ -335,6 +335,26 @@ TEST(SilentWorlds, AreExplainedByTheFactsOfAnyOutput) {
     EXPECT_NE(why([](auto&) {}).find("1 event was made, at x 0.5 to 0.5 m"), std::string::npos);
 }
 
+TEST(SilentWorlds, AnOutputsCountsAreExplainedOnce) {
+    for (const auto count : {&physvib_output_facts::late, &physvib_output_facts::dropped,
+                             &physvib_output_facts::rejected, &physvib_output_facts::without_part}) {
+        Silent silent;
+        auto facts = test::begun(physvib_output_facts_init);
+        facts.renderer = &silent.output;
+        const auto says = [&](const char* what) {
+            silent.hit();
+            std::array<char, 512> text{};
+            EXPECT_GT(physvib_world_explain_output(silent.world, &facts, text.data(), text.size()), 0);
+            return std::string(text.data()).find(what) != std::string::npos;
+        };
+        facts.*count = 7;
+        EXPECT_TRUE(says("7 events"));
+        EXPECT_FALSE(says("7 events")) << "long ago";
+        facts.*count = 9;
+        EXPECT_TRUE(says("2 events")) << "since";
+    }
+}
+
 TEST(SilentWorlds, InvertedChannelsAreNotMuted) {
     Silent silent;
     silent.open();

@@ -55,6 +55,22 @@ TEST(Charts, NothingOfAFileBecomesMarkup) {
     }
 }
 
+// Along each diagonal of the field, y downwards, and along both axes.
+TEST(Charts, EllipsesLeanAsTheirAnswersDo) {
+    PlaceChart chart{{"c", "places", false}, 1, 1, {}, {}, {{0.5, 0.5}}};
+    const auto degreesOf = [&](double varianceX, double varianceY, double covariance) {
+        chart.ellipses = {{0, 0.5, 0.5, varianceX, varianceY, covariance}};
+        const std::string svg = placeChart(chart), turn = "rotate(";
+        return std::stod(svg.substr(svg.find(turn, svg.find("<ellipse")) + turn.size()));
+    };
+    const double down = degreesOf(0.01, 0.01, 0.009), up = degreesOf(0.01, 0.01, -0.009);
+    EXPECT_GT(down, 20.0);
+    EXPECT_LT(down, 70.0);
+    EXPECT_NEAR(up, -down, 1e-6);
+    EXPECT_NEAR(degreesOf(0.04, 0.001, 0.0), 0.0, 1e-6);
+    EXPECT_NEAR(std::abs(degreesOf(0.001, 0.04, 0.0)), 90.0, 1e-6);
+}
+
 TEST(Charts, SimulatedOnesAreWatermarkedAndOthersAreNot) {
     for (const std::string& svg : chartsWith("x", true)) EXPECT_EQ(countOf(svg, ">SIMULATED<"), 1u);
     for (const std::string& svg : chartsWith("x", false))

@@ -280,6 +280,29 @@ TEST(LiveCalls, EventsOfASessionAreThoseThatWereFelt) {
     std::filesystem::remove(path);
 }
 
+TEST(LiveCalls, ASessionHasTheSettingsItWasMadeWith) {
+    for (const int limiter : {0, 1}) {
+        auto given = test::begun(physvib_renderer_settings_init), told = given;
+        given.limiter = limiter;
+        given.channels = 6 + limiter;
+        given.law = PHYSVIB_LAW_LINEAR;
+        given.exponent = 1.5;
+        given.field_width_m = 3.0;
+        given.field_height_m = 2.0;
+        physvib_session session = nullptr;
+        ASSERT_EQ(physvib_session_create(&given, nullptr, 0, 0, &session), PHYSVIB_OK)
+            << physvib_live_error();
+        ASSERT_EQ(physvib_session_get_renderer(session, &told), PHYSVIB_OK) << physvib_live_error();
+        EXPECT_EQ(told.limiter, limiter);
+        EXPECT_EQ(told.channels, given.channels);
+        EXPECT_EQ(told.law, PHYSVIB_LAW_LINEAR);
+        EXPECT_EQ(told.exponent, 1.5);
+        EXPECT_EQ(told.field_width_m, 3.0);
+        EXPECT_EQ(told.field_height_m, 2.0);
+        EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
+    }
+}
+
 TEST(LiveCalls, ASessionsLayoutIsToldAsFarAsItGoes) {
     physvib_session session = nullptr;
     physvib_renderer_settings settings;
