@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
+#include "Core/ClockLaw.h"
+#include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"
 #include "Support/RandomCalls.h"
 #include "Support/ReadWav.h"
@@ -124,6 +126,21 @@ TEST(Calls, PullsOfAnyLengthAreWhatIsRendered) {
         }
     EXPECT_GT(heardFrames, frames / 2);
     for (const auto each : {one, two}) EXPECT_EQ(physvib_renderer_free(each), PHYSVIB_OK);
+}
+
+TEST(Calls, ThePlayOutDelayIsThatOfTheClocksLaw) {
+    for (const int rateHz : {5000, 44100, 192000})
+        for (const int frames : {1, 480, 8192})
+            for (const int steps : {30, 1000})
+                for (const double gapSeconds : {0.0, 0.02, 0.3}) {
+                    ClockLaw law;
+                    law.sampleRateHz = rateHz, law.blockFrames = frames, law.stepsPerSecond = steps;
+                    law.longestGapSeconds = gapSeconds;
+                    law.limiterFrames = HapticRenderer::latencyFramesAt(rateHz);
+                    const double ns = 1.0e9 * static_cast<double>(law.outputLatencyFrames()) / rateHz;
+                    EXPECT_NEAR(physvib_play_out_ns(rateHz, frames, steps, gapSeconds), ns, 1.0);
+                    EXPECT_GE(ns, 1.0e9 * gapSeconds) << "what the longest gap delays is in time";
+                }
 }
 
 TEST(Calls, ALandingIsFeltByItsImpulse) {

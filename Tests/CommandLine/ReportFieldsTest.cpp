@@ -3,6 +3,7 @@
 // page, and is not there without it.
 #include "Calls.h"
 #include "Io/Text/CsvTable.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/AnalysisScript.h"
 #include "Support/Studies.h"
 #include "System/Process.h"
@@ -43,6 +44,34 @@ protected:
         return read("out/index.html");
     }
 };
+
+// A break of 2 and 3 minutes, from which somebody is away for two hours; then a sitting that is cut off.
+TEST_F(ReportFields, WhoIsAwayIsCountedApartFromBreaks) {
+    plant("magnitudes", 1, "0,-3,-30,JACK:system");
+    std::vector<StudyEvent> entries;
+    for (const auto& [time, event] : {std::pair{"10:00", "start"},
+                                      {"10:10", "break"},
+                                      {"10:12", "leave"},
+                                      {"12:12", "resume"},
+                                      {"12:15", "go-on"},
+                                      {"12:16", "pause"},
+                                      {"12:20", "go-on"},
+                                      {"12:40", "resume"},
+                                      {"12:50", "end"}})
+        entries.push_back({std::string("2026-01-01T") + time + ":00Z", event, 0, "ko", "1 2 3 4", "5 6"});
+    ASSERT_EQ(writeStudyTimes(folder_ / "magnitudes-P01.times.txt", entries), "");
+    const std::string text = page("report magnitudes-P01.csv --out out");
+    const std::size_t row = text.find("2026-01-01T12:50:00Z");
+    ASSERT_NE(row, std::string::npos) << text;
+    std::string cells = text.substr(row, text.find("</tr>", row) - row);
+    for (std::size_t at = 0; (at = cells.find('<')) != std::string::npos;)
+        cells.replace(at, cells.find('>', at) + 1 - at, " ");
+    std::istringstream words{cells};
+    std::vector<std::string> told;
+    for (std::string word; words >> word && told.size() < 8;) told.push_back(word);
+    EXPECT_EQ(told, (std::vector<std::string>{"2026-01-01T12:50:00Z", "yes", "3", "140", "1", "1", "5", "1"}))
+        << "end, whether it ended, sittings, minutes between them, cut off, breaks, minutes of them, pauses";
+}
 
 TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     plant("phantom-grids", 4, "0,-3,-30,JACK:system");
