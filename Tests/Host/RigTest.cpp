@@ -69,6 +69,25 @@ TEST_F(RigTest, ThatDoesNotOpenKeepsNothing) {
     EXPECT_FALSE(std::filesystem::exists(wanted.savePath));
 }
 
+TEST_F(RigTest, TellsAtTheEndWhichOfItsFilesAreNotThere) {
+    for (const auto& [losesSession, losesRecording] :
+         {std::pair{false, false}, {false, true}, {true, false}, {true, true}}) {
+        RigSettings wanted = settings();
+        const std::string name = std::to_string(losesSession) + std::to_string(losesRecording);
+        wanted.savePath = (folder / (name + ".json")).string();
+        wanted.recordPath = (folder / (name + ".wav")).string();
+        Rig rig{wanted, withNullDevice(systemAudioDrivers)};
+        ASSERT_EQ(rig.open(), "");
+        if (losesSession) std::filesystem::remove(wanted.savePath);
+        if (losesRecording) std::filesystem::create_directory(wanted.recordPath); // where it would be put
+        rig.stop([](const PlayedEvent&) {});
+        const std::string error = rig.finish(false);
+        EXPECT_EQ(error.find(wanted.savePath + ": ") != std::string::npos, losesSession) << error;
+        EXPECT_EQ(error.find(wanted.recordPath + ": ") != std::string::npos, losesRecording) << error;
+        EXPECT_EQ(error.empty(), !losesSession && !losesRecording) << error;
+    }
+}
+
 TEST_F(RigTest, WaitsForASinkOrNamesItLater) {
     RigSettings wanted = settings();
     wanted.sinks = {{"BOARD", "/nowhere/port"}};

@@ -6,6 +6,7 @@
 #include "Live/Devices/OutputMap.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Recordings/HitExport.h"
+#include "Scene/ActuatorFile.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <array>
@@ -156,6 +157,33 @@ TEST(ExportedParts, AreOfTheChannelsThatAreNotEmpty) {
             }
             EXPECT_EQ(paths.size(), parts.size());
         }
+}
+
+TEST(ExportedHits, HaveTheActuatorsOfTheLayoutOrTheOneThatIsChosen) {
+    const std::array<std::string, 4> own{"piezo-230", "haptuator-mark-2", "none", "lra-205"};
+    LayoutDescription layout = presetLayout("phone4");
+    for (std::size_t j = 0; j < own.size(); ++j) {
+        layout.actuators[j].actuator = own[j];
+        layout.actuators[j].fullScaleG = 1.0 + static_cast<double>(j);
+    }
+    const CollisionEvent hit{.frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5};
+    const auto clipOf = [&](const std::string& chosen) {
+        return makeHitClip({"hits", "title", {&hit, 1}, layout, "phone4", chosen},
+                           {.channels = own.size(), .gains = [](auto&, auto& gains) { gains.fill(0.5); }});
+    };
+    for (const std::string chosen : {"", "none", "haptuator-mark-2", "piezo-230"}) {
+        const auto clip = clipOf(chosen);
+        ASSERT_EQ(clip.error, "");
+        for (std::size_t j = 0; j < own.size(); ++j) {
+            const std::string& name = chosen.empty() ? own[j] : chosen;
+            const ActuatorProfile profile = name == "none" ? ActuatorProfile{} : findActuator(name).value;
+            const FrequencyBand band = profile.bandOrUnknown();
+            const ClipDevice expected{band.lowHz, band.highHz, profile.resonanceHz.value_or(0.0),
+                                      layout.actuators[j].fullScaleG};
+            EXPECT_EQ(clip.value.channels[j].device, expected) << chosen << ' ' << j;
+        }
+    }
+    EXPECT_NE(clipOf("no such actuator").error, "");
 }
 
 // An enchanter that rings while it gets another output is never cut off, and never heard with another one.

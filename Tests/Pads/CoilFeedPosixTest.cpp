@@ -124,11 +124,17 @@ TEST(CoilFeed, ActuatorsArePannedByTheirPlaceFromLeftToRight) {
     const auto only = [](std::size_t which) {
         return [which](std::size_t j, std::int64_t frame) { return j == which ? tone(j, frame) : 0.0f; };
     };
+    ActuatorLayout mirrored = panner("phone4").layout();
+    for (ActuatorPlace& place : mirrored.places) place.xMetres = mirrored.extentWidthMetres - place.xMetres;
+    const PhantomPanner changed{mirrored, PanningLaw::linear, 1.0, 1.0, 1.0};
     for (const std::size_t j : {0u, 1u, 2u, 3u}) { // A and C are on the left
         Fed fed{"phone4"};
-        const PadReport report = fed.run(200, 1.0f, only(j)).back();
-        EXPECT_NEAR(peak(report, j % 2), 127 * 0.8, 2);
-        EXPECT_EQ(peak(report, 1 - j % 2), 0);
+        for (const std::size_t side : {j % 2, 1 - j % 2}) {
+            const PadReport report = fed.run(200, 1.0f, only(j)).back();
+            EXPECT_NEAR(peak(report, side), 127 * 0.8, 2);
+            EXPECT_EQ(peak(report, 1 - side), 0);
+            fed.feed->onControl({.kind = RenderControl::Kind::panner, .panner = &changed});
+        }
     }
 }
 

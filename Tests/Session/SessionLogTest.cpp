@@ -242,6 +242,35 @@ TEST(SessionLog, InputsAndStallsInAJournalCountForTheirTakeAlone) {
     EXPECT_EQ(lines.limitError(), std::to_string(sceneLimits::maxLiveInputs) + " inputs");
 }
 
+// Whoever reads the log meanwhile gets the pause again, as long as it has become.
+TEST(SessionLog, APauseThatGrowsWhileItIsReadIsOnePause) {
+    const auto setup = emptyBoxSetup(0.02);
+    for (const bool isJournal : {false, true}) {
+        Session session{setup};
+        session.prepare(rate, 480);
+        session.advance();
+        Block block;
+        JournalLines lines{saved(setup, {}, 0), {}};
+        std::string text = lines.head();
+        SessionLog log;
+        std::vector<WorldStall> pauses;
+        for (const int blocks : {7, 1, 30}) // of 10 ms, as a step
+            for (const int slowness : {1, 0}) {
+                session.world().setSlowness(slowness);
+                if (slowness == 0) pauses.push_back({session.world().sceneNs(), blocks * 10'000'000});
+                for (int i = 0; i < blocks; ++i) {
+                    session.render(block.at.data(), 480, RenderMode::realtime);
+                    session.advance();
+                    const std::int64_t endNs = session.readLog(log);
+                    if (isJournal) text += lines.nextLines(log, endNs);
+                }
+            }
+        if (isJournal) log = readSession(text, "monday.json").value.log;
+        ASSERT_EQ(log.runs.size(), 1u);
+        EXPECT_EQ(log.runs[0].stalls, pauses) << isJournal;
+    }
+}
+
 TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
     const auto setup = shakeTheBoxSetup(0.05);
     JournalLines lines{saved(setup, {}, 0), {}};

@@ -78,6 +78,33 @@ TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
     EXPECT_TRUE(list.value.events == made);
 }
 
+TEST(Session, HitsThatAreLostAreCountedOverAllRunsOfItsScene) {
+    auto s = setupOfSlides();
+    BodyDescription ball = s.scene.bodies[1];
+    s.scene.bodies.resize(1);
+    s.scene.bodies[0].fixtures[0].shape = BoxShape{95.0, 1.0};
+    ball.fixtures[0].shape = CircleShape{0.03};
+    ball.velocityMetresPerSecond = {0.0, -1.0};
+    for (int i = 0; i < 1100; ++i) { // more than a step has room for
+        ball.name = "ball " + std::to_string(i);
+        ball.positionMetres = {-35.0 + 0.08 * i, 1.05};
+        s.scene.bodies.push_back(ball);
+    }
+    Session session{s};
+    session.prepare(rate, 4800);
+    Block block;
+    std::uint64_t once = 0;
+    for (std::uint64_t run = 1; run <= 3; ++run) {
+        session.render(block.at.data(), 4800, RenderMode::offline);
+        if (run == 1) once = session.world().drops();
+        EXPECT_EQ(session.world().drops(), run * once);
+        session.world().restart();
+    }
+    EXPECT_GT(once, 0U);
+    session.prepare(rate, 4800);
+    EXPECT_EQ(session.world().drops(), 0U) << "a session that begins anew";
+}
+
 TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
     const auto s = shakeTheBoxSetup(0.5);
     Session session{s};
