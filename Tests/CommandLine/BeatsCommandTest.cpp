@@ -80,6 +80,22 @@ TEST_F(BeatsCommand, GivesTheMusicItselfToThoseWhoAreChosen) {
     EXPECT_EQ(peaks[1] + peaks[3], 0.0f);
 }
 
+// A square wave of full scale: without its overtones it is 4/pi of that.
+TEST_F(BeatsCommand, TheMusicItselfIsAsLoudAsAskedAndNeverAboveFullScale) {
+    BeatSong loud{0.5, 48000, 7};
+    for (std::size_t i = 0; i < loud.samples.size(); ++i) loud.samples[i] = i / 120 % 2 == 0 ? 1.5f : -1.5f;
+    writeSong(loud, 1, 48000);
+    const auto ends = [&](const std::string& level) {
+        runs("beats song.wav --through --layout phone1 --render felt.wav --strike-level " + level);
+        const auto felt = channelsOf("felt.wav").at(0);
+        return std::pair{*std::ranges::min_element(felt), *std::ranges::max_element(felt)};
+    };
+    const auto half = ends("0.5"), whole = ends("1");
+    EXPECT_NEAR(half.first, -0.64f, 0.1f);
+    EXPECT_NEAR(half.second, 0.64f, 0.1f);
+    EXPECT_EQ(whole, (std::pair{-1.0f, 1.0f}));
+}
+
 TEST_F(BeatsCommand, TakesMoreThanARecordingMayHave) {
     const BeatSong song{2.0, 8000, 7};
     std::string part, whole;

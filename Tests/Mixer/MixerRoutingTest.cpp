@@ -5,6 +5,7 @@
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Output/OutputTab.h"
+#include "Mixer/Studies/StudyScreen.h"
 #include "MixerTesting.h"
 #include "Stimuli/SeededRandom.h"
 
@@ -143,6 +144,27 @@ TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     routed.model.dispatchPendingMessages();
     EXPECT_EQ(routed.model.messageText(), "");
     EXPECT_FALSE(button.isVisible());
+}
+
+TEST(MixerRouting, AfterAStudyMutesSolosAndGainsOfTheMixerAreBack) {
+    for (const bool isSolo : {false, true}) {
+        RoutedModel mixer;
+        mixer.model.change("Strips", [&](Mix& mix) {
+            if (isSolo) mix.strips[2].isSolo = true;
+            if (!isSolo) mix.strips[1].isMuted = true;
+        });
+        {
+            StimulusPlayer study{mixer.model};
+            EXPECT_EQ(mixer.heardOf(1), 1) << "a study has every strip";
+            (void)mixer.model.session().submit(
+                {RenderControl{.kind = RenderControl::Kind::gain, .channel = 2, .value = 0.0f}});
+            study.stop();
+            for (int k = 0; k < 50; ++k) mixer.hands.play(64); // the ramp of its mutes
+            EXPECT_EQ(mixer.heardOf(0), -1) << "stopped";
+        }
+        for (int j = 0; j < 4; ++j)
+            EXPECT_EQ(mixer.heardOf(j), mixer.model.mix().isSilent(j) ? -1 : j) << isSolo << j;
+    }
 }
 
 TEST(MixerRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
