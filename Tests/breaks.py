@@ -130,7 +130,8 @@ class Overlay:
             read = self.folder / "Unity" / pathlib.Path(source).relative_to(self.build)
             self.write(read, self.moved(pathlib.Path(source).read_text()).encode())
         flags = [self.moved(word) for word in words[:at] if word != "-Werror" and not word.startswith("-W")]
-        if not new.exists() or any(self.changed[name].stat().st_mtime > new.stat().st_mtime for name in needs & self.changed.keys()):
+        copies = [self.changed.get(name) or self.tree / pathlib.Path(name).relative_to(self.source) for name in needs if name in self.changed or name.startswith(f"{self.source}/")]
+        if not new.exists() or any(copy.exists() and copy.stat().st_mtime > new.stat().st_mtime for copy in copies):
             self.calls.append(([*flags, "-O1", "-w", "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(read)], output))
 
     def link(self, words: list[str]) -> None:
@@ -204,7 +205,7 @@ def main() -> None:
     build, folder = (pathlib.Path(name).resolve() for name in sys.argv[2 - 1 : 3])
     chosen = [row for row in rows if not sys.argv[3:] or any(word in f"{row.number}|{row.file}|{row.test}|{row.what}" for word in sys.argv[3:])]
     programs = sorted({row.test.split(":")[0] for row in chosen})
-    called = ["physvib", "physvib-render"] if "physvib-commandline-tests" in programs else []
+    called = ["physvib", "physvib-render"] if {"physvib-commandline-tests", "physvib-board-tests"} & set(programs) else []
     Overlay(build, folder, rows).make([f"bin/{name}" for name in programs + called])
     caught = 0
     passes: dict[str, str] = {}
