@@ -157,4 +157,18 @@ TEST(StopsOfSound, OfCollisionsSilenceEveryFixtureAndNoStrike) {
     }
 }
 
+TEST(LastChanges, OnlyMutesAndGainsOfZeroMuteAChannel) {
+    using Kind = RenderControl::Kind;
+    LastChanges changes;
+    const auto mutedAfter = [&](Kind kind, float value) {
+        changes.apply({0, kind, 3, value, {}});
+        return changes.mutedChannels();
+    };
+    EXPECT_EQ(mutedAfter(Kind::gain, -1.0f), 0U) << "inverted";
+    EXPECT_EQ(mutedAfter(Kind::gain, 0.0f), 8U);
+    EXPECT_EQ(mutedAfter(Kind::mute, 1.0f), 8U);
+    EXPECT_EQ(mutedAfter(Kind::gain, 0.5f), 8U) << "muted still";
+    EXPECT_EQ(mutedAfter(Kind::mute, 0.0f), 0U);
+}
+
 } // namespace physvib::stops_and_steals_test
