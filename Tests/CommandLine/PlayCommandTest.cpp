@@ -80,6 +80,17 @@ class SoundPlay : public test::CommandLine {
 protected:
     static constexpr const char* nobody = " --device 'None:no device' --level 0";
 
+    /// A tenth of a second, of which the last 5 ms have a peak of their own.
+    static std::string tone(float peak, float lastPeak) {
+        std::string samples;
+        for (int n = 0; n < 4800; ++n)
+            samples +=
+                test::numberBytes(std::bit_cast<std::uint32_t>((n < 4560 ? peak : lastPeak) *
+                                                               static_cast<float>(std::sin(0.026 * n))),
+                                  4);
+        return test::wavBytes({.format = 3, .bits = 32}, samples);
+    }
+
     /// Of a WAV of floats that render or play wrote, from the first frame that is not silent to the last.
     std::vector<float> felt(const std::string& name, std::size_t channels) const {
         const std::string bytes = read(name);
@@ -115,6 +126,13 @@ TEST_F(SoundPlay, WhatLeavesIsTheFileToTheBit) {
     EXPECT_TRUE(felt("again.wav", 4) == file) << "saved, it is rendered again";
 }
 
+// A recording is taken before the fade at the end; the peaks are of what left after it.
+TEST_F(SoundPlay, AFileIsFeltToItsEnd) {
+    write("end.wav", tone(0.1f, 0.5f));
+    const auto told = runs("play end.wav --layout phone1" + std::string{nobody}).out;
+    EXPECT_TRUE(has(told, "peaks 0.500")) << told;
+}
+
 TEST_F(SoundPlay, TwoChannelsAreTwoActuatorsAndTheLevelIsLowUnlessAskedFor) {
     runs("render drop --seconds 1.2 --layout phone2 --out two.wav");
     runs("play two.wav --device 'None:no device' --record own.wav");
@@ -141,19 +159,12 @@ TEST_F(SoundPlay, WhatFitsNothingIsOneLine) {
 }
 
 TEST_F(SoundPlay, WhatExceedsFullScaleOrIsNoNumberIsTold) {
-    const auto sound = [](float peak) {
-        std::string samples;
-        for (int n = 0; n < 4800; ++n)
-            samples += test::numberBytes(
-                std::bit_cast<std::uint32_t>(peak * static_cast<float>(std::sin(0.026 * n))), 4);
-        return test::wavBytes({.format = 3, .bits = 32}, samples);
-    };
-    write("loud.wav", sound(327.0f));
+    write("loud.wav", tone(327.0f, 327.0f));
     const auto loud = runs("play loud.wav" + std::string{nobody});
     EXPECT_TRUE(has(loud.err, "loud.wav: exceeds full scale by 50.3 dB"));
-    write("full.wav", sound(1.0f));
+    write("full.wav", tone(1.0f, 1.0f));
     EXPECT_FALSE(has(call("play full.wav" + std::string{nobody}).err, "exceeds"));
-    write("nan.wav", sound(std::numeric_limits<float>::quiet_NaN()));
+    write("nan.wav", tone(std::numeric_limits<float>::quiet_NaN(), 1.0f));
     for (const std::string& words :
          {"play nan.wav" + std::string{nobody}, std::string{"beats nan.wav --out b.csv"},
           std::string{"material nan.wav"}, std::string{"stimulus wav nan.wav --at 0.3,0.4 --out o.wav"}})

@@ -238,15 +238,19 @@ TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     hit.frequencyHz = 250.0;
     hit.amplitude = 0.5;
     hit.x = 1.5;
-    port->onPlayed({hit, 0, false}, hostRate);
-    const OscMessage told = nextOf(in);
-    EXPECT_EQ(told.address, oscHitAddress);
-    EXPECT_LT(std::abs(unixNsFromTag(told.tag) - unixMinusSteadyNs() - 2'500'000'000), 1'000'000)
-        << "session time is the steady clock's there";
-    const auto plain = parseOscValues("hit", told.values);
-    EXPECT_EQ(plain.value.values.at(0), (NamedValue{"session_s", 2.5}));
-    EXPECT_EQ(plain.value.values.at(1), (NamedValue{"frequency_hz", 250.0}));
-    EXPECT_EQ(plain.value.values.at(4), (NamedValue{"x_m", 1.5}));
+    // a late one is felt at the frame at which it began, also after three days
+    for (const auto& [isLate, seconds] : {std::pair{false, 3}, {true, 3}, {true, 259'200}}) {
+        port->onPlayed({hit, std::int64_t{seconds} * hostRate, isLate}, hostRate);
+        const OscMessage told = nextOf(in);
+        EXPECT_EQ(told.address, oscHitAddress);
+        const std::int64_t feltNs = isLate ? 1'000'000'000 * std::int64_t{seconds} : hit.timeNs;
+        EXPECT_LT(std::abs(unixNsFromTag(told.tag) - unixMinusSteadyNs() - feltNs), 1'000'000)
+            << "session time is the steady clock's there";
+        const auto plain = parseOscValues("hit", told.values);
+        EXPECT_EQ(plain.value.values.at(0), (NamedValue{"session_s", isLate ? double(seconds) : 2.5}));
+        EXPECT_EQ(plain.value.values.at(1), (NamedValue{"frequency_hz", 250.0}));
+        EXPECT_EQ(plain.value.values.at(4), (NamedValue{"x_m", 1.5}));
+    }
 }
 
 // What is sent back to a sender, by a clock of the test's own.

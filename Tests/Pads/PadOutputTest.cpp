@@ -182,6 +182,18 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
               0u);
 }
 
+TEST_F(Pads, AControllerHasTheProfileThatIsNamedWithIt) {
+    VirtualPad pad{"one"};
+    const auto labelOf = [](const std::string& name) {
+        PadOutput output{name, phone()};
+        EXPECT_EQ(output.awaitReady(always), "");
+        return output.state().label;
+    };
+    EXPECT_NE(labelOf("one").find("): pad-generic, "), std::string::npos) << "its own";
+    for (const PadProfile& profile : builtInPads())
+        EXPECT_NE(labelOf("one@" + profile.name).find("): " + profile.name + ", "), std::string::npos);
+}
+
 TEST_F(OnePadInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms are the longest command
     CollisionEvent tone = hit(50 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
