@@ -75,10 +75,11 @@ struct RenderMovie::Parts {
         return std::min(1.0f, peak / input.waveform->peak());
     }
 
-    void drawHalos(const Canvas& canvas, const FieldMap& map, double seconds) const {
+    void drawHalos(const Canvas& canvas, const PictureInput& moving, const FieldMap& map,
+                   double seconds) const {
         for (int c = 0; c < input.layout.count; ++c) {
             const float level = std::sqrt(levelAt(c, seconds)), radius = 18.0f + 60.0f * level;
-            const Point centre = channelPoint(input, map, c);
+            const Point centre = channelPoint(moving, map, c);
             const Colour colour = palette::actuator(c);
             canvas.graphics.setGradient(
                 {centre, radius, colour.withAlpha(0.7f * level), colour.withAlpha(0.0f)});
@@ -108,7 +109,7 @@ struct RenderMovie::Parts {
             const Painter::ClipScope clipScope(canvas.graphics);
             canvas.graphics.reduceClip(world);
             canvas.well(map.field.rounded());
-            drawHalos(canvas, map, seconds);
+            drawHalos(canvas, moving, map, seconds);
             drawBodies(canvas, moving, map);
             drawImpacts(canvas, map, momentNs);
             drawActuators(canvas, moving, map, world);
