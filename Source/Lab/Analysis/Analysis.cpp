@@ -42,7 +42,8 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                     std::string{file.name} + ": of no built-in protocol: unfinished staircases are not known "
                                              "(physvib report --protocol)");
             const auto isOfSession = [](const LevelTrial& trial, const std::string& session) {
-                return trial.session.substr(0, trial.session.find('/')) == session;
+                return trial.session == session ||
+                       trial.session.substr(0, trial.session.rfind('/')) == session;
             };
             auto& levels = data.value.groups.front().trials;
             for (const SessionPlan& plan : trials.value.sessions())
