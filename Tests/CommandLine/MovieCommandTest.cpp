@@ -74,6 +74,35 @@ TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
     EXPECT_LT(centre[1] + 100.0, centre[2]);
 }
 
+TEST(RenderMovie, AnotherSceneIsDrawnAsInAMovieOfItsOwn) {
+    const auto box = [](double widthMetres, double heightMetres) {
+        Scene scene;
+        scene.fieldWidthMetres = widthMetres, scene.fieldHeightMetres = heightMetres;
+        BodyDescription& ball = scene.bodies.emplace_back();
+        ball.positionMetres = {0.7 * widthMetres, 0.7 * heightMetres};
+        ball.fixtures = {{.shape = CircleShape{0.1 * heightMetres}}};
+        return scene;
+    };
+    const std::vector<float> loud(8000, 0.5f);
+    const float* const channel = loud.data();
+    WaveformEnvelope waveform(1, 0, 8000);
+    waveform.add(&channel, 8000);
+    const Scene first = box(0.14, 0.07);
+    for (const Scene& second : {box(0.2, 0.07), box(0.14, 0.1), box(0.14, 0.07)}) {
+        PictureInput input;
+        input.layout.count = 1, input.layout.places[0] = {0.05, 0.05};
+        input.layout.extentWidthMetres = input.layout.extentHeightMetres = 0.07;
+        input.waveform = &waveform, input.durationSeconds = 1.0;
+        const auto drawn = [&](const Scene& own, const Scene& shown) {
+            input.scene = &own;
+            input.fieldWidthMetres = own.fieldWidthMetres, input.fieldHeightMetres = own.fieldHeightMetres;
+            return RenderMovie{input}.draw(500'000'000, {}, &shown).png();
+        };
+        EXPECT_TRUE(drawn(first, second) == drawn(second, second))
+            << second.fieldWidthMetres << " x " << second.fieldHeightMetres;
+    }
+}
+
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     const auto made = runs("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
     EXPECT_TRUE(

@@ -296,6 +296,29 @@ TEST(ReportSentences, UnfinishedStaircasesAreDrawn) {
     EXPECT_FALSE(has(pageOf(of(steps, 3)), ">70</text>"));
 }
 
+TEST(ReportSentences, WhoDidNotFinishOneOfTwoSessionsHasNoThresholdInThatOne) {
+    for (const char* method : {"level-steps", "level-quest"}) {
+        Protocol twice = findProtocol(method).value;
+        twice.name = "twice", twice.sessions.push_back(twice.sessions.back());
+        twice.sessions.back().name = "once/more";
+        for (const std::string cut : {"", "main", "once/more"}) {
+            Files files;
+            for (int number : {1, 2})
+                files.emplace_back("rows.csv", fileOf(twice, number, [&](Row& row) {
+                                       if (number == 2 && row["session"] == cut &&
+                                           std::stoi(row["trial"]) > 25)
+                                           row["participant"].clear();
+                                   }));
+            const StudyReport report = studyReport(readReportTrials(files, {}, twice).value);
+            const std::string& thresholds = report.files.at("thresholds.csv");
+            for (const std::string session : {"main", "once/more"}) {
+                EXPECT_TRUE(has(thresholds, ",PHONE in " + session + ",P1,")) << thresholds;
+                EXPECT_EQ(has(thresholds, ",PHONE in " + session + ",P2,"), session != cut) << thresholds;
+            }
+        }
+    }
+}
+
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
     Protocol timed = findProtocol("level-steps").value;
     timed.name = "timed-steps", timed.sessions.back().answerSeconds = 1.5;

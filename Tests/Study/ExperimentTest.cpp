@@ -238,6 +238,23 @@ TEST(Experiment, AdjustedLevelsAreThoseOfTheSameConditionAndOfTheSessionThatIsNa
     }
 }
 
+TEST(Experiment, LevelsThatWereSetByWhatDidNotLeaveDoNotCount) {
+    const SessionPlan set{.name = "set",
+                          .task = StudyTask::adjust,
+                          .repetitions = 3,
+                          .alternatives = {{"RM"}, {"SV"}},
+                          .adjustment = Adjustment{"RM"}};
+    SessionPlan main = set;
+    main.name = "main", main.task = StudyTask::choose, main.adjustment.reset(), main.levelsFrom = "set";
+    const auto p =
+        protocolOf(CallSet{{{"pair", {"a"}}}, "render {pair} {alternative} {level_db}"}, {set, main});
+    Experiment experiment{p, {}};
+    experiment.acceptAnswer({.value = 1.0});
+    experiment.acceptAnswer({.value = 8.0, .wasDelivered = false});
+    experiment.acceptAnswer({.value = 2.0, .wasDelivered = true});
+    EXPECT_EQ(experiment.trial().levelDb, 1.5);
+}
+
 TEST(Experiment, AnAnswerToWhatDidNotLeaveIsNeitherRightNorWrongInARow) {
     const auto p = protocolOf(GridSet{2, 1}, {{.name = "main", .repetitions = 5, .untilCorrect = 3}});
     for (const bool isRight : {false, true}) {
