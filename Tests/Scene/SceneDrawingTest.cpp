@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -274,34 +275,96 @@ TEST(SceneDrawing, AHingeKeepsItsLimitsWhileABodyIsChanged) {
     EXPECT_NEAR(turn(), -0.1, 0.02);
 }
 
+TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
+    const Vector left{1.2, 1.95}, middle{1.6, 1.95}, right{2.0, 1.95}, above{1.6, 2.2}, below{1.65, 1.5};
+    const std::vector<Joint> joints{RevoluteJoint{left, Interval{-0.1, 0.3}},
+                                    RevoluteJoint{right, Interval{-0.3, 0.1}},
+                                    RevoluteJoint{middle, {}, 3.0, 1000.0},
+                                    WheelJoint{left, {0.3, 1.0}, 1.5, 0.1, Interval{-0.1, 0.2}, 3.0, 1000.0},
+                                    WheelJoint{middle, {0.3, 1.0}, 0.0, 0.0, Interval{-0.1, 0.2}},
+                                    DistanceJoint{above, middle, 2.0, 0.1},
+                                    DistanceJoint{above, left, 0.0, 0.0, true},
+                                    DistanceJoint{below, middle},
+                                    WeldJoint{left, 2.0, 0.1},
+                                    SliderJoint{middle, {0.3, 1.0}, Interval{-0.1, 0.1}, 0.4, 5000.0},
+                                    SliderJoint{middle, {0.0, 1.0}}}; // falls on the floor
+    const auto arm = [](const Drawn& drawn) {
+        const auto cast = allBodies(drawn.world.scene());
+        std::size_t last = 0; // of that name: it was changed to it
+        for (std::size_t i = 0; i < cast.size(); ++i)
+            if (cast[i].name == "arm") last = i;
+        return drawn.world.pose(last);
+    };
+    for (std::size_t k = 0; k < joints.size(); ++k)
+        for (const char* changed : {"arm", "floor"}) {
+            SCOPED_TRACE("joint " + std::to_string(k) + ", changed: " + changed);
+            Drawn drawn{blank()}, unchanged{blank()};
+            auto box = makeBox({1.2, 1.9}, {2.0, 2.0}).value;
+            box.angleRadians = 0.3;
+            for (Drawn* each : {&drawn, &unchanged}) {
+                ASSERT_EQ(each->add(box, "arm"), "");
+                ASSERT_EQ(each->edit({JoinAction{{"joint", "floor", "arm", joints[k], true}}}), "");
+                each->steps(20);
+            }
+            ASSERT_EQ(drawn.edit({changeAction(*drawn.drawing.find(changed))}), "");
+            for (int i = 0; i < 8; ++i) {
+                drawn.steps(10), unchanged.steps(10);
+                const BodyPose now = arm(drawn), expected = arm(unchanged);
+                ASSERT_NEAR(now.xMetres, expected.xMetres, 1e-3);
+                ASSERT_NEAR(now.yMetres, expected.yMetres, 1e-3);
+                ASSERT_NEAR(now.angleRadians, expected.angleRadians, 1e-3);
+            }
+        }
+}
+
 TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {
     Drawn drawn{blank()};
     ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
     ASSERT_EQ(drawn.add(makeBall({1.2, 1.7}, {1.3, 1.7}).value, "wheel"), "");
-    const std::array<Joint, 3> joints{WheelJoint{{1.2, 1.7}, {0.0, 1.0}}, SliderJoint{{1.2, 1.7}, {1.0, 0.0}},
-                                      RevoluteJoint{{1.2, 1.7}}};
-    for (const Joint& joint : joints) {
-        ASSERT_EQ(drawn.edit({JoinAction{{"joint", "car", "wheel", joint}}}), "");
-        const auto [name, from] = drawn.where("car");
-        const BodyPlace to{{2.0, 1.5}, from.angleRadians + 0.5 * std::numbers::pi};
-        const auto actions = moveActions(drawn.drawing, {{name, to}});
-        const auto joined = std::ranges::find_if(actions, isAnyOf<JoinAction>);
-        ASSERT_NE(joined, actions.end());
-        std::visit(
-            [&](const auto& kind) {
-                if constexpr (requires { kind.anchorMetres; }) {
-                    EXPECT_NEAR(kind.anchorMetres.x, to.metres.x - (1.7 - from.metres.y), 1e-9);
-                    EXPECT_NEAR(kind.anchorMetres.y, to.metres.y + (1.2 - from.metres.x), 1e-9);
-                }
-                if constexpr (requires { kind.axis; }) {
-                    const bool isSlider = std::is_same_v<decltype(kind), const SliderJoint&>;
-                    EXPECT_NEAR(kind.axis.x, isSlider ? 0.0 : -1.0, 1e-9);
-                    EXPECT_NEAR(kind.axis.y, isSlider ? 1.0 : 0.0, 1e-9);
-                }
-            },
-            std::get<JoinAction>(*joined).joint.joint);
-        ASSERT_EQ(drawn.edit({UnjoinAction{"joint"}}), "");
-    }
+    const Vector pin{1.2, 1.7}, top{1.5, 1.95};
+    const std::array<Joint, 4> joints{WheelJoint{pin, {0.0, 1.0}}, SliderJoint{pin, {1.0, 0.0}},
+                                      RevoluteJoint{pin}, DistanceJoint{top, pin}};
+    const auto expectNear = [](const Vector& found, const Vector& expected) {
+        EXPECT_NEAR(found.x, expected.x, 1e-9);
+        EXPECT_NEAR(found.y, expected.y, 1e-9);
+    };
+    for (const auto& [movesCar, movesWheel] : {std::pair{true, false}, {false, true}, {true, true}})
+        for (const Joint& joint : joints) {
+            ASSERT_EQ(drawn.edit({JoinAction{{"joint", "car", "wheel", joint}}}), "");
+            auto car = drawn.where("car"), wheel = drawn.where("wheel");
+            const Vector carFrom = car.second.metres, wheelFrom = wheel.second.metres, carTo{2.0, 1.5},
+                         wheelTo{0.4, 1.0};
+            car.second = {carTo, car.second.angleRadians + 0.5 * std::numbers::pi};
+            wheel.second = {wheelTo, wheel.second.angleRadians + std::numbers::pi};
+            std::map<std::string, BodyPlace> places;
+            if (movesCar) places.insert(car);
+            if (movesWheel) places.insert(wheel);
+            const auto withCar = [&](const Vector& p) {
+                return movesCar ? Vector{carTo.x - (p.y - carFrom.y), carTo.y + (p.x - carFrom.x)} : p;
+            };
+            const auto withWheel = [&](const Vector& p) {
+                return movesWheel ? Vector{wheelTo.x - (p.x - wheelFrom.x), wheelTo.y - (p.y - wheelFrom.y)}
+                                  : p;
+            };
+            const auto actions = moveActions(drawn.drawing, places);
+            const auto joined = std::ranges::find_if(actions, isAnyOf<JoinAction>);
+            ASSERT_NE(joined, actions.end());
+            std::visit(
+                [&](const auto& kind) {
+                    if constexpr (requires { kind.anchorMetres; })
+                        expectNear(kind.anchorMetres, movesCar ? withCar(pin) : withWheel(pin));
+                    else {
+                        expectNear(kind.anchorAMetres, withCar(top));
+                        expectNear(kind.anchorBMetres, withWheel(pin));
+                    }
+                    if constexpr (requires { kind.axis; }) {
+                        const Vector axis = std::get<std::decay_t<decltype(kind)>>(joint).axis;
+                        expectNear(kind.axis, movesCar ? Vector{-axis.y, axis.x} : axis);
+                    }
+                },
+                std::get<JoinAction>(*joined).joint.joint);
+            ASSERT_EQ(drawn.edit({UnjoinAction{"joint"}}), "");
+        }
 }
 
 TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
