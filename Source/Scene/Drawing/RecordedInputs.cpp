@@ -22,6 +22,14 @@ std::string lastingStateName(const Scene& scene, const Action& action) {
     return body != nullptr && body->type == BodyType::kinematicBody ? "velocity " + body->name : "";
 }
 
+void setState(Action& state, const Action& next) {
+    const auto* before = std::get_if<MotorAction>(&state);
+    const auto torque = before != nullptr ? before->maxTorqueNewtonMetres : std::nullopt;
+    state = next;
+    if (auto* motor = std::get_if<MotorAction>(&state); motor != nullptr && !motor->maxTorqueNewtonMetres)
+        motor->maxTorqueNewtonMetres = torque; // a motor's input without torque leaves it as it is
+}
+
 /// Bodies that are still gripped after those inputs.
 std::vector<std::string> bodiesGrippedAfter(const std::vector<LiveInput>& inputs) {
     std::map<std::string, bool> gripStates;
@@ -79,7 +87,7 @@ RecordedInputs trimmedInputs(const Scene& recordedScene, const RecordedInputs& r
         if (input.timeSeconds >= trim.fromSeconds)
             part.inputs.push_back({input.timeSeconds - trim.fromSeconds, input.action});
         else if (const std::string state = lastingStateName(recordedScene, input.action); !state.empty())
-            lastStates.insert_or_assign(state, input.action);
+            setState(lastStates[state], input.action);
     }
     std::vector<LiveInput> initialInputs;
     for (auto& [state, action] : lastStates) initialInputs.push_back({0.0, std::move(action)});
