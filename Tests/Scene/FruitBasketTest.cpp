@@ -165,6 +165,20 @@ TEST(FruitBasket, IsNotMovedOffItsField) {
     const auto stop = player.keepInside(6.8);
     ASSERT_EQ(stop.size(), 1U);
     EXPECT_EQ(std::get<VelocityAction>(stop.front()).velocityMetresPerSecond.x, 0.0);
+    ASSERT_EQ(player.steer(-1).size(), 1U);
+    EXPECT_TRUE(player.keepInside(6.8).empty()) << "it may leave an edge";
+    EXPECT_EQ(player.keepInside(0.2).size(), 1U);
+}
+
+TEST(FruitBasket, IsNoFasterThanItsTopSpeedAndStopsBeforeItTurns) {
+    ScenePlayer player{basket()};
+    const auto speedOf = [](const std::vector<Action>& actions) {
+        return std::get<VelocityAction>(actions.at(0)).velocityMetresPerSecond.x;
+    };
+    EXPECT_EQ(speedOf(player.moveTowards(6.0, 1.0)), ScenePlayer::maxMetresPerSecond);
+    EXPECT_EQ(speedOf(player.moveTowards(1.0, 6.0)), -ScenePlayer::maxMetresPerSecond);
+    EXPECT_EQ(speedOf(player.tilt(-9.0)), ScenePlayer::maxMetresPerSecond);
+    EXPECT_EQ(speedOf(player.steer(-1)), 0.0);
 }
 
 TEST(FruitBasket, StopsHoweverSlowlyItMoves) {

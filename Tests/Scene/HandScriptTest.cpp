@@ -158,6 +158,36 @@ TEST(HandScript, OfTiltAndGravityATrimStartsWithTheLater) {
     }
 }
 
+TEST(HandScript, ATrimStartsWithEveryStateThatLasts) {
+    Scene scene = sceneToRecord(*findBuiltInScene("shake-the-box"));
+    for (const auto& [name, type] : {std::pair{"lift", BodyType::kinematicBody},
+                                     {"belt", BodyType::kinematicBody},
+                                     {"ball", BodyType::dynamicBody}}) {
+        scene.bodies.push_back(scene.bodies.back());
+        scene.bodies.back().name = name, scene.bodies.back().type = type;
+    }
+    const auto states = [](double value) {
+        return std::vector<Action>{TiltAction{value},
+                                   HoldAction{1.0, value},
+                                   MotorAction{"arm", value, {}},
+                                   MotorAction{"wheel", value, 2.0 * value},
+                                   VelocityAction{"belt", {value, 0.0}},
+                                   VelocityAction{"lift", {0.0, value}}};
+    };
+    RecordedInputs hands{{{0.1, MotorAction{"arm", 0.0, 9.0}}}, 4.0};
+    for (const double value : {0.5, 1.0}) {
+        for (const Action& action : states(value)) hands.inputs.push_back({value, action});
+        hands.inputs.push_back({value, VelocityAction{"ball", {value, 0.0}}}); // until it hits something
+    }
+    std::vector<LiveInput> expected;
+    for (const Action& action : states(1.0)) expected.push_back({0.0, action});
+    std::get<MotorAction>(expected[2].action).maxTorqueNewtonMetres = 9.0; // as it was set before
+    EXPECT_EQ(trimmedInputs(scene, hands, {1.6, 2.5, false}).inputs, expected);
+    EXPECT_EQ(trimmedInputs(scene, hands, {1.0, 2.5, false}).inputs.size(), 2 * expected.size() + 1)
+        << "what comes when it starts is in it as well";
+    EXPECT_EQ(trimmedInputs(scene, hands, {3.0, 9.0, false}).lengthSeconds, 1.0) << "not beyond its end";
+}
+
 TEST(HandScript, AScriptIsFullBeforeASceneIs) {
     Take take{sceneToRecord(*findBuiltInScene("shake-the-box"))};
     take.steps(1);
