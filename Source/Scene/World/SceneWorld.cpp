@@ -351,10 +351,12 @@ struct SceneWorld::ActionExecutor {
         (*this)(UnjoinAction{action.joint.name});
         b2Body *const a = world.findInWorld(action.joint.bodyA), *const b =
                                                                      world.findInWorld(action.joint.bodyB);
-        if (a != nullptr && b != nullptr)
-            world.joints_.emplace(
-                action.joint.name,
-                WorldJoint{&createJoint(world.world_, action.joint, *a, *b), action.joint.joint});
+        if (a == nullptr || b == nullptr) return;
+        b2Joint& joined = createJoint(world.world_, action.joint, *a, *b);
+        withMotor(joined, [&](auto& joint) {
+            joint.SetMotorSpeed(joint.GetMotorSpeed() * static_cast<float>(world.pace_.rate));
+        });
+        world.joints_.emplace(action.joint.name, WorldJoint{&joined, action.joint.joint});
     }
     void operator()(const MotorAction& action) const {
         const auto entry = world.joints_.find(action.joint);
