@@ -317,6 +317,24 @@ TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
         }
 }
 
+TEST(SceneDrawing, AMotorThatIsDrawnInGoesAtTheScriptsPace) {
+    Drawn drawn{blank()};
+    ASSERT_EQ(drawn.add(makeBox({1.2, 1.9}, {2.0, 2.0}).value, "arm"), "");
+    drawn.world.addPace({0.0, 0.0, 0.5});
+    drawn.steps(1);
+    const RevoluteJoint hinge{{1.6, 1.95}, {}, 2.0, 1000.0};
+    ASSERT_EQ(drawn.edit({JoinAction{{"hinge", "floor", "arm", hinge}}}), "");
+    const auto radiansIn = [&](int steps) {
+        const double before = drawn.world.pose(1).angleRadians;
+        drawn.steps(steps);
+        return drawn.world.pose(1).angleRadians - before;
+    };
+    EXPECT_NEAR(radiansIn(100), 1.0, 0.02);
+    drawn.world.addPace({1.0, 0.5, 1.0});
+    drawn.steps(1);
+    EXPECT_NEAR(radiansIn(100), 2.0, 0.02);
+}
+
 TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {
     Drawn drawn{blank()};
     ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
