@@ -196,6 +196,15 @@ def fails(folder: pathlib.Path, build: pathlib.Path, test: str, number: int) -> 
     return (re.findall(r"\[  FAILED  \] ([\w./]+)", done.stdout) or ["ended"])[0] if done.returncode else ""
 
 
+def print_end(row: Break, by: str, why: str) -> None:
+    print(f"{row.number:3} {'caught' if by else 'NOT CAUGHT':10} {row.file}: {row.what} ({why})", flush=True)
+
+
+def exit_with(caught: int, count: int) -> None:
+    print(f"{caught} of {count} caught")
+    sys.exit(caught * 10 < count * 9)
+
+
 def main() -> None:
     rows = breaks()
     if missing := without_a_place(rows):
@@ -217,9 +226,8 @@ def main() -> None:
             continue
         by = fails(folder, build, row.test, row.number)
         caught += by != ""
-        print(f"{row.number:3} {'caught' if by else 'NOT CAUGHT':10} {row.file}: {row.what} ({by})", flush=True)
-    print(f"{caught} of {len(chosen)} caught")
-    sys.exit(caught * 10 < len(chosen) * 9)
+        print_end(row, by, by)
+    exit_with(caught, len(chosen))
 
 
 if __name__ == "__main__":

@@ -107,9 +107,8 @@ def main() -> None:
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for row, by, count, spent in pool.map(attempt, chosen):
             caught += by != ""
-            print(f"{row.number:3} {'caught' if by else 'NOT CAUGHT':10} {row.file}: {row.what} ({by or f'{count} tests reach it, {spent:.0f} s'})", flush=True)
-    print(f"{caught} of {len(chosen)} caught")
-    sys.exit(caught * 10 < len(chosen) * 9)
+            breaks.print_end(row, by, by or f"{count} tests reach it, {spent:.0f} s")
+    breaks.exit_with(caught, len(chosen))
 
 
 if __name__ == "__main__":

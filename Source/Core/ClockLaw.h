@@ -30,6 +30,11 @@ public:
                 static_cast<double>(missing) * 1e-9};
     }
 
+    /// The time of a number of frames, towards 0; of centuries without overflow.
+    std::int64_t timeNs(std::int64_t frames) const noexcept {
+        return frames / rate_ * nanosecondsPerSecond + frames % rate_ * nanosecondsPerSecond / rate_;
+    }
+
     /// The constructor's argument.
     int sampleRateHz() const noexcept { return static_cast<int>(rate_); }
 

@@ -196,19 +196,33 @@ TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     }
 }
 
+/// A session and its journal.
+struct Journalled {
+    explicit Journalled(const SessionSetup& setup)
+        : session{setup}
+        , lines{saved(setup, {}, 0), {}}
+        , text{lines.head()} {
+        session.prepare(rate, 480);
+        session.advance();
+    }
+    void renderBlock() {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+    }
+    Session session;
+    JournalLines lines;
+    std::string text;
+    SessionLog log;
+    Block block;
+};
+
 TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
     auto setup = shakeTheBoxSetup(0.05);
     setup.log = LogUse::stream;
-    Session session{setup};
-    session.prepare(rate, 480);
-    session.advance();
-    Block block;
-    JournalLines lines{saved(setup, {}, 0), {}};
-    std::string text = lines.head();
-    SessionLog log;
+    Journalled run{setup};
+    auto& [session, lines, text, log, block] = run;
     for (int i = 0; i < 102; ++i) {
-        session.render(block.at.data(), 480, RenderMode::realtime);
-        session.advance();
+        run.renderBlock();
         for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.submit({TiltAction{0.0001 * k}}).error, "");
         text += lines.nextLines(log, session.readLog(log));
     }
@@ -246,21 +260,15 @@ TEST(SessionLog, InputsAndStallsInAJournalCountForTheirTakeAlone) {
 TEST(SessionLog, APauseThatGrowsWhileItIsReadIsOnePause) {
     const auto setup = emptyBoxSetup(0.02);
     for (const bool isJournal : {false, true}) {
-        Session session{setup};
-        session.prepare(rate, 480);
-        session.advance();
-        Block block;
-        JournalLines lines{saved(setup, {}, 0), {}};
-        std::string text = lines.head();
-        SessionLog log;
+        Journalled run{setup};
+        auto& [session, lines, text, log, block] = run;
         std::vector<WorldStall> pauses;
         for (const int blocks : {7, 1, 30}) // of 10 ms, as a step
             for (const int slowness : {1, 0}) {
                 session.world().setSlowness(slowness);
                 if (slowness == 0) pauses.push_back({session.world().sceneNs(), blocks * 10'000'000});
                 for (int i = 0; i < blocks; ++i) {
-                    session.render(block.at.data(), 480, RenderMode::realtime);
-                    session.advance();
+                    run.renderBlock();
                     const std::int64_t endNs = session.readLog(log);
                     if (isJournal) text += lines.nextLines(log, endNs);
                 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Receives packets, follows the device's clock, and sends the session's status once a second.
 #include "Host/Osc/OscPort.h"
+#include "Core/ClockLaw.h"
 #include <chrono>
 
 namespace physvib {
@@ -147,9 +148,7 @@ void OscPort::sendStatus() {
 void OscPort::onPlayed(const PlayedEvent& played, int sampleRateHz) {
     if (!outputSocket_.isOpen() || sampleRateHz == 0) return;
     const CollisionEvent& e = played.event;
-    const std::int64_t seconds = played.frame / sampleRateHz, rest = played.frame % sampleRateHz;
-    const std::int64_t timeNs =
-        played.isLate ? seconds * 1'000'000'000 + rest * 1'000'000'000 / sampleRateHz : e.timeNs;
+    const std::int64_t timeNs = played.isLate ? FrameClock{sampleRateHz}.timeNs(played.frame) : e.timeNs;
     OscTag tag = oscNow;
     if (const std::lock_guard lock{mutex_}; clock_.isReady())
         tag = tagFromUnixNs(clock_.outputUnixNs(timeNs));

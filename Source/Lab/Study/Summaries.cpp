@@ -358,7 +358,7 @@ std::string noThresholdReason(LevelTrial::Kind kind, const Run& trials, double t
         for (const auto& [key, run] : groupRuns(trials)) {
             const double runThreshold = runThresholds[at++];
             if (std::isfinite(runThreshold)) continue;
-            const std::size_t slash = key.first.find('/');
+            const std::size_t slash = key.first.rfind('/');
             words += (reasonCount++ > 0 ? "; " : "") +
                      (runThresholds.size() == 1    ? std::string{"a staircase"}
                       : slash == std::string::npos ? "the staircase of " + key.first

@@ -167,8 +167,7 @@ Receipt Receipts::receiptFor(std::int64_t fromNs, std::int64_t untilNs, int actu
                                   later.start == range.end());
         if (isNewest) {
             receipt.opening = range.opening;
-            receipt.endNs = range.end() / range.rateHz * 1'000'000'000 +
-                            range.end() % range.rateHz * 1'000'000'000 / range.rateHz;
+            receipt.endNs = FrameClock{range.rateHz}.timeNs(range.end());
         }
         if (sum.peak >= 0.0f) {
             receipt.frames += range.frames;

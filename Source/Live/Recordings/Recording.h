@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Records a live session as a WAV file and a CSV of its events in the WAV's time; renders saved sessions.
 #pragma once
+#include "Core/ClockLaw.h"
 #include "Core/RenderControl.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
@@ -160,9 +161,8 @@ public:
     std::string finish(std::int64_t outputLatencyFrames, FieldSize field, const Provenance& provenance,
                        const SoundNames& names) {
         if (auto error = recorder_.finish(); !error.empty()) return error;
-        const std::int64_t rate = recorder_.sampleRateHz(),
-                           shift = outputLatencyFrames - recorder_.firstFrame();
-        const std::int64_t shiftNs = shift / rate * 1'000'000'000 + shift % rate * 1'000'000'000 / rate;
+        const int rate = recorder_.sampleRateHz();
+        const std::int64_t shiftNs = FrameClock{rate}.timeNs(outputLatencyFrames - recorder_.firstFrame());
         const std::int64_t lengthNs = static_cast<std::int64_t>(
             1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));
         for (auto& event : played_) event.timeNs += shiftNs;

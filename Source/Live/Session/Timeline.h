@@ -147,8 +147,7 @@ private:
 
     /// Session time of a number of frames. R, or a thread that holds one of the mutexes.
     std::int64_t sessionNs(std::int64_t frames) const noexcept {
-        return frames / law_.sampleRateHz * 1'000'000'000 +
-               frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
+        return FrameClock{law_.sampleRateHz}.timeNs(frames);
     }
     /// Lead time, in ns, applied to external inputs in low-latency mode. With one of the mutexes.
     std::int64_t leadNs() const noexcept {

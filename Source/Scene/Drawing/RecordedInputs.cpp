@@ -22,12 +22,13 @@ std::string lastingStateName(const Scene& scene, const Action& action) {
     return body != nullptr && body->type == BodyType::kinematicBody ? "velocity " + body->name : "";
 }
 
+/// Makes `next` the state; of a motor whose torque it does not name, that stays.
 void setState(Action& state, const Action& next) {
     const auto* before = std::get_if<MotorAction>(&state);
     const auto torque = before != nullptr ? before->maxTorqueNewtonMetres : std::nullopt;
     state = next;
     if (auto* motor = std::get_if<MotorAction>(&state); motor != nullptr && !motor->maxTorqueNewtonMetres)
-        motor->maxTorqueNewtonMetres = torque; // a motor's input without torque leaves it as it is
+        motor->maxTorqueNewtonMetres = torque;
 }
 
 /// Bodies that are still gripped after those inputs.

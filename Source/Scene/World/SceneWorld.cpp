@@ -55,6 +55,12 @@ void withMotor(b2Joint& joint, Set set) {
     if (joint.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(joint));
 }
 
+void scaleMotorSpeed(b2Joint& joint, double factor) {
+    withMotor(joint, [factor](auto& motor) {
+        motor.SetMotorSpeed(motor.GetMotorSpeed() * static_cast<float>(factor));
+    });
+}
+
 } // namespace
 
 SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
@@ -217,9 +223,8 @@ bool SceneWorld::executeScript(std::int64_t step) {
 }
 
 void SceneWorld::applyPace(const ScriptPace& pace) {
-    const auto factor = static_cast<float>(pace.rate / std::exchange(pace_, pace).rate);
-    const auto drive = [factor](auto& joint) { joint.SetMotorSpeed(joint.GetMotorSpeed() * factor); };
-    for (auto& [name, joint] : joints_) withMotor(*joint.joint, drive);
+    const double factor = pace.rate / std::exchange(pace_, pace).rate;
+    for (auto& [name, joint] : joints_) scaleMotorSpeed(*joint.joint, factor);
 }
 
 void SceneWorld::restart(const SpawnAction& action, int repetition) {
@@ -353,9 +358,7 @@ struct SceneWorld::ActionExecutor {
                                                                      world.findInWorld(action.joint.bodyB);
         if (a == nullptr || b == nullptr) return;
         b2Joint& joined = createJoint(world.world_, action.joint, *a, *b);
-        withMotor(joined, [&](auto& joint) {
-            joint.SetMotorSpeed(joint.GetMotorSpeed() * static_cast<float>(world.pace_.rate));
-        });
+        scaleMotorSpeed(joined, world.pace_.rate);
         world.joints_.emplace(action.joint.name, WorldJoint{&joined, action.joint.joint});
     }
     void operator()(const MotorAction& action) const {

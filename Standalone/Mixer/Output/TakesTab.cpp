@@ -2,6 +2,7 @@
 // Lists, plays, trims, copies and removes recordings. LevelReader and PartWriter stream their files, so long
 // ones need no more memory; savePart() and loadPart() keep the selected part in a JSON file.
 #include "Mixer/Output/TakesTab.h"
+#include "Core/ClockLaw.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Wav/WavSink.h"
@@ -99,7 +100,7 @@ public:
         sink_->write(pointers.data(), static_cast<int>(block_[0].size()));
         return sink_->error();
     }
-    std::int64_t toNs(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
+    std::int64_t toNs(std::int64_t frames) const { return FrameClock{rateHz_}.timeNs(frames); }
     std::int64_t startNs() const { return toNs(startFrame_); }
     std::int64_t endNs() const { return toNs(endFrame_); }
 
