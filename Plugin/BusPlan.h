@@ -2,15 +2,15 @@
 // BusPlan: the buses of a build, and what a host may choose; BusMap: the host's channel of each actuator.
 #pragma once
 #include "Core/Limits.h"
+#include "ModuleIdentity.h"
 #include <array>
 #include <juce_audio_processors/juce_audio_processors.h>
 #include <vector>
 
 namespace physvib {
 
-/// One output bus of 1 to 16 channels, or many of one or two for hosts that support no wider ones.
 struct BusPlan {
-    enum class Kind { oneBus, manyBuses };
+    using Kind = ModuleIdentity::Buses;
     Kind kind = Kind::oneBus;
     int channels = 4;           ///< of the one bus, until the host asks for others; LV2 hosts cannot ask
     bool hasMusicPorts = false; ///< whether an LV2 build has two ports for music, which cannot be off

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creates a plug-in instance for a format's wrapper; each build defines its name and its buses.
+// Creates a plug-in instance for a format's wrapper.
 #include "PluginProcessor.h"
 
 namespace physvib {
@@ -15,8 +15,8 @@ juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter();
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter() {
     using namespace physvib;
     auto& creation = instanceCreation();
-    creation.instance = new PluginProcessor{
-        JucePlugin_Name, {BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS, PHYSVIB_MUSIC_PORTS > 0}};
+    const auto& ours = moduleIdentity;
+    creation.instance = new PluginProcessor{ours.name, {ours.buses, ours.channels, ours.musicPorts > 0}};
     creation.instance->setNominalBlockFrames(creation.nominalBlockFrames);
     return creation.instance;
 }

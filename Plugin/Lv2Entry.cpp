@@ -108,14 +108,13 @@ struct Lv2Uris {
 
 Lv2Uris mapUris(const LV2_URID_Map& map) {
     const auto idOf = [&map](const std::string& uri) { return map.map(map.handle, uri.c_str()); };
-    Lv2Uris uris{idOf(LV2_ATOM__Object),    idOf(LV2_PATCH__Set),
-                 idOf(LV2_PATCH__subject),  idOf(LV2_PATCH__property),
-                 idOf(LV2_PATCH__value),    idOf(LV2_ATOM__URID),
-                 idOf(LV2_ATOM__Float),     idOf(JucePlugin_LV2URI),
-                 idOf(LV2_ATOM__String),    idOf(JucePlugin_LV2URI ":Ports"),
-                 idOf(LV2_MIDI__MidiEvent), {}};
+    const std::string plugin = moduleIdentity.lv2Uri;
+    Lv2Uris uris{
+        idOf(LV2_ATOM__Object), idOf(LV2_PATCH__Set),    idOf(LV2_PATCH__subject),  idOf(LV2_PATCH__property),
+        idOf(LV2_PATCH__value), idOf(LV2_ATOM__URID),    idOf(LV2_ATOM__Float),     idOf(plugin),
+        idOf(LV2_ATOM__String), idOf(plugin + ":Ports"), idOf(LV2_MIDI__MidiEvent), {}};
     for (std::size_t p = 0; p < parameterCount; ++p)
-        uris.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
+        uris.parameters[p] = idOf(plugin + ":" + std::string{allParameters()[p].id});
     return uris;
 }
 
@@ -182,8 +181,8 @@ private:
 
 // Ports in order: music, channels; JUCE's for events in and out, latency, free-wheeling and enabled; then one
 // for each parameter (Lv2Ports.cpp).
-constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5,
-                        enabledPort = firstControl - 1;
+const auto eventPort = static_cast<std::uint32_t>(moduleIdentity.musicPorts + moduleIdentity.channels),
+           firstControl = eventPort + 5, enabledPort = firstControl - 1;
 
 /// Removes JUCE's notifications of properties, which hosts would warn of. R, wait-free.
 void dropProperties(LV2_Atom_Sequence& outputEvents, const Lv2Uris& uris) noexcept {

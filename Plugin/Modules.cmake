@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 get_target_property(juce_modules juce::juce_core INTERFACE_JUCE_MODULE_PATH)
-set_source_files_properties(Lv2Entry.cpp Lv2Window.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
+add_library(physvib-plugin-entry OBJECT Entry.cpp)
+add_library(physvib-lv2-entry OBJECT Lv2Entry.cpp Lv2Window.cpp)
+target_compile_definitions(physvib-lv2-entry PRIVATE PHYSVIB_LV2_ENTRY)
+foreach(entry physvib-plugin-entry physvib-lv2-entry)
+    target_link_libraries(${entry} PRIVATE physvib-plugin)
+    physvib_seldom(${entry})
+endforeach()
 set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
 include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
 
@@ -38,11 +44,16 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     get_target_property(linked ${target} LINK_LIBRARIES)
     list(REMOVE_ITEM linked juce::juce_audio_plugin_client) # from 8 on: all of JUCE, compiled once more for each
     set_target_properties(${target} PROPERTIES LINK_LIBRARIES "${linked}")
-    target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
+    target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Module.cpp $<TARGET_OBJECTS:physvib-plugin-entry>)
     target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
     target_link_libraries(${target} PUBLIC physvib-plugin)
     set(plugins ${CMAKE_BINARY_DIR}/plugins)
+    foreach(module ${target} ${target}_VST3 ${target}_LV2)
+        if(TARGET ${module})
+            physvib_seldom(${module}) # it hands blocks over
+        endif()
+    endforeach()
     foreach(module ${target}_VST3 ${target}_LV2)
         if(TARGET ${module} AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
             set_target_properties(${module} PROPERTIES LINK_DEPENDS ${physvib_entry_points})
@@ -57,8 +68,7 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     endif()
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
-        target_sources(${target}_LV2 PRIVATE ${physvib_lv2_wrapper} ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp
-            ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Window.cpp)
+        target_sources(${target}_LV2 PRIVATE ${physvib_lv2_wrapper} $<TARGET_OBJECTS:physvib-lv2-entry>)
         add_dependencies(${target}_LV2 physvib-lv2-ports)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
             COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -DPORTS=$<TARGET_FILE:physvib-lv2-ports>
