@@ -318,21 +318,24 @@ TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
 }
 
 TEST(SceneDrawing, AMotorThatIsDrawnInGoesAtTheScriptsPace) {
-    Drawn drawn{blank()};
-    ASSERT_EQ(drawn.add(makeBox({1.2, 1.9}, {2.0, 2.0}).value, "arm"), "");
-    drawn.world.addPace({0.0, 0.0, 0.5});
-    drawn.steps(1);
-    const RevoluteJoint hinge{{1.6, 1.95}, {}, 2.0, 1000.0};
-    ASSERT_EQ(drawn.edit({JoinAction{{"hinge", "floor", "arm", hinge}}}), "");
-    const auto radiansIn = [&](int steps) {
-        const double before = drawn.world.pose(1).angleRadians;
-        drawn.steps(steps);
-        return drawn.world.pose(1).angleRadians - before;
-    };
-    EXPECT_NEAR(radiansIn(100), 1.0, 0.02);
-    drawn.world.addPace({1.0, 0.5, 1.0});
-    drawn.steps(1);
-    EXPECT_NEAR(radiansIn(100), 2.0, 0.02);
+    for (const Joint& joint : {Joint{RevoluteJoint{{1.6, 1.95}, {}, 0.2, 1000.0}},
+                               Joint{SliderJoint{{1.6, 1.95}, {1.0, 0.0}, {}, 0.2, 1000.0}}}) {
+        Drawn drawn{blank()};
+        ASSERT_EQ(drawn.add(makeBox({1.2, 1.9}, {2.0, 2.0}).value, "arm"), "");
+        drawn.world.addPace({0.0, 0.0, 0.5});
+        drawn.steps(1);
+        ASSERT_EQ(drawn.edit({JoinAction{{"joint", "floor", "arm", joint}}}), "");
+        const auto movedIn = [&](int steps) { // radians or metres
+            const auto sum = [](const BodyPose& pose) { return pose.xMetres + pose.angleRadians; };
+            const double before = sum(drawn.world.pose(1));
+            drawn.steps(steps);
+            return sum(drawn.world.pose(1)) - before;
+        };
+        EXPECT_NEAR(movedIn(100), 0.1, 0.002);
+        drawn.world.addPace({1.0, 0.5, 1.0});
+        drawn.steps(1);
+        EXPECT_NEAR(movedIn(100), 0.2, 0.002);
+    }
 }
 
 TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {

@@ -56,9 +56,11 @@ void withMotor(b2Joint& joint, Set set) {
 }
 
 void scaleMotorSpeed(b2Joint& joint, double factor) {
-    withMotor(joint, [factor](auto& motor) {
+    const auto scale = [factor](auto& motor) {
         motor.SetMotorSpeed(motor.GetMotorSpeed() * static_cast<float>(factor));
-    });
+    };
+    withMotor(joint, scale);
+    if (joint.GetType() == e_prismaticJoint) scale(static_cast<b2PrismaticJoint&>(joint));
 }
 
 } // namespace
