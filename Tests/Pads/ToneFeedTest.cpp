@@ -82,6 +82,36 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     EXPECT_FALSE(last(100, 1.0f));
 }
 
+/// A device that was away (a pause, or another one) begins again, in the layout that the session has by then.
+TEST(ToneFeed, LayoutsAreFollowedAtTheirTimeAndKeptWhenTheDeviceComesBack) {
+    ActuatorLayout layout;
+    layoutPreset("phone2", layout);
+    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 1.0},
+        wide{layout, PanningLaw::linear, 1.0, 9.0, 1.0};
+    ToneFeed feed{kind, panner};
+    std::int64_t now = 0;
+    const auto sides = [&] { // of a hit at the right edge of the narrow field: the left of the wide one
+        feed.onCollision({now, 100.0, 0.1, 0.8, 1.0, 0.5});
+        std::optional<PadReport> report;
+        for (const std::int64_t end = now + 40 * ms; now < end; now += ms)
+            if (const auto next = feed.next(1000 * ms + now, now, 1.0f)) report = next;
+        feed.onControl({.timeNs = now}); // a stop
+        for (const std::int64_t end = now + 200 * ms; now < end; now += ms)
+            feed.next(1000 * ms + now, now, 1.0f);
+        return std::pair{sideOf(*report, 0) != neutral, sideOf(*report, 1) != neutral};
+    };
+    const std::pair right{false, true}, left{true, true};
+    EXPECT_EQ(sides(), right);
+    feed.onControl({.timeNs = now + 100 * ms, .kind = RenderControl::Kind::panner, .panner = &wide});
+    EXPECT_EQ(sides(), right) << "not before its time";
+    EXPECT_EQ(sides(), left);
+    feed.begin();
+    EXPECT_EQ(sides(), left);
+    feed.onControl({.timeNs = now, .kind = RenderControl::Kind::panner, .panner = &panner});
+    feed.begin();
+    EXPECT_EQ(sides(), right) << "changed meanwhile";
+}
+
 // The report that gives a DualSense's coils to sound, against what SDL, the Linux driver and public
 // descriptions say of its bytes.
 
