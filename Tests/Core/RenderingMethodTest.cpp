@@ -157,6 +157,15 @@ TEST(CoupledRenderer, OneModePerMaterialAndSilenceWhenTheDurationIsOver) {
         for (std::size_t n = 5280; n < channel.size(); ++n) ASSERT_EQ(channel[n], 0.0f) << n;
 }
 
+TEST(CoupledRenderer, AToneThatGoesNowhereIsTheStillStrike) {
+    CollisionEvent e{.frequencyHz = 200.0, .amplitude = 0.5, .x = 0.3, .durationNs = 400'000'000};
+    const auto still = expected({e}, mixing);
+    e.course = {.toX = e.x, .toY = e.y, .travelNs = e.durationNs};
+    EXPECT_LE(
+        test::relativeError(still, test::renderEvents({e}, settingsWith(mixing.view()), frames).channels),
+        1e-5);
+}
+
 TEST(CoupledRenderer, AnyBlockSizeGivesTheSameBits) {
     const auto events = test::randomEvents(100, 0.4, 2);
     const auto reference = test::renderEvents(events, settingsWith(mixing.view()), frames, {8192});
