@@ -38,7 +38,7 @@ struct Fed {
                     for (float& sample : samples[j]) sample = value(j, frame + (&sample - samples[j].data()));
                 const float* const at[] = {samples[0].data(), samples[1].data(), samples[2].data(),
                                            samples[3].data()};
-                feed->onBlock({at, 480, frame, 48000});
+                feed->onBlock({at, 480, frame, 48000, 4});
                 frame += 480;
             }
             if (const auto report = feed->next((1000 + now) * ms, 0, level)) reports.push_back(*report);
@@ -136,6 +136,9 @@ TEST(CoilFeed, ActuatorsArePannedByTheirPlaceFromLeftToRight) {
             fed.feed->onControl({.kind = RenderControl::Kind::panner, .panner = &changed});
         }
     }
+    Fed grown{"phone2"};
+    grown.feed->onControl({.kind = RenderControl::Kind::panner, .panner = &changed});
+    EXPECT_NEAR(peak(grown.run(200, 1.0f, only(3)).back(), 0), 127 * 0.8, 2) << "more actuators than before";
 }
 
 TEST(CoilFeed, WhatItsRateCannotCarryIsFilteredAtEveryRateOfADevice) {
@@ -191,7 +194,7 @@ protected:
         const float* const channels[] = {samples.data(), samples.data()};
         for (std::int64_t i = first; i < first + 10; ++i) {
             device.block(10 * ms * i);
-            output.onBlock({channels, 480, 480 * i, 48000});
+            output.onBlock({channels, 480, 480 * i, 48000, 2});
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
     }
