@@ -143,13 +143,7 @@ TEST(CoupledRenderer, EqualsTheClosedFormWithAPhasePerChannel) {
 }
 
 TEST(CoupledRenderer, OneModePerMaterialAndSilenceWhenTheDurationIsOver) {
-    const CollisionEvent e{.timeNs = 10'000'000,
-                           .frequencyHz = 200.0,
-                           .decayPerSecond = 0.0,
-                           .amplitude = 0.5,
-                           .x = 0.3,
-                           .y = 0.0,
-                           .durationNs = 100'000'000};
+    const CollisionEvent e{10'000'000, 200.0, 0.0, 0.5, 0.3, 0.0, 100'000'000};
     const auto rendered = test::renderEvents({e}, settingsWith(mixing.view()), 5000);
     EXPECT_EQ(rendered.status.liveModes, 1);
     const auto whole = test::renderEvents({e}, settingsWith(mixing.view()), frames);

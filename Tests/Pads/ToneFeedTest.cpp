@@ -54,12 +54,7 @@ TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
 
 TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     ToneFeed feed{kind, panner(1.0)};
-    feed.onCollision({.timeNs = 50 * ms,
-                      .frequencyHz = 100.0,
-                      .decayPerSecond = 0.1,
-                      .amplitude = 0.8,
-                      .x = 1.0,
-                      .y = 0.5});
+    feed.onCollision({50 * ms, 100.0, 0.1, 0.8, 1.0, 0.5});
     std::int64_t now = 0;
     int reports = 0;
     const auto last = [&](int milliseconds, float level) {
