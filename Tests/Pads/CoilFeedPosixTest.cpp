@@ -169,7 +169,7 @@ TEST(CoilFeed, AToneHasItsPitchAtEveryRateOfADevice) {
         fed.rateHz = rateHz;
         int turns = 0, last = 0;
         const auto tone = [=](std::size_t, std::int64_t n) {
-            return static_cast<float>(0.5 * std::sin(200.0 * 2.0 * M_PI * static_cast<double>(n) / rateHz));
+            return static_cast<float>(std::sin(400.0 * std::numbers::pi * static_cast<double>(n) / rateHz));
         };
         for (const PadReport& report : fed.run(1000, 1.0f, tone))
             for (std::size_t n = 0; n < 32; ++n)
