@@ -162,7 +162,7 @@ struct Fall {
         after{0.05, 0.5, 0.1}, spinAfter{0.2, 0.4, 1.0};
     std::array<double, 6> inverse{2.0, 3.0, 4.0, 0.1, 0.2, 0.3};
     bool isInSpace = false;
-    double seconds = 0.01, gravity = 9.81;
+    double seconds = 0.01, gravity = 9.81, massKg = 1.0;
     std::array<double, 3> pair{222.0, 22.0, 0.5};
     int surface = 3, other = 4;
     int atOnce = 1;
@@ -182,6 +182,7 @@ std::string heardOf(const Fall& fall) {
     }
     EXPECT_EQ(physvib_world_pair(world, fall.surface, fall.other, fall.pair[0], fall.pair[1], fall.pair[2]),
               PHYSVIB_OK);
+    EXPECT_EQ(physvib_world_set_mass(world, 1, fall.massKg), PHYSVIB_OK);
     std::vector<physvib_event> events(100, test::sized<physvib_event>());
     std::string words;
     const auto note = [&] {
@@ -240,6 +241,7 @@ TEST(Arguments, OfAWorldsCallsCountEachForItselfAlone) {
     }
     for (const bool isInSpace : {false, true}) {
         rows.push_back({"spin", isInSpace, [](Fall& f) { f.spin[2] *= 2.0; }});
+        rows.push_back({"mass", isInSpace, [](Fall& f) { f.massKg = 2.0; }});
         rows.push_back({"seconds", isInSpace, [](Fall& f) { f.seconds = 0.02; }});
         rows.push_back({"frequency of the pair", isInSpace, [](Fall& f) { f.pair[0] = 223.0; }});
         rows.push_back({"decay of the pair", isInSpace, [](Fall& f) { f.pair[1] = 23.0; }});

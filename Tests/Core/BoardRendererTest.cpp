@@ -70,6 +70,14 @@ TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
     EXPECT_EQ(renderer->status().modes, 0);
 }
 
+TEST(BoardRenderer, AStrikeThatCancelsOneLeavesSilence) {
+    const auto renderer = test::preparedBoard();
+    for (const std::int16_t amplitude : {3000, -3000})
+        renderer->schedule(hit(40, 205, 12, {amplitude, 0, 0, 0}));
+    for (const auto& frame : test::renderBoardEvents(*renderer, {}, 200))
+        ASSERT_EQ(frame, (std::decay_t<decltype(frame)>{128, 128, 128, 128}));
+}
+
 TEST(BoardRenderer, OneGainTakesWhatIsTooLoudFromAllChannels) {
     const auto renderer = test::preparedBoard();
     const auto played = test::renderBoardEvents(*renderer, {hit(0, 250, 2, {16384, 8192, 0, -16384})}, 2000);

@@ -193,11 +193,7 @@ TEST(HapticRenderer, NormalisesEachBlockOfEachChannelAndFeedsAConverter) {
 TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
-    test::Session none{}, late{{{.timeNs = 10'000'000,
-                                 .frequencyHz = 205,
-                                 .decayPerSecond = 0,
-                                 .amplitude = 1,
-                                 .durationNs = 50'000'000}}};
+    test::Session none{}, late{{{10'000'000, 205, 0, 1, 0, 0, 50'000'000}}};
     test::renderBlocks(*renderer, none, 1, 4800, {4800});
     const auto block = test::renderBlocks(*renderer, late, 1, 4800, {4800})[0];
     EXPECT_EQ(renderer->status().late, 1u);

@@ -255,14 +255,7 @@ TEST(OutputGuard, OpensAgainAndCountsHowOftenItActed) {
     }
 }
 
-CollisionEvent slowAt(double seconds) {
-    return {.timeNs = std::llround(seconds * 1e9),
-            .frequencyHz = 1.0,
-            .decayPerSecond = 1.0,
-            .amplitude = 1.0,
-            .x = 0.5,
-            .y = 0.5};
-}
+CollisionEvent slowAt(double seconds) { return {std::llround(seconds * 1e9), 1.0, 1.0, 1.0, 0.5, 0.5}; }
 
 RendererSettings settingsFor(int channels) {
     return {.channels = channels,

@@ -143,18 +143,21 @@ TEST(CoupledRenderer, EqualsTheClosedFormWithAPhasePerChannel) {
 }
 
 TEST(CoupledRenderer, OneModePerMaterialAndSilenceWhenTheDurationIsOver) {
-    const CollisionEvent e{.timeNs = 10'000'000,
-                           .frequencyHz = 200.0,
-                           .decayPerSecond = 0.0,
-                           .amplitude = 0.5,
-                           .x = 0.3,
-                           .y = 0.0,
-                           .durationNs = 100'000'000};
+    const CollisionEvent e{10'000'000, 200.0, 0.0, 0.5, 0.3, 0.0, 100'000'000};
     const auto rendered = test::renderEvents({e}, settingsWith(mixing.view()), 5000);
     EXPECT_EQ(rendered.status.liveModes, 1);
     const auto whole = test::renderEvents({e}, settingsWith(mixing.view()), frames);
     for (const auto& channel : whole.channels)
         for (std::size_t n = 5280; n < channel.size(); ++n) ASSERT_EQ(channel[n], 0.0f) << n;
+}
+
+TEST(CoupledRenderer, AToneThatGoesNowhereIsTheStillStrike) {
+    CollisionEvent e{.frequencyHz = 200.0, .amplitude = 0.5, .x = 0.3, .durationNs = 400'000'000};
+    const auto still = expected({e}, mixing);
+    e.course = {.toX = e.x, .toY = e.y, .travelNs = e.durationNs};
+    EXPECT_LE(
+        test::relativeError(still, test::renderEvents({e}, settingsWith(mixing.view()), frames).channels),
+        1e-5);
 }
 
 TEST(CoupledRenderer, AnyBlockSizeGivesTheSameBits) {

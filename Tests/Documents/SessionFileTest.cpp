@@ -103,11 +103,24 @@ TEST(SessionFile, AnEqualiserOutOfRangeIsNamed) {
               "s.json: equalised[1].resonance_hz: expected 1 to 20000, found 1e+30");
     EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 1e9", "[50, 400]"),
               "s.json: equalised[1].q: expected 0.05 to 1000, found 1e+09");
+    EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 10", "[400, 400]"),
+              "s.json: equalised[1].band_hz: expected a highest frequency above the lowest");
     EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 10", "[5e-324, 400]"),
               "s.json: equalised[1].band_hz[0]: expected 1 to 20000, found 5e-324");
 }
 
-TEST(SessionFile, ALayoutWithoutExtentIsNamed) {
+TEST(SessionFile, EndsPausedIfItsLastWorldStoodStillToTheEnd) {
+    const std::string end = "\"world_end_s\": 3.4,";
+    for (const auto& [seconds, isPaused] : {std::pair{"0.1", true}, {"0.09", false}}) {
+        const auto text =
+            sessionWith(end, end + R"("stalls": [{"time_s": 3.4, "seconds": )" + seconds + "}],");
+        EXPECT_EQ(endsPaused(readSession(text, "s").value), isPaused) << seconds;
+    }
+}
+
+TEST(SessionFile, TakesOutOfOrderAndALayoutWithoutExtentAreNamed) {
+    EXPECT_EQ(faultWith("\"start_s\": 0", "\"start_s\": 2"),
+              "s.json: takes[1].start_s: expected a time that is not before that of the take above");
     EXPECT_EQ(faultWith("\"extent_m\": [0.12, 0.06]", "\"extent_m\": [5e-324, 0.06]"),
               "s.json: panning.layout.extent_m[0]: expected 0.001 to 1e+06, found 5e-324");
     EXPECT_EQ(faultWith("\"full_scale_g\": 1", "\"full_scale_g\": 5e-324"),

@@ -101,6 +101,13 @@ TEST_F(ReadRecording, GivesFloatsAsTheyAre) {
     }
 }
 
+TEST_F(ReadRecording, GivesSamplesOfG711) {
+    const std::string mu = wavBytes({.format = 7, .bits = 8}, "\x7e\xfe\x80"s),
+                      a = wavBytes({.format = 6, .bits = 8}, "\x55\xd5\xaa");
+    EXPECT_EQ(readBytes(mu).value.channels.at(0), (std::vector{-0x8p-15f, 0x8p-15f, 0x7d7cp-15f}));
+    EXPECT_EQ(readBytes(a).value.channels.at(0), (std::vector{-0x8p-15f, 0x8p-15f, 0x7e00p-15f}));
+}
+
 // ALSA's arecord writes 24 bits into the lower part of 32; others, as WAVE has it, into the upper one.
 TEST_F(ReadRecording, ReadsSamplesThatHaveMoreRoom) {
     for (const std::uint32_t bits : {12u, 16u, 20u, 24u})

@@ -184,6 +184,12 @@ TEST(ExportedHits, HaveTheActuatorsOfTheLayoutOrTheOneThatIsChosen) {
         }
     }
     EXPECT_NE(clipOf("no such actuator").error, "");
+    CollisionEvent late = hit;
+    late.timeNs = 600'000'000'000;
+    const PhantomPanner panner{layout.geometry, PanningLaw::linear, 1.0, 1.0, 1.0};
+    EXPECT_EQ(
+        writeHitsWav({"hits", "title", {&late, 1}, layout, "phone4", ""}, panner, 8000, "/no/hits.wav", ""),
+        "hits: expected at most 600 seconds, found 601");
 }
 
 // An enchanter that rings while it gets another output is never cut off, and never heard with another one.

@@ -83,6 +83,18 @@ TEST_F(Recordings, WhatIsSyntheticIsTheSameForTheSameSeedOnly) {
     EXPECT_EQ(a.value.samples, again.value.samples);
     EXPECT_NE(a.value.samples, b.value.samples);
     EXPECT_NE(loadContact({80.0, "synthetic-x", 34.0}).error, "") << "a file's name";
+    const auto straight = loadContact({80.0, "synthetic-0", 34.0}).value.samples;
+    const double length = 48000.0 * std::log(10.0) / 34.0; // until its mode has a tenth left
+    ASSERT_EQ(straight.size(), static_cast<std::size_t>(length));
+    for (double n = 0.0; const float x : straight) {
+        ASSERT_NEAR(x, (1.0 - n / length) * std::sin(0.01047197551197 * n), 1e-6); // 80 Hz
+        ++n;
+    }
+}
+
+TEST_F(Recordings, NotesOfAllSetsAreToldOnceEach) {
+    const ContactRecording a{.note = "a"}, b{.note = "b"};
+    EXPECT_EQ(recordingNotes({{{a, {}}, {b, a}, {b}}, {}, {a}}), (std::vector<std::string>{"a", "b"}));
 }
 
 TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {

@@ -40,10 +40,7 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
         lasting.collect({(n - 1) * stepNs, n * stepNs, (n + 1) * stepNs, 0.0, {}}, impacts);
         lasting.endStep();
         for (const Impact& impact : impacts)
-            events.push_back({.timeNs = impact.timeNs,
-                              .frequencyHz = frequencyHz,
-                              .decayPerSecond = decayPerSecond,
-                              .amplitude = impact.newtonSeconds / massKg});
+            events.push_back({impact.timeNs, frequencyHz, decayPerSecond, impact.newtonSeconds / massKg});
     }
     ActuatorLayout layout;
     layoutPreset("phone1", layout);

@@ -33,13 +33,15 @@ struct Fed {
         std::vector<PadReport> reports;
         for (int i = 0; i < milliseconds; ++i, ++now) {
             if (hasBlocks && now % 10 == 0) {
-                std::vector<std::vector<float>> samples(4, std::vector<float>(480));
+                const int frames = rateHz / 100;
+                std::vector<std::vector<float>> samples(4,
+                                                        std::vector<float>(static_cast<std::size_t>(frames)));
                 for (std::size_t j = 0; j < 4; ++j)
                     for (float& sample : samples[j]) sample = value(j, frame + (&sample - samples[j].data()));
                 const float* const at[] = {samples[0].data(), samples[1].data(), samples[2].data(),
                                            samples[3].data()};
-                feed->onBlock({at, 480, frame, 48000});
-                frame += 480;
+                feed->onBlock({at, frames, frame, rateHz, 4});
+                frame += frames;
             }
             if (const auto report = feed->next((1000 + now) * ms, 0, level)) reports.push_back(*report);
         }
@@ -47,6 +49,7 @@ struct Fed {
     }
     std::unique_ptr<CoilFeed> feed;
     std::int64_t frame = 0, now = 0;
+    int rateHz = 48000;
 };
 
 /// The largest of some frames of one side, of 127.
@@ -136,6 +139,9 @@ TEST(CoilFeed, ActuatorsArePannedByTheirPlaceFromLeftToRight) {
             fed.feed->onControl({.kind = RenderControl::Kind::panner, .panner = &changed});
         }
     }
+    Fed grown{"phone2"};
+    grown.feed->onControl({.kind = RenderControl::Kind::panner, .panner = &changed});
+    EXPECT_NEAR(peak(grown.run(200, 1.0f, only(3)).back(), 0), 127 * 0.8, 2) << "more actuators than before";
 }
 
 TEST(CoilFeed, WhatItsRateCannotCarryIsFilteredAtEveryRateOfADevice) {
@@ -155,6 +161,22 @@ TEST(CoilFeed, WhatItsRateCannotCarryIsFilteredAtEveryRateOfADevice) {
             EXPECT_GE(peak, least) << rate << ' ' << hz;
             EXPECT_LE(peak, most) << rate << ' ' << hz;
         }
+}
+
+TEST(CoilFeed, AToneHasItsPitchAtEveryRateOfADevice) {
+    for (const int rateHz : {44100, 48000, 96000}) {
+        Fed fed;
+        fed.rateHz = rateHz;
+        int turns = 0, last = 0;
+        const auto tone = [=](std::size_t, std::int64_t n) {
+            return static_cast<float>(std::sin(400.0 * std::numbers::pi * static_cast<double>(n) / rateHz));
+        };
+        for (const PadReport& report : fed.run(1000, 1.0f, tone))
+            for (std::size_t n = 0; n < 32; ++n)
+                if (const int sign = report.bytes[13 + 2 * n] & 0x80; sign != std::exchange(last, sign))
+                    ++turns;
+        EXPECT_NEAR(turns, 400, 15) << rateHz;
+    }
 }
 
 /// A device that asks for 10 ms at a time.
@@ -191,7 +213,7 @@ protected:
         const float* const channels[] = {samples.data(), samples.data()};
         for (std::int64_t i = first; i < first + 10; ++i) {
             device.block(10 * ms * i);
-            output.onBlock({channels, 480, 480 * i, 48000});
+            output.onBlock({channels, 480, 480 * i, 48000, 2});
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
     }

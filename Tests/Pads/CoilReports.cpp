@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
                 const CoilFrame now = signalAt(frame + static_cast<std::int64_t>(n));
                 left[n] = now[0], right[n] = now[1];
             }
-            feed->onBlock({channels, blockFrames, frame, rateHz});
+            feed->onBlock({channels, blockFrames, frame, rateHz, 2});
             frame += blockFrames;
             blockNs = static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / rateHz / clock) +
                       chance % 5'000'000u;

@@ -136,6 +136,21 @@ TEST_F(OnePad, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     EXPECT_EQ(output.counts().connections, 2u);
 }
 
+TEST_F(OnePad, AFieldThatChangedWhileNobodyWasFollowedIsKept) {
+    double heavyShares[2]{}; // of a hit at the right edge of the field before the change
+    for (double& share : heavyShares) {
+        const auto before = pad.told().size();
+        output.onCollision(hit(device.sessionNs() + 40 * ms, 60.0, 0.1, 1.0));
+        EXPECT_TRUE(soon([&] { return device.block(), pad.told().size() > before && pad.isAtRest(); }));
+        share = pad.told()[before].low / (pad.told()[before].low + pad.told()[before].high);
+        output.follow(nullptr);
+        const PhantomPanner wide{phone().layout(), PanningLaw::linear, 1.0, 9.0, 1.0};
+        output.onControl({.kind = RenderControl::Kind::panner, .panner = &wide});
+        output.follow(&device);
+    }
+    EXPECT_GT(heavyShares[1], heavyShares[0] + 0.02);
+}
+
 TEST_F(OnePad, AControllerThatHangsHoldsUpNobody) {
     pad.hangs = true;
     output.onCollision(hit(50 * ms, 60.0, 1.0, 0.5));

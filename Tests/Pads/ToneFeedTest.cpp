@@ -15,6 +15,12 @@ std::vector<int> sideOf(const PadReport& report, std::size_t side) {
 }
 const std::vector<int> neutral{0x00, 0x01, 0x40, 0x40};
 
+PhantomPanner panner(double fieldWidthMetres) {
+    ActuatorLayout layout;
+    layoutPreset("phone2", layout);
+    return {layout, PanningLaw::linear, 1.0, fieldWidthMetres, 1.0};
+}
+
 TEST(SwitchTones, ThePublicDescriptionsExamplesAreWritten) {
     EXPECT_EQ(sideOf(switchTones({}, {}, 0), 0), neutral);
     const PadReport report = switchTones({}, {341.4, 0.1894, 794.8, 0.5013}, 0x3A);
@@ -47,15 +53,8 @@ TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
 }
 
 TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
-    ActuatorLayout layout;
-    layoutPreset("phone2", layout);
-    ToneFeed feed{kind, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
-    feed.onCollision({.timeNs = 50 * ms,
-                      .frequencyHz = 100.0,
-                      .decayPerSecond = 0.1,
-                      .amplitude = 0.8,
-                      .x = 1.0,
-                      .y = 0.5});
+    ToneFeed feed{kind, panner(1.0)};
+    feed.onCollision({50 * ms, 100.0, 0.1, 0.8, 1.0, 0.5});
     std::int64_t now = 0;
     int reports = 0;
     const auto last = [&](int milliseconds, float level) {
@@ -80,6 +79,27 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     feed.onControl({.timeNs = now + 10 * ms}); // a stop
     EXPECT_EQ(sideOf(*last(200, 1.0f), 1), neutral);
     EXPECT_FALSE(last(100, 1.0f));
+}
+
+/// A device that was away (a pause, or another one) begins again, in the layout that the session has by then.
+TEST(ToneFeed, FieldsAreFollowedAtTheirTimeAndKeptWhenTheDeviceComesBack) {
+    const PhantomPanner narrow = panner(1.0), wide = panner(9.0);
+    ToneFeed feed{kind, narrow};
+    std::int64_t now = 0;
+    const auto isLeftToo = [&] { // a hit at the right edge of the narrow field
+        feed.onCollision({now, 100.0, 50.0, 0.8, 1.0, 0.5});
+        const auto first = feed.next(now, now, 1.0f);
+        for (const std::int64_t end = now + 300 * ms; now < end; now += ms) feed.next(now, now, 1.0f);
+        return sideOf(*first, 0) != neutral;
+    };
+    feed.onControl({.timeNs = 100 * ms, .kind = RenderControl::Kind::panner, .panner = &wide});
+    EXPECT_FALSE(isLeftToo()) << "not before its time";
+    EXPECT_TRUE(isLeftToo());
+    feed.begin();
+    EXPECT_TRUE(isLeftToo());
+    feed.onControl({.timeNs = now, .kind = RenderControl::Kind::panner, .panner = &narrow});
+    feed.begin();
+    EXPECT_FALSE(isLeftToo()) << "changed meanwhile";
 }
 
 // The report that gives a DualSense's coils to sound, against what SDL, the Linux driver and public

@@ -94,12 +94,7 @@ inline PhantomPanner phone() {
 }
 
 inline CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, double x) {
-    return {.timeNs = timeNs,
-            .frequencyHz = frequencyHz,
-            .decayPerSecond = 20.0,
-            .amplitude = amplitude,
-            .x = x,
-            .y = 0.5};
+    return {timeNs, frequencyHz, 20.0, amplitude, x, 0.5};
 }
 
 /// A device that asks for a block every 5 ms, of a session that began with it.

@@ -278,6 +278,8 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
         {"path", R"("places": "AB", "times_s": [1, 1])", "times_s: expected rising numbers, found 1 after 1"},
         {"path", R"("places": "AB", "seconds": 0.1, "strokes": 9)",
          "strokes: expected so few that each lasts 0.01 s, found 9 in 0.1 s"},
+        {"path", R"("places": "AB", "speed_m_per_s": 0.001)",
+         "speed_m_per_s: expected a path of at most 3600 s, found 6400"},
         {"stop", R"("at": "soon")", "at: expected a session time, or now"},
         {"stop", R"("at": 1, "in": 1)", "in: expected either this or at"},
         {"status", R"("at": 1)", "has no \"at\""},

@@ -86,12 +86,7 @@ double energyOf(const std::vector<float>& samples, double from, double to) {
     return sum;
 }
 
-CollisionEvent pulse(double seconds) {
-    return {.timeNs = static_cast<std::int64_t>(seconds * 1e9),
-            .frequencyHz = 205.0,
-            .decayPerSecond = 30.0,
-            .amplitude = 0.5};
-}
+CollisionEvent pulse(double seconds) { return {static_cast<std::int64_t>(seconds * 1e9), 205.0, 30.0, 0.5}; }
 
 TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     const auto setup = deskSetup();

@@ -97,6 +97,7 @@ TEST(SessionInputs, AsManyStopsWaitAsThereIsRoomFor) {
     session.prepare(rate, block);
     for (int i = 0; i < 256; ++i) ASSERT_TRUE(session.submit({Stop{}, 1'000'000'000 + i})) << i;
     EXPECT_EQ(session.submit({Stop{}, 2'000'000'000}).error, "too many stops wait");
+    EXPECT_EQ(session.submit({Stop{}}).error, "") << "at once";
 }
 
 TEST(SessionInputs, TheSameRecordingsAgainChangeNothing) {

@@ -253,7 +253,8 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     monitorMix_.render(session, samples, out, outputs, first, frames);
     for (int j = session.channels(); j < played_.ownSession().channels(); ++j)
         std::fill_n(samples[j], frames, 0.0f);
-    played_.ownSession().sinks().onBlock({samples, frames, time.framesRendered() - frames, sampleRateHz()});
+    played_.ownSession().sinks().onBlock(
+        {samples, frames, time.framesRendered() - frames, sampleRateHz(), played_.ownSession().channels()});
     onOffMotors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // with the limiter on, nothing is clipped here
         clip(samples[j], session.rendered().ceiling(j), frames);

@@ -41,7 +41,6 @@ std::vector<float> makeKernel(double delayFrames, std::size_t taps, double cycle
 CoilFeed::CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const PhantomPanner& panner)
     : kind_{kind}
     , format_{format}
-    , channels_{static_cast<std::size_t>(panner.layout().count)}
     , reducer_{defaultRateHz, format.rateHz}
     , reducedHz_{defaultRateHz} {
     coilGains_.write(computeCoilGains(panner.layout()));
@@ -68,7 +67,7 @@ void CoilFeed::onControl(const RenderControl& control) noexcept {
 
 void CoilFeed::onBlock(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
     const CoilGains& sides = coilGains_.read();
-    const std::size_t count = std::min(sides.count, channels_);
+    const std::size_t count = std::min(sides.count, static_cast<std::size_t>(block.count));
     rateHz_.store(block.sampleRateHz, std::memory_order_relaxed);
     for (int n = 0; n < block.frames; ++n)
         samples_.pushInPlace([&](CoilFrame& frame) noexcept {

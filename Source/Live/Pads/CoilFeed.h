@@ -72,7 +72,6 @@ private:
 
     const HidFeedKind& kind_;
     const CoilFormat& format_;
-    const std::size_t channels_; // of the session
     LatestValue<CoilGains> coilGains_;
     EventQueue<CoilFrame, 16384> samples_;
     std::atomic<int> rateHz_{0}; // sample rate of the queued frames

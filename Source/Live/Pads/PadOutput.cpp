@@ -17,7 +17,6 @@ std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) 
 
 PadOutput::PadOutput(const std::string& name, const PhantomPanner& panner)
     : nameFilter_{name.substr(0, name.find('@'))}
-    , initialPanner_{panner}
     , gripPanner_{PadMotors::makeGripPanner(panner)} {
     if (nameFilter_.empty()) nameFilter_ = anyPad;
     if (const auto separator = name.find('@'); separator != name.npos) {
@@ -47,8 +46,8 @@ void PadOutput::follow(OutputClock* device) {
     const auto change = [&] {
         for (CollisionEvent event; device && events_.pop(event);) {
         } // events of an earlier session
-        for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
-        gripPanner_ = PadMotors::makeGripPanner(initialPanner_);
+        for (RenderControl control; device && controls_.pop(control); controls_.done(control))
+            if (control.panner != nullptr) gripPanner_ = PadMotors::makeGripPanner(*control.panner);
     };
     device_.follow(device, change, [this] { return !error_.empty(); });
 }
@@ -58,6 +57,7 @@ void PadOutput::begin() {
     if (connectedPad_)
         law.commandsPerSecond = std::min(law.commandsPerSecond, maxCommandsPerSecond(connectedPad_->bus));
     motors_ = PadMotors{law};
+    if (!pendingPanners_.empty()) gripPanner_ = pendingPanners_.back().panner; // the session goes on with it
     pendingPanners_.clear();
     stopsNs_.clear();
     latestCommand_ = {};

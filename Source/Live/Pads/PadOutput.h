@@ -74,7 +74,6 @@ private:
     std::optional<GamePadInfo> connectedPad_;
     std::string lastName_; // of the last controller
     PadMotors motors_{PadModel{}};
-    const PhantomPanner initialPanner_; // the session's first panner
     PhantomPanner gripPanner_;
     std::vector<PannerChange> pendingPanners_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;

@@ -74,14 +74,11 @@ TonePair ToneFeed::fitTones(std::vector<Partial> partials) {
 
 ToneFeed::ToneFeed(const HidFeedKind& kind, const PhantomPanner& panner)
     : kind_{kind}
-    , initialPanner_{panner}
     , gripPanner_{PadMotors::makeGripPanner(panner)} {}
 
 void ToneFeed::begin() {
-    for (CollisionEvent event; events_.pop(event);) {
-    }
-    for (RenderControl control; controls_.pop(control);) controls_.done(control);
-    gripPanner_ = PadMotors::makeGripPanner(initialPanner_);
+    processQueues();
+    if (!pendingPanners_.empty()) gripPanner_ = pendingPanners_.back().panner; // the session goes on with it
     pendingPanners_.clear();
     stopsNs_.clear();
     voices_.clear();

@@ -45,7 +45,6 @@ private:
     TonePair computeTones(std::size_t side, std::int64_t fromNs, double level) const;
 
     const HidFeedKind& kind_;
-    const PhantomPanner initialPanner_; // the session's first panner
     PhantomPanner gripPanner_;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;

@@ -128,11 +128,13 @@ Result<std::int64_t> Scheduler::submit(const Strikes& strikes, std::int64_t time
 }
 
 Result<std::int64_t> Scheduler::submit(const Stop&, std::int64_t timeNs) {
-    if (stops_.size() == maxStops) return Failure{"too many stops wait"};
     const std::int64_t now = time_.nowNs();
     timeNs = std::max(timeNs, earliestNs());
+    // one that is due is posted below, and never refused
+    if (stops_.size() >= maxStops && timeNs > now) return Failure{"too many stops wait"};
     world_.cancelScheduled(timeNs, now);
-    stops_.insert(std::ranges::upper_bound(stops_, timeNs), timeNs);
+    if (const auto next = std::ranges::lower_bound(stops_, timeNs); next == stops_.end() || *next != timeNs)
+        stops_.insert(next, timeNs);
     postDueStops(now);
     return timeNs;
 }

@@ -22,6 +22,7 @@ struct RenderedBlock {
     int frames;
     std::int64_t sessionFrame; ///< of its first frame
     int sampleRateHz;
+    int count = 0; ///< of the channels, those that no actuator has now included
 };
 
 /// Status of a sink, for display.
