@@ -76,6 +76,41 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
               "conditions: expected one or more, found none");
 }
 
+TEST(Protocol, FieldsOfASessionThatDoNotGoTogetherAreNamed) {
+    for (
+        const auto& [fields, expected] : std::initializer_list<std::pair<std::string, std::string>>{
+            {R"("identify", "answers": ["yes", "no"])",
+             "answers: expected two or more of the task choose, in"},
+            {R"("choose", "answers": ["a", "a"])", "answers: expected no two alike"},
+            {R"("choose", "alternatives": [{"name": "a"}, {"name": "a"}])",
+             "alternatives: expected a name of"},
+            {R"("identify", "both_orders": true)",
+             "both_orders: expected it of two alternatives to choose from"},
+            {R"("identify", "points": 5)", "objects, points, pairs: expected them of the task rate only"},
+            {R"("rate", "objects": ["a", "b", "a"])", "objects: expected a name of its own for each"},
+            {R"("rate", "objects": ["a|b", "b"])", "objects: expected names without |, which parts"},
+            {R"("choose", "alternatives": [{"name": "a|b"}, {"name": "a"}])",
+             "alternatives: expected names w"},
+            {R"("rate", "scales": ["a"], "reference": "b")", "reference: expected one of the objects, which"},
+            {R"("locate", "once": true)",
+             "once: expected it of the tasks rate and describe, where nothing is"},
+            {R"("describe", "once": true, "most_plays": 1)", "once: expected it of"},
+            {R"("describe", "adjustment": {"alternative": "a"})",
+             "adjustment: expected it of the task adjust"},
+            {R"("adjust", "alternatives": [{"name": "a"}, {"name": "b"}], "adjustment": {"alternative": "c"})",
+             "adjustment.alternative: expected the name of an alternative"},
+            {R"("locate", "levels_file": "a.csv")", "levels_file: expected it of the task choose, without"},
+            {R"("choose", "answers": ["a", "b"], "levels_file": "../a.csv")",
+             "levels_file: expected a file in"}})
+        EXPECT_TRUE(has(readProtocol(R"({"physvib_protocol": 1, "name": "own", "conditions": [{"name": "c",
+  "stimuli": "grid", "columns": 1, "rows": 1}], "sessions": [{"name": "main", "task": )" +
+                                         fields + "}]}",
+                                     "own")
+                            .error,
+                        "sessions[0]." + expected))
+            << fields;
+}
+
 TEST(Protocol, CallsRenderAndReadInTheirFolder) {
     const auto fault = [](const std::string& call, std::vector<std::string> values = {"1"}) {
         Protocol p = gridProtocol();
