@@ -48,6 +48,8 @@ TEST_F(Study, WithoutADisplayNoPersonAnswersAndItSaysWhere) {
             "physvib-mixer shows a person what to answer; its tab Studies has the protocol \"magnitudes\"");
     refuses("study run magnitudes --participants 2", 2,
             "--participants: expected one at a time where a person answers");
+    refuses("study run model-or-sound --sound 80=hit.wav", 2,
+            "--sound: expected sounds in the protocol where a person answers");
 }
 #endif
 

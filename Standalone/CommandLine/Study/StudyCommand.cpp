@@ -110,6 +110,9 @@ int runForPerson(const StudyOptions& o) {
     if (o.participants > 1)
         return reportExit(exitUsage,
                           "study run: --participants: expected one at a time where a person answers");
+    if (!o.sounds.empty())
+        return reportExit(exitUsage, "study run: --sound: expected sounds in the protocol where a person "
+                                     "answers, as physvib-mixer reads no others");
     if (!hasDisplay())
         return reportExit(exitUsage,
                           "study run: expected --observer, or a display where physvib-mixer shows a "
