@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 namespace physvib::study_command_test {
 
@@ -244,6 +245,34 @@ TEST_F(Study, WhatLimiterAndGuardChangeAsPublishedIsAcceptedOrRefused) {
     const auto accepted = runs("study check eight-methods-thesis --accept-deviations");
     EXPECT_EQ(accepted.out, refused.out) << "what is accepted is read before";
     runs("study check patterns-thesis");
+}
+
+TEST_F(Study, PartsOfTheThesisAreFoundByTheirPlaceAndItsEightMethodsDrawn) {
+    for (const auto& [place, parts] :
+         {std::pair{"'Fig. 5.1'", 1}, {"'Eq. 5.7'", 1}, {"5.3", 3}, {"5.3.2", 2}})
+        EXPECT_EQ(std::regex_replace(runs(std::string{"thesis "} + place).out, std::regex{" {4}.*\n|.+"}, ""),
+                  std::string(static_cast<std::size_t>(parts), '\n'))
+            << place;
+    refuses("thesis 'Fig. 9.9'", 2, "found \"Fig. 9.9\"");
+    runs("thesis --out t");
+    const std::string svg = read("t/fig5-12.svg");
+    std::vector<double> heights; // of each method's three hits, in pixels
+    for (std::size_t at = 0; (at = svg.find(" d=\"M", at)) != std::string::npos; ++at) {
+        std::string path = svg.substr(at + 5, svg.find('"', at + 5) - at - 5);
+        std::ranges::replace(path, 'L', ' ');
+        std::istringstream numbers{path};
+        double x = 0.0, y = 0.0, rest = 0.0;
+        for (int n = 0; numbers >> x >> y; ++n) {
+            if (n % 1100 == 0) heights.push_back(0.0); // 220 ms at 5 kHz
+            if (n == 0) rest = y;
+            heights.back() = std::max(heights.back(), rest - y);
+        }
+    }
+    ASSERT_EQ(heights.size(), 24u);
+    for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(heights[k], 1.5 * 40.0, 1.0) << "1.5 g";
+    for (std::size_t k = 12; k < 24; ++k)
+        EXPECT_NEAR(heights[k] / heights[k / 3 * 3 + 2], std::exp2(k % 3) / 4.0, 0.02)
+            << "their own strength";
 }
 
 TEST_F(Study, BadCallsAndFilesAreRefused) {
