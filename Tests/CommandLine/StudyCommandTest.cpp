@@ -142,11 +142,14 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
 
 TEST_F(Study, FilesOfAProtocolAreFoundBesideItAndTheFolderOfRowsIsMade) {
     std::filesystem::create_directories(folder_ / "mine");
-    write("mine/glove.json",
-          R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
+    std::filesystem::copy(PHYSVIB_SOURCE_DIR "/Source/Scene/Actuators/lra-205.json",
+                          folder_ / "mine/coil.json");
+    write(
+        "mine/glove.json",
+        R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "coil.json"}, {"x_m": 0.1, "y_m": 0, "actuator": "coil.json"}]})");
     write(
         "mine/study.json",
-        R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
+        R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "at_resonance": true, "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
     runs("study run mine/study.json --observer simulated --out rows/today");
     EXPECT_TRUE(has(read("rows/today/study-P01.csv"), "--layout glove.json"))
         << "the row's call is one for the protocol's folder";
