@@ -61,15 +61,15 @@ TEST_F(Study, PhantomGridsWhole) {
         has(test::squeezed(call("analyse confusion" + files + " --tolerance 1").out), "\nPHONE-3x3 9 180 "));
 }
 
-TEST_F(Study, PhantomPlacesWhole) {
-    const std::string out = analyse("resolution", run("phantom-places", 4, "--observer simulated-RING"));
-    EXPECT_TRUE(
-        hasAll(out, {"\nPHONE-LINEAR ", "\nPHONE-LOGARITHM ", "\nRING-LINEAR ", "\nRING-LOGARITHM "}));
-}
-
-TEST_F(Study, ModelOrSoundWhole) {
-    const std::string out = test::squeezed(analyse("choices", run("model-or-sound", 3)));
-    EXPECT_TRUE(hasAll(out, {"\nall AV-FV-DRV ", " 324 3 ", "\nsize=small "}));
+TEST_F(Study, PlacesChoicesAndRatingsWhole) {
+    for (const auto& [kind, files, lines] :
+         {std::tuple{
+              "resolution", run("phantom-places", 4, "--observer simulated-RING"),
+              std::vector{"\nPHONE-LINEAR ", "\nPHONE-LOGARITHM ", "\nRING-LINEAR ", "\nRING-LOGARITHM "}},
+          {"choices", run("model-or-sound", 3), {"\nall AV-FV-DRV ", " 324 3 ", "\nsize=small "}},
+          {"ratings", run("eight-methods", 2), {"\nAV-FV-DRV realism 20 2 "}}})
+        for (const std::string out = test::squeezed(analyse(kind, files)); const char* line : lines)
+            EXPECT_TRUE(has(out, line));
 }
 
 TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
@@ -93,11 +93,6 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
             "gone.wav: cannot be read", 3);
     refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2,
             "--sound: expected MATERIAL=FILE.wav", 3);
-}
-
-TEST_F(Study, EightMethodsWhole) {
-    const std::string out = test::squeezed(analyse("ratings", run("eight-methods", 2)));
-    EXPECT_TRUE(has(out, "\nAV-FV-DRV realism 20 2 "));
 }
 
 TEST_F(Study, EveryTrialCarriesWhatRendersItAgain) {
