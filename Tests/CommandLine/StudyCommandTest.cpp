@@ -186,6 +186,8 @@ TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
         has(runs("study levels experts.json experts-P01.csv experts-P02.csv experts-P03.csv --out levels.csv")
                 .out,
             "levels.csv  2 levels of 3 participants"));
+    EXPECT_TRUE(has(call("study levels model-or-sound experts-P01.csv --out other.csv").err,
+                    "expected trials of the protocol \"model-or-sound\", found \"experts\""));
     const auto levels = readCsvTable(read("levels.csv"), "levels.csv").value;
     ASSERT_EQ(levels.rows.size(), 2u);
     runs("study run main.json --observer simulated");
