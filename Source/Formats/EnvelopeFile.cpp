@@ -97,8 +97,6 @@ std::vector<EnvelopePoint> makeEnvelope(const ClipChannel& channel, double riseS
         if (before.seconds > last || points.empty()) points.push_back(before);
         points.push_back(after);
     }
-    if (!points.empty() && points.back().amplitude > 0.0)
-        points.push_back({points.back().seconds + riseSeconds, 0.0, points.back().frequencyHz});
     return points;
 }
 

@@ -65,9 +65,12 @@ Result<PlayableWorld> worldFromJob(const RenderJob& o) {
     return PlayableWorld{sessionSetup(job), job.layout, job.seconds()};
 }
 
-Result<PlayableStimulus> stimulusFromJob(const StimulusJob& job, int sampleRateHz) {
-    const auto layout = resolveLayout(job.layout);
+Result<PlayableStimulus> stimulusFromJob(const StimulusJob& job, int sampleRateHz,
+                                         const std::string& folder) {
+    auto layout = resolveLayout(job.layout);
     if (!layout) return Failure{layout.error};
+    for (ActuatorDescription& actuator : layout.value.actuators) // its profile tells the resonance
+        actuator.actuator = resolveProtocolPath(folder, actuator.actuator);
     if (auto error = layoutError(job, layout.value); !error.empty()) return Failure{error};
     if (const auto* const phantom = std::get_if<PhantomJob>(&job.stimulus);
         phantom != nullptr && !phantom->recording.empty())
@@ -86,7 +89,7 @@ Result<PlayableStimulus> makePlayable(StimulusJob job, int sampleRateHz, const s
     if (const JobError error = jobError(job)) return Failure{error.text()};
     if (auto error = linkError(folder, job.layout); !error.empty()) return Failure{error};
     job.layout = resolveProtocolPath(folder, job.layout);
-    return stimulusFromJob(job, sampleRateHz);
+    return stimulusFromJob(job, sampleRateHz, folder);
 }
 
 /// A parsed call; `error` is set if it is invalid.
@@ -120,7 +123,7 @@ Result<PlayableStimulus> makePlayable(const ResolvedCall& call, int sampleRateHz
     if (!parsed.error.empty()) return Failure{parsed.error};
     if (parsed.program.isCalled("render")) return stimulusFromScene(parsed.renderOptions);
     const auto job = readStimulus(parsed.stimulus, parsed.stimulusOptions);
-    return job ? stimulusFromJob(job.value, sampleRateHz) : Failure{job.error};
+    return job ? stimulusFromJob(job.value, sampleRateHz, folder) : Failure{job.error};
 }
 
 /// An error if the call's layout, which plays, is not the condition's, which is displayed; else empty.

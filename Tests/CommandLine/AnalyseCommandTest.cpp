@@ -271,6 +271,13 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
             3);
 }
 
+TEST_F(AnalyseFits, AConditionOfOneLevelLeavesTheOthersTheirFits) {
+    write("m.csv", "participant,condition,level,value\nP,flat,1,3\nP,steep,1,2\nP,steep,2,4\n");
+    const auto law = runs("analyse power-law m.csv --level level");
+    EXPECT_TRUE(has(test::squeezed(law.out), "\nsteep exponent 1 1\n"));
+    EXPECT_TRUE(has(law.err, "flat: participant P left out: expected magnitudes of two or more levels"));
+}
+
 TEST_F(AnalyseFits, TestsThatWentToRSayWhereTheyAre) {
     write("t.csv", "participant,condition,y\nP,a,1\n");
     for (const char* test :

@@ -97,6 +97,14 @@ TEST_F(Outputs, WhatInputsNameIsNotWrittenOverEither) {
         2, "the input mine.json", kept);
 }
 
+TEST_F(Outputs, WhatAFolderOfRecordingsHoldsIsNotWrittenOver) {
+    std::filesystem::copy(folder_ / "hit.wav", folder_ / "sub/a.csv");
+    write("sub/conditions.csv", "file,driven,frequency_hz,material,axis\na.csv,A,100,reference,x\n");
+    for (const std::string words : {"attenuation sub --export ", "coupling sub --layout phone4 --out "})
+        for (const std::string input : {"sub/conditions.csv", "sub/a.csv"})
+            refuses(words + input, 2, "the input " + input, files().size());
+}
+
 TEST_F(Outputs, WordsThatDoNotArriveAreAFailure) {
     for (const char* words :
          {"scenes", "actuators", "study list", "study show patterns", "material --list",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 namespace physvib::study_command_test {
 
@@ -48,6 +49,8 @@ TEST_F(Study, WithoutADisplayNoPersonAnswersAndItSaysWhere) {
             "physvib-mixer shows a person what to answer; its tab Studies has the protocol \"magnitudes\"");
     refuses("study run magnitudes --participants 2", 2,
             "--participants: expected one at a time where a person answers");
+    refuses("study run model-or-sound --sound 80=hit.wav", 2,
+            "--sound: expected sounds in the protocol where a person answers");
 }
 #endif
 
@@ -58,15 +61,15 @@ TEST_F(Study, PhantomGridsWhole) {
         has(test::squeezed(call("analyse confusion" + files + " --tolerance 1").out), "\nPHONE-3x3 9 180 "));
 }
 
-TEST_F(Study, PhantomPlacesWhole) {
-    const std::string out = analyse("resolution", run("phantom-places", 4, "--observer simulated-RING"));
-    EXPECT_TRUE(
-        hasAll(out, {"\nPHONE-LINEAR ", "\nPHONE-LOGARITHM ", "\nRING-LINEAR ", "\nRING-LOGARITHM "}));
-}
-
-TEST_F(Study, ModelOrSoundWhole) {
-    const std::string out = test::squeezed(analyse("choices", run("model-or-sound", 3)));
-    EXPECT_TRUE(hasAll(out, {"\nall AV-FV-DRV ", " 324 3 ", "\nsize=small "}));
+TEST_F(Study, PlacesChoicesAndRatingsWhole) {
+    for (const auto& [kind, files, lines] :
+         {std::tuple{
+              "resolution", run("phantom-places", 4, "--observer simulated-RING"),
+              std::vector{"\nPHONE-LINEAR ", "\nPHONE-LOGARITHM ", "\nRING-LINEAR ", "\nRING-LOGARITHM "}},
+          {"choices", run("model-or-sound", 3), {"\nall AV-FV-DRV ", " 324 3 ", "\nsize=small "}},
+          {"ratings", run("eight-methods", 2), {"\nAV-FV-DRV realism 20 2 "}}})
+        for (const std::string out = test::squeezed(analyse(kind, files)); const char* line : lines)
+            EXPECT_TRUE(has(out, line));
 }
 
 TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
@@ -90,11 +93,6 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
             "gone.wav: cannot be read", 3);
     refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2,
             "--sound: expected MATERIAL=FILE.wav", 3);
-}
-
-TEST_F(Study, EightMethodsWhole) {
-    const std::string out = test::squeezed(analyse("ratings", run("eight-methods", 2)));
-    EXPECT_TRUE(has(out, "\nAV-FV-DRV realism 20 2 "));
 }
 
 TEST_F(Study, EveryTrialCarriesWhatRendersItAgain) {
@@ -139,11 +137,14 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
 
 TEST_F(Study, FilesOfAProtocolAreFoundBesideItAndTheFolderOfRowsIsMade) {
     std::filesystem::create_directories(folder_ / "mine");
-    write("mine/glove.json",
-          R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
+    std::filesystem::copy(PHYSVIB_SOURCE_DIR "/Source/Scene/Actuators/lra-205.json",
+                          folder_ / "mine/coil.json");
+    write(
+        "mine/glove.json",
+        R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "coil.json"}, {"x_m": 0.1, "y_m": 0, "actuator": "coil.json"}]})");
     write(
         "mine/study.json",
-        R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
+        R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "at_resonance": true, "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
     runs("study run mine/study.json --observer simulated --out rows/today");
     EXPECT_TRUE(has(read("rows/today/study-P01.csv"), "--layout glove.json"))
         << "the row's call is one for the protocol's folder";
@@ -185,6 +186,8 @@ TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
         has(runs("study levels experts.json experts-P01.csv experts-P02.csv experts-P03.csv --out levels.csv")
                 .out,
             "levels.csv  2 levels of 3 participants"));
+    EXPECT_TRUE(has(call("study levels model-or-sound experts-P01.csv --out other.csv").err,
+                    "expected trials of the protocol \"model-or-sound\", found \"experts\""));
     const auto levels = readCsvTable(read("levels.csv"), "levels.csv").value;
     ASSERT_EQ(levels.rows.size(), 2u);
     runs("study run main.json --observer simulated");
@@ -242,6 +245,34 @@ TEST_F(Study, WhatLimiterAndGuardChangeAsPublishedIsAcceptedOrRefused) {
     const auto accepted = runs("study check eight-methods-thesis --accept-deviations");
     EXPECT_EQ(accepted.out, refused.out) << "what is accepted is read before";
     runs("study check patterns-thesis");
+}
+
+TEST_F(Study, PartsOfTheThesisAreFoundByTheirPlaceAndItsEightMethodsDrawn) {
+    for (const auto& [place, parts] :
+         {std::pair{"'Fig. 5.1'", 1}, {"'Eq. 5.7'", 1}, {"5.3", 3}, {"5.3.2", 2}})
+        EXPECT_EQ(std::regex_replace(runs(std::string{"thesis "} + place).out, std::regex{" {4}.*\n|.+"}, ""),
+                  std::string(static_cast<std::size_t>(parts), '\n'))
+            << place;
+    refuses("thesis 'Fig. 9.9'", 2, "found \"Fig. 9.9\"");
+    runs("thesis --out t");
+    const std::string svg = read("t/fig5-12.svg");
+    std::vector<double> heights; // of each method's three hits, in pixels
+    for (std::size_t at = 0; (at = svg.find(" d=\"M", at)) != std::string::npos; ++at) {
+        std::string path = svg.substr(at + 5, svg.find('"', at + 5) - at - 5);
+        std::ranges::replace(path, 'L', ' ');
+        std::istringstream numbers{path};
+        double x = 0.0, y = 0.0, rest = 0.0;
+        for (int n = 0; numbers >> x >> y; ++n) {
+            if (n % 1100 == 0) heights.push_back(0.0); // 220 ms at 5 kHz
+            if (n == 0) rest = y;
+            heights.back() = std::max(heights.back(), rest - y);
+        }
+    }
+    ASSERT_EQ(heights.size(), 24u);
+    for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(heights[k], 1.5 * 40.0, 1.0) << "1.5 g";
+    for (std::size_t k = 12; k < 24; ++k)
+        EXPECT_NEAR(heights[k] / heights[k / 3 * 3 + 2], std::exp2(k % 3) / 4.0, 0.02)
+            << "their own strength";
 }
 
 TEST_F(Study, BadCallsAndFilesAreRefused) {

@@ -273,6 +273,19 @@ TEST(SceneDrawing, AHingeKeepsItsLimitsWhileABodyIsChanged) {
     ASSERT_EQ(drawn.edit({changeAction(scaledBody(*drawn.drawing.find("arm"), 0.9, 1.0))}), "");
     drawn.steps(100);
     EXPECT_NEAR(turn(), -0.1, 0.02);
+    for (const double radiansPerSecond : {1.0, 2.0}) { // as a slider is dragged
+        const auto motor =
+            motorActions(drawn.drawing, "hinge", {radiansPerSecond, 0.0}, [&](const auto& body) {
+                return std::optional{
+                    drawn.world.pose(body == "arm" ? allBodies(drawn.world.scene()).size() - 1 : 0)};
+            });
+        ASSERT_EQ(drawn.edit(motor.value), "");
+        drawn.steps(100);
+        EXPECT_NEAR(turn(), -0.1, 0.02);
+    }
+    Simulation saved{drawn.drawing.drawn(), 1, 100};
+    for (int i = 0; i < 100; ++i) saved.step(drawn.events);
+    EXPECT_NEAR(saved.pose(1).angleRadians, -0.1, 0.02);
 }
 
 TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {

@@ -32,20 +32,8 @@ std::string fault(auto change) {
 
 TEST(Protocol, FaultsAreNamedByTheirField) {
     EXPECT_EQ(fault([](Protocol&) {}), "");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::choose; }),
-              "sessions[0].alternatives: expected two or more, found 0");
-    EXPECT_EQ(fault([](Protocol& p) {
-                  p.sessions[0].alternatives = {{"a"}, {"b"}};
-              }),
-              "sessions[0].alternatives: expected them of the tasks choose and adjust only");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate; }),
-              "sessions[0].scales: expected them of the task rate, and of no other");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::explore; }),
-              "sessions[0].task: expected explore in a training session only");
     EXPECT_EQ(fault([](Protocol& p) { p.sessions.push_back(p.sessions[0]); }),
               "sessions: expected a name of its own for each");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].levelsFrom = "main"; }),
-              "sessions[0].levels_from: expected an earlier session of the task adjust");
     EXPECT_EQ(fault([](Protocol& p) {
                   p.conditions[0].stimuli = PatternSet{4}, p.sessions[0].task = StudyTask::locate;
               }),
@@ -60,20 +48,58 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
                   p.conditions[0].stimuli = PatternSet{2, {0.1004}};
               }),
               "conditions[0].pulse_s: expected whole milliseconds");
-    EXPECT_EQ(fault([](Protocol& p) {
-                  p.sessions[0].task = StudyTask::rate, p.sessions[0].scales = {"a", "a"};
-              }),
-              "sessions[0].scales: expected a name of its own for each");
-    EXPECT_EQ(fault([](Protocol& p) {
-                  p.sessions[0].task = StudyTask::adjust;
-                  p.sessions[0].alternatives = {{"a"}, {"b"}};
-                  p.sessions[0].adjustment = Adjustment{"a", 0.0, 1.0, 5.0, -5.0};
-              }),
-              "sessions[0].adjustment: expected least_db <= start_db <= most_db");
-    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].mayBeEmpty = true; }),
-              "sessions[0].may_be_empty: expected it of the task describe only");
     EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }),
               "conditions: expected one or more, found none");
+}
+
+TEST(Protocol, FieldsOfASessionThatDoNotGoTogetherAreNamed) {
+    for (
+        const auto& [fields, expected] : std::initializer_list<std::pair<std::string, std::string>>{
+            {R"("choose")", "alternatives: expected two or more, found 0"},
+            {R"("identify", "alternatives": [{"name": "a"}, {"name": "b"}])",
+             "alternatives: expected them of the tasks choose and adjust only"},
+            {R"("choose", "alternatives": [{"name": "a"}, {"name": "a"}])",
+             "alternatives: expected a name of its own for each"},
+            {R"("choose", "alternatives": [{"name": "a|b"}, {"name": "a"}])",
+             "alternatives: expected names without |, which parts them in trial files"},
+            {R"("identify", "answers": ["yes", "no"])",
+             "answers: expected two or more of the task choose, in place of alternatives"},
+            {R"("choose", "answers": ["a", "a"])", "answers: expected no two alike"},
+            {R"("identify", "both_orders": true)",
+             "both_orders: expected it of two alternatives to choose from, or of pairs"},
+            {R"("rate")", "scales: expected them of the task rate, and of no other"},
+            {R"("rate", "scales": ["a", "a"])", "scales: expected a name of its own for each"},
+            {R"("identify", "points": 5)", "objects, points, pairs: expected them of the task rate only"},
+            {R"("rate", "objects": ["a", "b", "a"])", "objects: expected a name of its own for each"},
+            {R"("rate", "objects": ["a|b", "b"])",
+             "objects: expected names without |, which parts them in trial files"},
+            {R"("rate", "scales": ["a"], "reference": "b")",
+             "reference: expected one of the objects, which are rated side by side, without scales"},
+            {R"("locate", "once": true)",
+             "once: expected it of the tasks rate and describe, where nothing is felt"},
+            {R"("describe", "once": true, "most_plays": 1)",
+             "once: expected it of the tasks rate and describe, where nothing is felt"},
+            {R"("identify", "may_be_empty": true)", "may_be_empty: expected it of the task describe only"},
+            {R"("explore")", "task: expected explore in a training session only"},
+            {R"("describe", "adjustment": {"alternative": "a"})",
+             "adjustment: expected it of the task adjust, and of no other"},
+            {R"("adjust", "alternatives": [{"name": "a"}, {"name": "b"}], "adjustment": {"alternative": "c"})",
+             "adjustment.alternative: expected the name of an alternative"},
+            {R"("adjust", "alternatives": [{"name": "a"}, {"name": "b"}],
+                 "adjustment": {"alternative": "a", "least_db": 5, "most_db": -5})",
+             "adjustment: expected least_db <= start_db <= most_db"},
+            {R"("identify", "levels_from": "main")",
+             "levels_from: expected an earlier session of the task adjust"},
+            {R"("locate", "levels_file": "a.csv")",
+             "levels_file: expected it of the task choose, without another level"},
+            {R"("choose", "answers": ["a", "b"], "levels_file": "../a.csv")",
+             "levels_file: expected a file in the folder or below, of plain characters"}})
+        EXPECT_EQ(readProtocol(R"({"physvib_protocol": 1, "name": "own", "conditions": [{"name": "c",
+  "stimuli": "grid", "columns": 1, "rows": 1}], "sessions": [{"name": "main", "task": )" +
+                                   fields + "}]}",
+                               "own")
+                      .error,
+                  "own: sessions[0]." + expected);
 }
 
 TEST(Protocol, CallsRenderAndReadInTheirFolder) {

@@ -81,7 +81,6 @@ struct GridChart {
     std::string rowAxisLabel, columnAxisLabel;
     std::vector<std::string> rows{}, columns{};  ///< labels
     std::vector<std::optional<double>> values{}; ///< row by row
-    std::vector<double> halfIntervals{};         ///< of the values; empty: none
     double max = 1.0;                            ///< value of the darkest shade
     int decimals = 0;                            ///< of the numbers in the cells
     std::optional<double> framedBelow{};         ///< cells below are framed

@@ -47,23 +47,8 @@ struct GridDrawing {
         const std::string label = fixedNumber(*chart.values[index], chart.decimals);
         if (textWidth(label, smallSize) > cellWidth() - 4.0 || cellHeight() < 13.0) return;
         const std::string_view colour = isDark ? "#fff" : "#111";
-        const bool hasInterval =
-            !chart.halfIntervals.empty() && chart.halfIntervals[index] > 0.0 && cellHeight() >= 28.0;
-        const double x = corner.x + 0.5 * cellWidth(),
-                     y = corner.y + 0.5 * cellHeight() + (hasInterval ? -2.0 : 4.0);
-        svg.text({x, y}, label, {smallSize, Anchor::middle, 0.0, false, colour});
-        if (hasInterval)
-            svg.text({x, y + 12.0}, intervalText(index), {9.0, Anchor::middle, 0.0, false, colour});
-    }
-    /// The interval as text, clamped to the possible values.
-    std::string intervalText(std::size_t index) const {
-        const double value = *chart.values[index], half = chart.halfIntervals[index];
-        const auto label = [&](double end) {
-            return fixedNumber(std::clamp(end, 0.0, chart.max), chart.decimals);
-        };
-        return value - half < 0.0 || value + half > chart.max
-                   ? label(value - half) + "\u2013" + label(value + half)
-                   : "\u00b1" + fixedNumber(half, chart.decimals);
+        svg.text({corner.x + 0.5 * cellWidth(), corner.y + 0.5 * cellHeight() + 4.0}, label,
+                 {smallSize, Anchor::middle, 0.0, false, colour});
     }
     /// Draws the labels, only every n-th if not all fit.
     void labels() const {

@@ -86,9 +86,6 @@ RemoveOnSignal::RemoveOnSignal(const SystemFile& file, const std::filesystem::pa
     if (slot_ >= 0) static_cast<void>(removal.release());
 }
 
-RemoveOnSignal::RemoveOnSignal(RemoveOnSignal&& other) noexcept
-    : slot_{std::exchange(other.slot_, -1)} {}
-
 RemoveOnSignal& RemoveOnSignal::operator=(RemoveOnSignal&& other) noexcept {
     std::swap(slot_, other.slot_);
     return *this;

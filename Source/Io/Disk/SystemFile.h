@@ -94,7 +94,6 @@ public:
     RemoveOnSignal() = default;
     /// `file` must outlive this object; it is removed only if `name` still refers to it.
     RemoveOnSignal(const SystemFile& file, const std::filesystem::path& name);
-    RemoveOnSignal(RemoveOnSignal&& other) noexcept;
     RemoveOnSignal& operator=(RemoveOnSignal&& other) noexcept;
     ~RemoveOnSignal();
 

@@ -240,6 +240,7 @@ void analysePsychometric(const LevelAnswers& data, const AnalysisOutput& output)
 
 void analysePowerLaw(const LevelAnswers& data, const AnalysisOutput& output) {
     auto& [job, report, out, table] = output;
+    bool isFitted = false;
     ExportTable summary{"power-law", data.isSimulated, summaryColumns};
     for (const auto& condition : data.groups) {
         std::vector<double> exponents;
@@ -252,9 +253,11 @@ void analysePowerLaw(const LevelAnswers& data, const AnalysisOutput& output) {
             table.row(condition.name, entry.participant, entry.trials, entry.fit.exponent, entry.fit.factor,
                       entry.fit.rSquared);
         }
-        if (exponents.empty()) return reportMissingFits(output);
+        if (exponents.empty()) continue;
+        isFitted = true;
         summarise(summary, condition.name, "exponent", exponents);
     }
+    if (!isFitted) return reportMissingFits(output);
     report.summary = summary.text();
     const auto& first = data.groups.front();
     report.picture = [first, level = job.level.empty() ? std::string("level") : job.level,

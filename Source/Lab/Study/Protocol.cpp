@@ -48,6 +48,12 @@ std::string taskError(const SessionPlan& s) {
         return "alternatives: expected them of " + taskNames({Kind::choice, Kind::level}) + " only";
     if (hasDuplicates(s.alternatives, &Alternative::name))
         return "alternatives: expected a name of its own for each";
+    if (hasDuplicates(s.objects)) return "objects: expected a name of its own for each";
+    const auto hasBar = [](const std::string& name) { return name.find('|') != std::string::npos; };
+    for (const auto& [field, has] :
+         {std::pair{"alternatives", std::ranges::any_of(s.alternatives, hasBar, &Alternative::name)},
+          {"objects", std::ranges::any_of(s.objects, hasBar)}})
+        if (has) return field + std::string{": expected names without |, which parts them in trial files"};
     if (s.bothOrders && !s.comparesPairs && (answer != Kind::choice || s.alternatives.size() != 2))
         return "both_orders: expected it of two alternatives to choose from, or of pairs";
     if ((answer == Kind::scores) == s.scales.empty() && !(answer == Kind::scores && s.objects.size() > 1))

@@ -5,6 +5,7 @@
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace physvib {
@@ -115,10 +116,17 @@ MotorDrive driveOf(const JointDescription& motor) {
 
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
                                          const MotorDrive& drive, const CurrentPose& findPose) {
-    const auto anchorOf = [](const JointDescription& description) {
-        Vector anchor;
-        withMotor(description, [&](const auto& kind) { anchor = kind.anchorMetres; });
-        return anchor;
+    const auto frameOf = [](const JointDescription& description) { // where it is, and how far it may go
+        std::array<double, 3> frame{};
+        withMotor(description, [&](const auto& kind) {
+            std::optional<Interval> limits;
+            if constexpr (requires { kind.limitsRadians; })
+                limits = kind.limitsRadians;
+            else
+                limits = kind.travelMetres;
+            frame = {kind.anchorMetres.x, kind.anchorMetres.y, limits ? limits->lower : 0.0};
+        });
+        return frame;
     };
     Scene presentScene = sceneNow(drawing.drawn(), findPose);
     const auto* drawn = findNamed(drawing.drawn().joints, joint);
@@ -130,8 +138,8 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
         return Failure{"a motor: expected a pin or a wheel, found " + joint};
     std::vector<Action> actions{UnjoinAction{joint}};
     constexpr double tolerance = 1e-6;
-    const Vector before = anchorOf(*drawn), after = anchorOf(*changed);
-    if (portable::hypot(after.x - before.x, after.y - before.y) > tolerance)
+    if (!std::ranges::equal(frameOf(*drawn), frameOf(*changed),
+                            [](double a, double b) { return std::abs(a - b) <= tolerance; }))
         for (const BodyDescription& body : presentScene.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == changed->bodyA || body.name == changed->bodyB))

@@ -41,18 +41,16 @@ int compareRecordings(const AttenuationOptions& o) {
     return exitDone;
 }
 
-Result<std::vector<IsolationMeasurement>> readMeasurements(const std::string& folder) {
-    const auto list = RecordingList::open(folder, {"frequency_hz", "axis", "material"});
-    if (!list) return Failure{list.error};
+Result<std::vector<IsolationMeasurement>> readMeasurements(const RecordingList& list) {
     std::vector<IsolationMeasurement> measurements;
-    for (const CsvRow& row : list.value.rows()) {
+    for (const CsvRow& row : list.rows()) {
         IsolationMeasurement m;
-        m.source = list.value.path(row);
-        const auto hz = list.value.frequencyHz(row);
+        m.source = list.path(row);
+        const auto hz = list.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        m.condition = {list.value.cell(row, "material"),     list.value.cell(row, "softener_percent"),
-                       list.value.cell(row, "thickness_mm"), list.value.cell(row, "voltage_v"),
-                       list.value.cell(row, "axis"),         hz.value};
+        m.condition = {list.cell(row, "material"),     list.cell(row, "softener_percent"),
+                       list.cell(row, "thickness_mm"), list.cell(row, "voltage_v"),
+                       list.cell(row, "axis"),         hz.value};
         m.isReference = m.condition.material == referenceMaterial;
         auto levels = axisLevels(m.source);
         if (!levels) return Failure{levels.error};
@@ -100,7 +98,11 @@ std::string repetitionTable(const std::vector<IsolationResult>& results) {
 }
 
 int summariseFolder(const AttenuationOptions& o) {
-    const auto measurements = readMeasurements(o.isolatedPath);
+    const auto list = RecordingList::open(o.isolatedPath, {"frequency_hz", "axis", "material"});
+    if (!list) return reportExit(exitFailed, list.error);
+    if (const auto clash = list.value.clashError(std::vector{o.exportPath, o.picturePath}); !clash.empty())
+        return reportExit(exitUsage, clash);
+    const auto measurements = readMeasurements(list.value);
     if (!measurements) return reportExit(exitFailed, measurements.error);
     const IsolationStudy study = summariseIsolation(measurements.value);
     if (!study.error.empty()) return reportExit(exitFailed, study.error);

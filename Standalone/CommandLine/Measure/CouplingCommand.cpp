@@ -57,20 +57,18 @@ Result<MeasuredCoupling> averageSums(SumsByFrequency& sumsByHz, const LayoutDesc
     return coupling;
 }
 
-Result<MeasuredCoupling> measureCoupling(const std::string& folder, const LayoutDescription& layout) {
-    const auto list = RecordingList::open(folder, {"frequency_hz", "driven"});
-    if (!list) return Failure{list.error};
+Result<MeasuredCoupling> measureCoupling(const RecordingList& list, const LayoutDescription& layout) {
     const std::size_t actuatorCount = layout.actuators.size();
     SumsByFrequency sumsByHz;
-    for (const CsvRow& row : list.value.rows()) {
-        const auto hz = list.value.frequencyHz(row);
+    for (const CsvRow& row : list.rows()) {
+        const auto hz = list.frequencyHz(row);
         if (!hz) return Failure{hz.error};
         const auto drive =
-            std::ranges::find(layout.actuators, list.value.cell(row, "driven"), &ActuatorDescription::label);
+            std::ranges::find(layout.actuators, list.cell(row, "driven"), &ActuatorDescription::label);
         if (drive == layout.actuators.end())
-            return Failure{list.value.table().cellError(row, *list.value.table().column("driven"),
-                                                        "the label of an actuator of the layout")};
-        const std::string path = list.value.path(row);
+            return Failure{list.table().cellError(row, *list.table().column("driven"),
+                                                  "the label of an actuator of the layout")};
+        const std::string path = list.path(row);
         const auto tones = channelTones(path, hz.value);
         if (!tones) return Failure{tones.error};
         if (tones.value.size() != actuatorCount)
@@ -83,8 +81,7 @@ Result<MeasuredCoupling> measureCoupling(const std::string& folder, const Layout
             return Failure{path + ": " + error};
     }
     auto coupling = averageSums(sumsByHz, layout);
-    return coupling ? coupling
-                    : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
+    return coupling ? coupling : Result<MeasuredCoupling>{Failure{list.table().name + ": " + coupling.error}};
 }
 
 void declareCoupling(OptionTable& command, CouplingOptions& o) {
@@ -101,7 +98,11 @@ void declareCoupling(OptionTable& command, CouplingOptions& o) {
 int runCoupling(const CouplingOptions& o) {
     const auto layout = resolveLayout(o.layout);
     if (!layout) return reportExit(exitFailed, layout.error);
-    const auto coupling = measureCoupling(o.folder, layout.value);
+    const auto list = RecordingList::open(o.folder, {"frequency_hz", "driven"});
+    if (!list) return reportExit(exitFailed, list.error);
+    if (const auto clash = list.value.clashError({&o.outPath, 1}); !clash.empty())
+        return reportExit(exitUsage, clash);
+    const auto coupling = measureCoupling(list.value, layout.value);
     if (!coupling) return reportExit(exitFailed, coupling.error);
     const std::string text = couplingJson(coupling.value, layout.value.name,
                                           "measured: recordings of one driven actuator at a time");

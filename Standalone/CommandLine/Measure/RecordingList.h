@@ -4,6 +4,7 @@
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Limits.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
@@ -11,6 +12,7 @@
 #include <complex>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +44,12 @@ public:
     const std::vector<CsvRow>& rows() const noexcept { return table_.rows; }
     const CsvTable& table() const noexcept { return table_; }
     std::string path(const CsvRow& row) const { return (folder_ / cell(row, "file")).string(); }
+    /// Empty, or one line on an output that is the table of conditions or one of its recordings.
+    std::string clashError(std::span<const std::string> outputs) const {
+        std::vector<std::string> inputs{(folder_ / fileName).string()};
+        for (const CsvRow& row : rows()) inputs.push_back(path(row));
+        return fileClashError(outputs, inputs);
+    }
     /// Empty if there is no such column.
     std::string cell(const CsvRow& row, std::string_view column) const {
         const auto index = table_.column(column);

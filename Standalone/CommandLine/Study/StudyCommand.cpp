@@ -110,6 +110,9 @@ int runForPerson(const StudyOptions& o) {
     if (o.participants > 1)
         return reportExit(exitUsage,
                           "study run: --participants: expected one at a time where a person answers");
+    if (!o.sounds.empty())
+        return reportExit(exitUsage, "study run: --sound: expected sounds in the protocol where a person "
+                                     "answers, as physvib-mixer reads no others");
     if (!hasDisplay())
         return reportExit(exitUsage,
                           "study run: expected --observer, or a display where physvib-mixer shows a "
@@ -209,8 +212,15 @@ int averageAdjustments(const StudyOptions& o) {
                                               [](const SessionPlan& s) { return s.adjustment.has_value(); });
     if (session == protocol.value.sessions.end())
         return reportExit(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
-    const auto data = readStudyFiles(StudySources{o.trials},
-                                     [](const std::vector<NamedText>& files) { return readLevels(files); });
+    const auto data = readStudyFiles(
+        StudySources{o.trials}, [&](const std::vector<NamedText>& files) -> Result<StudyData<LevelTrial>> {
+            for (const NamedText& file : files)
+                if (TrialHead head = parseTrialHead(readCsvTable(file.text, file.name).value.comments);
+                    !head.empty() && head["protocol"] != protocol.value.name)
+                    return Failure{std::string{file.name} + ":1: expected trials of the protocol " +
+                                   inQuotes(protocol.value.name) + ", found " + inQuotes(head["protocol"])};
+            return readLevels(files);
+        });
     if (!data) return reportExit(exitFailed, data.error);
     const auto averages = averageLevels(data.value.groups.front().trials, session->adjustment->alternative);
     if (averages.empty())
