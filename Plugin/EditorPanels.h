@@ -124,6 +124,7 @@ public:
 
     /// Calls `play(note, velocity)` when a key is pressed; velocity 0: it was released.
     explicit KeyboardPanel(std::function<void(int, int)> play);
+    ~KeyboardPanel() override { releaseKey(); } ///< a host may close the window while a key is pressed
     void showState(const PluginState& state, const NoteKnobs& knobs);
 
     /// The note at a point of the component, -1: none; and its velocity, 1 to 127, higher further down.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JUCE's message manager for all tests of a program, with or without a display.
+// JUCE's message manager for all tests of a program, with or without a display, and events of the mouse.
 #pragma once
 #include "Host/MessageLoop.h"
 #include <gtest/gtest.h>
@@ -19,5 +19,28 @@ private:
 };
 inline testing::Environment* const messageManagerForTests =
     testing::AddGlobalTestEnvironment(new MessageManagerForTests);
+
+/// A button, the left one unless another is given, at a place of `c`; pressed there, or elsewhere before.
+inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
+                                juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier,
+                                std::optional<juce::Point<float>> pressedAt = {}) {
+    const auto now = juce::Time::getCurrentTime();
+    const auto from = pressedAt.value_or(at);
+    return {juce::Desktop::getInstance().getMainMouseSource(),
+            at,
+            button,
+            0.0f,
+            0.0f,
+            0.0f,
+            0.0f,
+            0.0f,
+            &c,
+            &c,
+            now,
+            from,
+            now,
+            1,
+            from != at};
+}
 
 } // namespace physvib::test

@@ -172,6 +172,25 @@ TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
     EXPECT_EQ(describeKey(60, MidiTable{shakenBox()}, shakenBox()).substring(0, 4), "C4: ");
 }
 
+TEST(Keyboard, AKeyThatWasPressedIsLetGoWhereverTheMouseGoesAndWithTheWindow) {
+    std::vector<std::pair<int, int>> played;
+    auto keys = std::make_unique<KeyboardPanel>([&played](int n, int v) { played.emplace_back(n, v > 0); });
+    keys->setBounds(0, 0, 940, KeyboardPanel::height);
+    const auto at = [&keys](int x) { return mouseAt(*keys, {static_cast<float>(x), 70.0f}); };
+    const int first = keys->noteAt({400, 70}), next = keys->noteAt({430, 70}), beside = 0;
+    ASSERT_NE(first, next);
+    keys->mouseDown(at(400));
+    for (const int x : {401, 430, beside, 400}) keys->mouseDrag(at(x));
+    keys->mouseUp(at(400));
+    keys->mouseDown(at(beside));
+    keys->mouseDown(at(430));
+    keys.reset();
+    EXPECT_EQ(
+        played,
+        (std::vector<std::pair<int, int>>{
+            {first, 1}, {first, 0}, {next, 1}, {next, 0}, {first, 1}, {first, 0}, {next, 1}, {next, 0}}));
+}
+
 TEST(Keyboard, AKeyOfTheWindowIsANote) {
     PlayedInstrument host{"Strings"};
     host.plugin->playKey(60, 100);
