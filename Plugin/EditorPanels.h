@@ -85,6 +85,10 @@ public:
 
 private:
     bool isNoteRow(int row) const { return row < static_cast<int>(state_.notes.size()); }
+    const NoteRule& noteIn(int row) const { return state_.notes[static_cast<std::size_t>(row)]; }
+    const ControllerRule& controllerIn(int row) const {
+        return state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()];
+    }
     int getNumRows() override { return static_cast<int>(state_.notes.size() + state_.controllers.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
     std::pair<juce::String, juce::String> describeRow(int row) const;
@@ -98,10 +102,11 @@ private:
     void remove(int row);
     juce::AlertWindow& newForm(const juce::String& title);
     void showForm(std::function<void(juce::AlertWindow&)> onAccept); ///< `onAccept` gets the form filled in
-    void showNoteForm(int row, NoteRule rule);
-    void showControllerForm(int row, ControllerRule rule);
-    void storeRule(int row, const NoteRule& rule);
-    void storeRule(int row, const ControllerRule& rule);
+    // `replaced`: the note or controller whose rule is edited, -1: none
+    void showNoteForm(int replaced, NoteRule rule);
+    void showControllerForm(int replaced, ControllerRule rule);
+    void storeRule(int replaced, const NoteRule& rule);
+    void storeRule(int replaced, const ControllerRule& rule);
 
     const EditorActions actions_;
     PluginState state_;

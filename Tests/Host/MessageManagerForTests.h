@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JUCE's message manager for all tests of a program, with or without a display, and events of the mouse.
+// JUCE's message manager for all tests of a program, with or without a display, and what a window needs there.
 #pragma once
 #include "Host/MessageLoop.h"
 #include <gtest/gtest.h>
@@ -42,5 +42,18 @@ inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
             1,
             from != at};
 }
+
+/// For forms and lists, which are placed on a screen, also where there is none.
+struct ScreenForTests {
+    ScreenForTests() {
+        if (!displays.isEmpty()) return;
+        juce::Displays::Display one;
+        one.isMain = true;
+        one.totalArea = one.userArea = {1920, 1080};
+        displays.add(one);
+    }
+    juce::Array<juce::Displays::Display>& displays =
+        const_cast<juce::Displays&>(juce::Desktop::getInstance().getDisplays()).displays;
+};
 
 } // namespace physvib::test

@@ -202,6 +202,103 @@ TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
     editor->refresh();
 }
 
+/// The list of rules for notes and controllers, with its forms.
+struct MidiForms : testing::Test {
+    using Answers = std::vector<std::pair<const char*, juce::String>>;
+
+    ScreenForTests screen;
+    TestHost host;
+    std::unique_ptr<PluginEditor> editor = openEditor<PluginEditor>(*host.plugin);
+    juce::ListBoxModel& list = *below<juce::ListBox>(*editor, [](const auto&) { return true; }) -> getModel();
+
+    /// Fills in the form that is open.
+    void answer(const Answers& answers, int button = 1) {
+        auto* const form = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent());
+        ASSERT_NE(form, nullptr);
+        for (const auto& [id, text] : answers)
+            if (auto* const box = form->getComboBoxComponent(id))
+                box->setText(text);
+            else
+                form->getTextEditor(id)->setText(text);
+        form->exitModalState(button);
+        ASSERT_TRUE(runUntil([form] { return !form->isVisible(); }));
+        editor->refresh();
+    }
+    void add(const juce::String& what, const Answers& answers, int button = 1) {
+        buttonOf(*editor, what)->onClick();
+        answer(answers, button);
+    }
+    juce::String rules() {
+        juce::StringArray rows;
+        for (int row = 0; row < list.getNumRows(); ++row) rows.add(list.getNameForRow(row));
+        return rows.joinIntoString("\n");
+    }
+};
+
+TEST_F(MidiForms, EachAnswerIsInTheRule) {
+    const auto scene = host.plugin->state().scene;
+    const juce::String body{scene.bodies.back().name}, material{scene.materials[3].name};
+    add("Add a note", {{"note", "61"}, {"material", material}, {"x", "25"}, {"y", "75"}});
+    add("Add a note", {{"note", "50"}, {"do", "pushes a body"}, {"object", body}, {"vx", "2"}, {"vy", "3"}});
+    const Answers place{{"material", material}, {"x", "10"}, {"y", "20"}, {"vx", "4"}, {"vy", "5"}};
+    add("Add a note", place);
+    list.returnKeyPressed(1);
+    answer({{"note", "127"}, {"do", "spawns a disc at a place"}, {"radius", "0.2"}});
+    add("Add a controller", {{"controller", "119"}, {"parameter", "Tilt"}});
+    add("Add a controller", {{"controller", "7"}}, 0);
+    const juce::String first = "D3 pushes " + body + " by 2.0, 3.0 N s\n";
+    const juce::String last = "\nG9 spawns a disc of " + material +
+                              " at 10 %, 20 %, radius 0.20 m, 4.0, 5.0 m/s" +
+                              "\nCC 119 moves Tilt over its whole range";
+    EXPECT_EQ(rules(), first + "C#4 strikes " + material + " at 25 %, 75 %" + last);
+    for (const auto& [what, answers] : std::vector<std::pair<juce::String, Answers>>{
+             {"Add a note", {{"note", "128"}}},
+             {"Add a note", {{"x", "101"}}},
+             {"Add a note", {{"y", "-1"}}},
+             {"Add a note", {{"do", "spawns a disc at a place"}, {"radius", "0"}}},
+             {"Add a note", {{"do", "pushes a body"}, {"vx", "1e10"}}},
+             {"Add a controller", {{"controller", "120"}}}}) {
+        const auto before = rules();
+        add(what, answers);
+        EXPECT_TRUE(editor->statusText().startsWith("MIDI: ") && rules() == before) << answers.back().first;
+    }
+    list.returnKeyPressed(1);
+    answer({{"note", "60"}, {"x", "30"}});
+    list.returnKeyPressed(3);
+    answer({{"controller", "1"}, {"parameter", "Gravity"}});
+    list.deleteKeyPressed(2);
+    editor->refresh();
+    EXPECT_EQ(rules(),
+              first + "C4 strikes " + material + " at 30 %, 75 %\nCC 1 moves Gravity over its whole range");
+    list.deleteKeyPressed(2);
+    EXPECT_TRUE(host.plugin->state().controllers.empty());
+}
+
+TEST_F(MidiForms, WhatChangesWhileOneIsOpenIsNotMixedUp) {
+    auto state = emptyBox();
+    const auto show = [&] {
+        EXPECT_TRUE(host.plugin->edit(state));
+        editor->refresh();
+    };
+    const juce::String material{state.scene.materials[3].name};
+    state.notes = {{.note = 40, .material = 3}, {.note = 50, .material = 3}};
+    show();
+    list.returnKeyPressed(1);
+    std::ranges::rotate(state.scene.materials, state.scene.materials.begin() + 1);
+    state.notes = {{.note = 30, .material = 2}, {.note = 40, .material = 2}, {.note = 50, .material = 2}};
+    show();
+    answer({{"note", "51"}});
+    const auto row = " strikes " + material + " at 50 %, 50 %";
+    EXPECT_EQ(rules(), "F#1" + row + "\nE2" + row + "\nD#3" + row);
+    list.returnKeyPressed(0);
+    state.scene.materials.resize(1);
+    state.notes.clear();
+    show();
+    answer({});
+    EXPECT_EQ(editor->statusText(), "The scene has no material " + material);
+    EXPECT_EQ(rules(), "");
+}
+
 // Undo, redo, A and B: whole states with their parameters, and SILENCE stays.
 
 using Step = PluginProcessor::Direction;
