@@ -5,6 +5,7 @@
 #include "Host/Views/StripParts.h"
 #include "MidiMap.h"
 #include "PluginProcessor.h"
+#include "Scene/ActuatorFile.h"
 #include <functional>
 #include <memory>
 #include <vector>
@@ -25,19 +26,21 @@ public:
     MixStrip(const EditorActions& actions, int strip, const juce::String& label);
     void showState(const PluginState& state);
     void update(float peak, bool isConnected);
+    juce::PopupMenu makeActuatorMenu();
+    void chooseActuator(const std::string& nameOrPath);
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     void change(const juce::String&, const std::function<void(Strip&)>& edit) override;
-    void showActuatorMenu();
-    void chooseActuator(const std::string& nameOrPath);
+    Result<ActuatorProfile> profile() const;
     void equalise(bool on);
 
     const EditorActions& actions_;
     const std::size_t index_;
     const juce::String label_;
     ActuatorDescription details_;
+    ActuatorProfile chosen_; // also from a file, of which the state has the name only
     bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
     float peakHold_ = 0.0f;
     double holdUntilMs_ = 0.0;

@@ -187,6 +187,9 @@ TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
     editor->open(file);
     editor->refresh();
     EXPECT_EQ(host.plugin->state().layout.name, "ring3");
+    restore(*host.plugin, std::string{"{ \"\xff\": 1 }"});
+    editor->refresh();
+    EXPECT_TRUE(editor->statusText().endsWith("the host's session keeps it until something is edited here"));
     file.deleteFile();
 }
 
@@ -200,6 +203,74 @@ TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
     host.plugin->edit(state);
     EXPECT_EQ(listener.edits, 1);
     editor->refresh();
+}
+
+TEST(PluginEditor, EachControlChangesItsSettingAlone) {
+    TestHost host;
+    auto editor = openEditor<PluginEditor>(*host.plugin);
+    const auto lines = [&host] {
+        return juce::StringArray::fromLines(pluginStateJson(host.plugin->state()));
+    };
+    using Row = std::array<const char*, 3>; // a control, what is typed, chosen or drawn there, what changes
+    for (const auto& [name, value, change] :
+         {Row{"Steps per second", "123 /s", R"("steps_per_second": 123,)"},
+          Row{"Steps per second", "x", R"("steps_per_second": 10,)"},
+          Row{"Steps per second", "99999", R"("steps_per_second": 10000,)"},
+          Row{"Seed", "7", R"("seed": 7,)"}, Row{"Seed", "9999999999", R"("seed": 4294967295,)"},
+          Row{"Restart on play", "", R"("transport": "restart-on-play")"},
+          Row{"Tempo", "", R"("transport": "in-tempo")"},
+          Row{"Tempo", "", R"("transport": "restart-on-play")"},
+          Row{"Restart on play", "", R"("transport": "free")"}, Row{"Direct", "", R"("direct": true)"},
+          Row{"Limiter", "", R"("limiter": false)"}, Row{"Gain of B", "-7", R"("gain_db": -7)"},
+          Row{"Ceiling of B", "-9", R"("ceiling_db": -9)"},
+          Row{"Strip B", "lra-205", R"("actuator": "lra-205")"},
+          Row{"Strip B", "no profile", R"("actuator": "none")"}}) {
+        const auto before = lines();
+        auto* const control = below<juce::Component>(*editor, [name = name](auto& one) {
+            const auto* const button = dynamic_cast<juce::Button*>(&one);
+            return one.getTitle() == name || (button && button->getButtonText() == name);
+        });
+        if (auto* const list = dynamic_cast<juce::ComboBox*>(control))
+            list->setText(value, juce::sendNotificationSync);
+        if (auto* const box = dynamic_cast<juce::TextEditor*>(control))
+            box->setText(value), box->onFocusLost();
+        if (auto* const slider = dynamic_cast<juce::Slider*>(control))
+            slider->setValue(std::atof(value), juce::sendNotificationSync);
+        if (auto* const strip = dynamic_cast<MixStrip*>(control)) press(strip->makeActuatorMenu(), value);
+        if (auto* const button = dynamic_cast<juce::Button*>(control))
+            button->setToggleState(!button->getToggleState(), juce::dontSendNotification), button->onClick();
+        editor->refresh();
+        auto changed = lines();
+        for (const auto& line : before) changed.removeString(line);
+        const auto text = changed.joinIntoString(" ");
+        EXPECT_TRUE(text.contains(change) && changed.size() <= 2) << name << " " << value << ": " << text;
+    }
+}
+
+TEST(PluginEditor, AnActuatorThatWasMeasuredIsEqualised) { // built-in profiles have no Q
+    TestHost host;
+    auto editor = openEditor<PluginEditor>(*host.plugin);
+    auto& strip = *below<MixStrip>(*editor, [](auto& one) { return one.getTitle() == "Strip B"; });
+    const auto file = juce::File::createTempFile(".json");
+    const auto path = file.getFullPathName();
+    const EqualisedActuator equalised{{204.0, 11.0}, {180.0, 230.0}};
+    ActuatorProfile mine;
+    mine.name = "mine";
+    mine.resonanceHz = 204.0, mine.q = 11.0, mine.band = equalised.band, mine.fullScaleG = 1.5;
+    for (const auto& text : {actuatorJson(mine), std::string{"{}"}}) {
+        file.replaceWithText(text);
+        strip.chooseActuator(path.toStdString());
+        editor->refresh();
+        EXPECT_EQ(host.plugin->state().layout.actuators[1].actuator, "mine");
+        EXPECT_EQ(host.plugin->state().layout.actuators[1].fullScaleG, 1.5);
+    }
+    EXPECT_TRUE(editor->statusText().startsWith(path + ": ")) << editor->statusText();
+    for (const auto& expected : {equalised, EqualisedActuator{}}) {
+        press(strip.makeActuatorMenu(), "Equalised: flat in its band");
+        editor->refresh();
+        EXPECT_EQ(host.plugin->state().equalised[1], expected);
+    }
+    file.deleteFile();
 }
 
 /// The list of rules for notes and controllers, with its forms.
@@ -251,17 +322,18 @@ TEST_F(MidiForms, EachAnswerIsInTheRule) {
                               " at 10 %, 20 %, radius 0.20 m, 4.0, 5.0 m/s" +
                               "\nCC 119 moves Tilt over its whole range";
     EXPECT_EQ(rules(), first + "C#4 strikes " + material + " at 25 %, 75 %" + last);
-    for (const auto& [what, answers] : std::vector<std::pair<juce::String, Answers>>{
-             {"Add a note", {{"note", "128"}}},
-             {"Add a note", {{"x", "101"}}},
-             {"Add a note", {{"y", "-1"}}},
-             {"Add a note", {{"do", "spawns a disc at a place"}, {"radius", "0"}}},
-             {"Add a note", {{"do", "pushes a body"}, {"vx", "1e10"}}},
-             {"Add a controller", {{"controller", "120"}}}}) {
+    for (const auto& [id, wrong, what] :
+         std::vector<std::array<const char*, 3>>{{"note", "128", "strikes a material at a place"},
+                                                 {"x", "101", "strikes a material at a place"},
+                                                 {"y", "-1", "spawns a disc at a place"},
+                                                 {"radius", "0", "spawns a disc at a place"},
+                                                 {"vx", "1e10", "pushes a body"}}) {
         const auto before = rules();
-        add(what, answers);
-        EXPECT_TRUE(editor->statusText().startsWith("MIDI: ") && rules() == before) << answers.back().first;
+        add("Add a note", {{"do", what}, {id, wrong}});
+        EXPECT_TRUE(editor->statusText().startsWith("MIDI: ") && rules() == before) << id;
     }
+    add("Add a controller", {{"controller", "120"}});
+    EXPECT_TRUE(editor->statusText().startsWith("MIDI: ")) << editor->statusText();
     list.returnKeyPressed(1);
     answer({{"note", "60"}, {"x", "30"}});
     list.returnKeyPressed(3);
