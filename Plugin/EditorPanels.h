@@ -5,6 +5,7 @@
 #include "Host/Views/StripParts.h"
 #include "MidiMap.h"
 #include "PluginProcessor.h"
+#include "Scene/ActuatorFile.h"
 #include <functional>
 #include <memory>
 #include <vector>
@@ -25,19 +26,21 @@ public:
     MixStrip(const EditorActions& actions, int strip, const juce::String& label);
     void showState(const PluginState& state);
     void update(float peak, bool isConnected);
+    juce::PopupMenu makeActuatorMenu();
+    void chooseActuator(const std::string& nameOrPath);
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
     void change(const juce::String&, const std::function<void(Strip&)>& edit) override;
-    void showActuatorMenu();
-    void chooseActuator(const std::string& nameOrPath);
+    Result<ActuatorProfile> profile() const;
     void equalise(bool on);
 
     const EditorActions& actions_;
     const std::size_t index_;
     const juce::String label_;
     ActuatorDescription details_;
+    ActuatorProfile chosen_; // also from a file, of which the state has the name only
     bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
     float peakHold_ = 0.0f;
     double holdUntilMs_ = 0.0;
@@ -85,6 +88,10 @@ public:
 
 private:
     bool isNoteRow(int row) const { return row < static_cast<int>(state_.notes.size()); }
+    const NoteRule& noteIn(int row) const { return state_.notes[static_cast<std::size_t>(row)]; }
+    const ControllerRule& controllerIn(int row) const {
+        return state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()];
+    }
     int getNumRows() override { return static_cast<int>(state_.notes.size() + state_.controllers.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
     std::pair<juce::String, juce::String> describeRow(int row) const;
@@ -98,10 +105,11 @@ private:
     void remove(int row);
     juce::AlertWindow& newForm(const juce::String& title);
     void showForm(std::function<void(juce::AlertWindow&)> onAccept); ///< `onAccept` gets the form filled in
-    void showNoteForm(int row, NoteRule rule);
-    void showControllerForm(int row, ControllerRule rule);
-    void storeRule(int row, const NoteRule& rule);
-    void storeRule(int row, const ControllerRule& rule);
+    // `replaced`: the note or controller whose rule is edited, -1: none
+    void showNoteForm(int replaced, NoteRule rule);
+    void showControllerForm(int replaced, ControllerRule rule);
+    void storeRule(int replaced, const NoteRule& rule);
+    void storeRule(int replaced, const ControllerRule& rule);
 
     const EditorActions actions_;
     PluginState state_;
@@ -124,6 +132,7 @@ public:
 
     /// Calls `play(note, velocity)` when a key is pressed; velocity 0: it was released.
     explicit KeyboardPanel(std::function<void(int, int)> play);
+    ~KeyboardPanel() override { releaseKey(); } ///< a host may close the window while a key is pressed
     void showState(const PluginState& state, const NoteKnobs& knobs);
 
     /// The note at a point of the component, -1: none; and its velocity, 1 to 127, higher further down.

@@ -89,10 +89,8 @@ void MidiPanel::updateButtons() {
 
 // The note or controller, and a description of its rule.
 std::pair<juce::String, juce::String> MidiPanel::describeRow(int row) const {
-    const auto i = static_cast<std::size_t>(row);
-    if (isNoteRow(row)) return {noteName(state_.notes[i].note), describe(state_.notes[i], state_.scene)};
-    const auto& rule = state_.controllers[i - state_.notes.size()];
-    return {"CC " + juce::String{rule.controller}, describe(rule)};
+    if (isNoteRow(row)) return {noteName(noteIn(row).note), describe(noteIn(row), state_.scene)};
+    return {"CC " + juce::String{controllerIn(row).controller}, describe(controllerIn(row))};
 }
 
 juce::String MidiPanel::getNameForRow(int row) {
@@ -120,19 +118,18 @@ void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
 void MidiPanel::change(int row) {
     if (row < 0 || row >= getNumRows()) return;
     if (isNoteRow(row))
-        showNoteForm(row, state_.notes[static_cast<std::size_t>(row)]);
+        showNoteForm(noteIn(row).note, noteIn(row));
     else
-        showControllerForm(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
+        showControllerForm(controllerIn(row).controller, controllerIn(row));
 }
 
 void MidiPanel::remove(int row) {
     if (row < 0 || row >= getNumRows()) return;
-    actions_.edit([row](PluginState& state) {
-        const auto notes = static_cast<std::ptrdiff_t>(state.notes.size());
-        if (row < notes)
-            state.notes.erase(state.notes.begin() + row);
+    actions_.edit([this, row](PluginState& state) {
+        if (isNoteRow(row))
+            std::erase(state.notes, noteIn(row));
         else
-            state.controllers.erase(state.controllers.begin() + (row - notes));
+            std::erase(state.controllers, controllerIn(row));
     });
 }
 
@@ -156,7 +153,7 @@ void MidiPanel::showForm(std::function<void(juce::AlertWindow&)> onAccept) {
         }));
 }
 
-void MidiPanel::showNoteForm(int row, NoteRule rule) {
+void MidiPanel::showNoteForm(int replaced, NoteRule rule) {
     const auto bodies = namesIn(state_.scene.bodies, &BodyDescription::name);
     auto& form = newForm("A note");
     form.addTextEditor("note", juce::String{rule.note}, "Note, 0 to 127 (60 is C4)");
@@ -171,53 +168,54 @@ void MidiPanel::showNoteForm(int row, NoteRule rule) {
                        "At full velocity to the right: N s (pushes), m/s (spawns)");
     form.addTextEditor("vy", juce::String{rule.atFullVelocity.y}, "At full velocity upwards");
     form.addTextEditor("radius", juce::String{rule.radiusMetres}, "Radius in m (spawns)");
-    showForm([this, row, rule](juce::AlertWindow& answers) mutable {
+    showForm([this, replaced, rule](juce::AlertWindow& answers) mutable {
         rule.note = answers.getTextEditorContents("note").getIntValue();
         rule.kind = static_cast<NoteKind>(answers.getComboBoxComponent("do")->getSelectedItemIndex());
-        rule.material = std::max(0, answers.getComboBoxComponent("material")->getSelectedItemIndex());
-        if (rule.kind != NoteKind::push && state_.scene.materials.empty())
-            return actions_.report("The scene has no material to strike");
+        const auto material = answers.getComboBoxComponent("material")->getText();
+        const int found = namesIn(state_.scene.materials, &Material::name).indexOf(material);
+        if (rule.kind != NoteKind::push && found < 0)
+            return actions_.report("The scene has no material " + material);
+        rule.material = std::max(0, found);
         rule.object = answers.getComboBoxComponent("object")->getText().toStdString();
         rule.x = 0.01 * readNumber(answers, "x");
         rule.y = 0.01 * readNumber(answers, "y");
         rule.atFullVelocity = {readNumber(answers, "vx"), readNumber(answers, "vy")};
         rule.radiusMetres = readNumber(answers, "radius");
-        storeRule(row, rule);
+        storeRule(replaced, rule);
     });
 }
 
-void MidiPanel::showControllerForm(int row, ControllerRule rule) {
+void MidiPanel::showControllerForm(int replaced, ControllerRule rule) {
     auto& form = newForm("A controller");
     form.addTextEditor("controller", juce::String{rule.controller}, "Controller, 0 to 119");
     addChoice(form, "parameter", namesIn(allParameters(), &ParameterRow::name), findParameter(rule.parameter),
               "Parameter that it moves");
-    showForm([this, row, rule](juce::AlertWindow& answers) mutable {
+    showForm([this, replaced, rule](juce::AlertWindow& answers) mutable {
         rule.controller = answers.getTextEditorContents("controller").getIntValue();
         const int chosen = answers.getComboBoxComponent("parameter")->getSelectedItemIndex();
         rule.parameter = rowOf(static_cast<Parameter>(chosen)).id;
-        storeRule(row, rule);
+        storeRule(replaced, rule);
     });
 }
 
-// Replaces the edited rule and any other rule for the same note; rules stay sorted by note.
-void MidiPanel::storeRule(int row, const NoteRule& rule) {
-    actions_.edit([row, &rule](PluginState& state) {
-        if (row >= 0 && row < static_cast<int>(state.notes.size()))
-            state.notes.erase(state.notes.begin() + row);
-        std::erase_if(state.notes, [&rule](const NoteRule& other) { return other.note == rule.note; });
+// Replaces the rule of the edited note and any other rule for the same note; rules stay sorted by note. By
+// number, as the list may have changed while the form was open.
+void MidiPanel::storeRule(int replaced, const NoteRule& rule) {
+    actions_.edit([replaced, &rule](PluginState& state) {
+        std::erase_if(state.notes, [&](const NoteRule& other) {
+            return other.note == rule.note || other.note == replaced;
+        });
         const auto place = std::ranges::find_if(
             state.notes, [&rule](const NoteRule& other) { return other.note > rule.note; });
         state.notes.insert(place, rule);
     });
 }
 
-void MidiPanel::storeRule(int row, const ControllerRule& rule) {
-    actions_.edit([row, &rule](PluginState& state) {
-        const int index = row - static_cast<int>(state.notes.size());
-        if (row >= 0 && index >= 0 && index < static_cast<int>(state.controllers.size()))
-            state.controllers.erase(state.controllers.begin() + index);
-        std::erase_if(state.controllers,
-                      [&rule](const ControllerRule& other) { return other.controller == rule.controller; });
+void MidiPanel::storeRule(int replaced, const ControllerRule& rule) {
+    actions_.edit([replaced, &rule](PluginState& state) {
+        std::erase_if(state.controllers, [&](const ControllerRule& other) {
+            return other.controller == rule.controller || other.controller == replaced;
+        });
         state.controllers.push_back(rule);
     });
 }

@@ -3,7 +3,6 @@
 #include "Core/Units.h"
 #include "EditorPanels.h"
 #include "EditorParts.h"
-#include "Scene/ActuatorFile.h"
 
 namespace physvib {
 
@@ -27,7 +26,10 @@ MixStrip::MixStrip(const EditorActions& actions, int strip, const juce::String& 
     actuator_.setTitle("Actuator of " + label);
     actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
-    actuator_.onClick = [this] { showActuatorMenu(); };
+    actuator_.onClick = [this] {
+        makeActuatorMenu().showMenuAsync(
+            juce::PopupMenu::Options{}.withTargetComponent(actuator_).withDeletionCheck(*this));
+    };
     addAndMakeVisible(actuator_);
 }
 
@@ -61,7 +63,7 @@ void MixStrip::update(float peak, bool isConnected) {
     repaint();
 }
 
-void MixStrip::showActuatorMenu() {
+juce::PopupMenu MixStrip::makeActuatorMenu() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Actuator of " + label_);
     menu.addItem("no profile", true, details_.actuator == "none", [this] { chooseActuator("none"); });
@@ -73,12 +75,12 @@ void MixStrip::showActuatorMenu() {
                    [this](const juce::File& file) { chooseActuator(file.getFullPathName().toStdString()); });
     });
     menu.addSeparator();
-    const auto profile = findActuator(details_.actuator);
-    const bool canEqualise = isEqualised_ || (profile && equaliserError(profile.value).empty());
+    const auto found = profile();
+    const bool canEqualise = isEqualised_ || (found && equaliserError(found.value).empty());
     menu.addItem("Equalised: flat in its band", canEqualise, isEqualised_,
                  [this] { equalise(!isEqualised_); });
     menu.setLookAndFeel(&getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(actuator_).withDeletionCheck(*this));
+    return menu;
 }
 
 // An equalised strip stays equalised if the new actuator's profile allows it.
@@ -86,7 +88,7 @@ void MixStrip::chooseActuator(const std::string& nameOrPath) {
     const auto profile =
         nameOrPath == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(nameOrPath);
     if (!profile) return actions_.report(fromUtf8(profile.error));
-    const auto& p = profile.value;
+    const auto& p = chosen_ = profile.value;
     const bool canEqualise = !p.name.empty() && equaliserError(p).empty();
     actions_.edit([&, j = index_](PluginState& state) {
         auto& details = state.layout.actuators[j];
@@ -98,12 +100,16 @@ void MixStrip::chooseActuator(const std::string& nameOrPath) {
     });
 }
 
+Result<ActuatorProfile> MixStrip::profile() const {
+    return chosen_.name == details_.actuator ? chosen_ : findActuator(details_.actuator);
+}
+
 void MixStrip::equalise(bool on) {
-    const auto profile = findActuator(details_.actuator);
-    if (on && (!profile || !equaliserError(profile.value).empty())) return;
+    const auto found = profile();
+    if (on && (!found || !equaliserError(found.value).empty())) return;
     actions_.edit([&, j = index_](PluginState& state) {
         state.equalised[j] =
-            on ? EqualisedActuator{profile.value.resonator(), *profile.value.band} : EqualisedActuator{};
+            on ? EqualisedActuator{found.value.resonator(), *found.value.band} : EqualisedActuator{};
     });
 }
 

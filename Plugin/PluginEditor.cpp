@@ -141,7 +141,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
              &steps_, &restart_,   &midi_,      &silence_, &direct_,   &tempo_, &fitOutputs_,
              &world_, &hintLabel_, &midiPanel_, &mix_,     &keys_,     &status_})
         addAndMakeVisible(c);
-    mix_.onMenu = [this] { showMenu(plugin_.parameter(Parameter::level)); };
+    mix_.onMenu = [this] { showMenu(makeMenu(plugin_.parameter(Parameter::level))); };
     addParameterControls();
     setUpControls();
     showMidi(false);
@@ -176,8 +176,9 @@ void PluginEditor::addParameterControls() {
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
             controls.back()->onMenu = [this](ParameterControl& control) {
-                if (control.isList()) return showMenu(control.parameter());
-                showMenu(control.parameter(), [&control] { control.editValue(); });
+                std::function<void()> editValue;
+                if (!control.isList()) editValue = [&control] { control.editValue(); };
+                showMenu(makeMenu(control.parameter(), editValue));
             };
             if (which == Parameter::material || which == Parameter::noteMaterial)
                 materialLists_.push_back(controls.back().get());
@@ -226,9 +227,12 @@ void PluginEditor::setUpControls() {
     scene_.onChange = [this] {
         const int id = scene_.getSelectedId();
         if (id == 0) return;
-        if (id >= firstUserPreset) return open(presets_[static_cast<std::size_t>(id - firstUserPreset)]);
         message_.clear();
-        plugin_.choosePreset(id - 1);
+        if (id < firstUserPreset)
+            plugin_.choosePreset(id - 1);
+        else
+            open(presets_[static_cast<std::size_t>(id - firstUserPreset)]);
+        stateChanged(); // the list shows what plays, not what could not be opened
     };
     layout_.onChange = [this] {
         if (const int i = layout_.getSelectedItemIndex(); i >= 0)
@@ -241,7 +245,8 @@ void PluginEditor::setUpControls() {
                                        steps_.getText().getIntValue());
         edit([steps](PluginState& s) { s.stepsPerSecond = steps; });
     };
-    seed_.onReturnKey = [this] {
+    seed_.onReturnKey = seed_.onFocusLost = [this] {
+        if (seed_.getText() == seedText()) return;
         edit([this](PluginState& s) {
             s.seed = static_cast<std::uint32_t>(
                 std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff));
@@ -255,7 +260,7 @@ void PluginEditor::setUpControls() {
     setTransportOnClick(restart_, TransportMode::restartOnPlay, TransportMode::free);
     setTransportOnClick(tempo_, TransportMode::inTempo, TransportMode::restartOnPlay);
     direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
-    files_.onClick = [this] { showFiles(); };
+    files_.onClick = [this] { showMenu(makeFilesMenu(), &files_); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
@@ -354,7 +359,7 @@ void PluginEditor::stateChanged() {
     select(scene_, displayName(state_.scene.name));
     select(layout_, state_.layout.name);
     steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
-    seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
+    seed_.setText(seedText(), false);
     restart_.setToggleState(state_.transport != TransportMode::free, juce::dontSendNotification);
     tempo_.setToggleState(state_.transport == TransportMode::inTempo, juce::dontSendNotification);
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);

@@ -51,6 +51,9 @@ public:
     /// Makes the next controller received move that parameter.
     void learn(Parameter which);
     void stepHistory(PluginProcessor::Direction direction); ///< undo, redo, or exchange of A and B
+    juce::PopupMenu makeFilesMenu();
+    /// The host's menu for this parameter with our entries after it.
+    juce::PopupMenu makeMenu(HostParameter& parameter, const std::function<void()>& editValue = {});
     /// Save the state as a preset, and the played events in the format that the file's name ends with.
     void savePresetAs(const juce::File& file);
     void exportPlayedAs(const juce::File& file);
@@ -87,6 +90,7 @@ private:
     void timerCallback() override { refresh(); }
     void stateChanged();
     void refreshControls();
+    juce::String seedText() const { return juce::String{static_cast<juce::int64>(state_.seed)}; }
     juce::String latencyText() const;
     juce::String outputText(const ChannelMeters& meters) const;
     void addParameterControls();
@@ -94,8 +98,7 @@ private:
     void showHint(const juce::String& text);
     void setUpControls();
     void updateMaterialNames();
-    void showFiles();
-    void showMenu(HostParameter& parameter, const std::function<void()>& editValue = {});
+    void showMenu(juce::PopupMenu menu, juce::Component* below = nullptr); ///< null: at the mouse
     void finishLearning();
     static bool hasOpenPopup();
     void listenToHostWindow();

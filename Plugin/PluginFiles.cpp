@@ -190,7 +190,7 @@ void PluginEditor::fillPresets() {
     scene_.setText(shown, juce::dontSendNotification);
 }
 
-void PluginEditor::showFiles() {
+juce::PopupMenu PluginEditor::makeFilesMenu() {
     juce::PopupMenu menu;
     menu.addItem(fromUtf8("Open\xe2\x80\xa6"), [this] {
         chooseFile(chooser_, "A preset, a scene, a layout or a session", openFlags,
@@ -228,8 +228,7 @@ void PluginEditor::showFiles() {
         setTheme(isLight ? Theme::dark : Theme::light);
         saveTheme(look_.theme());
     });
-    menu.setLookAndFeel(&look_);
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
+    return menu;
 }
 
 void PluginEditor::stepHistory(PluginProcessor::Direction direction) {
@@ -238,7 +237,10 @@ void PluginEditor::stepHistory(PluginProcessor::Direction direction) {
 }
 
 void PluginEditor::savePresetAs(const juce::File& file) {
-    const auto target = file.withFileExtension("json");
+    const auto name = file.hasFileExtension("json") ? file.getFileNameWithoutExtension() : file.getFileName();
+    const auto target = file.getSiblingFile(name + ".json");
+    if (target != file && target.exists()) // the chooser has asked only about `file`
+        return report(target.getFileName() + " exists: choose it in the list to replace it");
     const std::string error = savePreset(plugin_.state(), target);
     report(error.empty() ? target.getFileName() + " is saved" : fromUtf8(error));
     fillPresets();
@@ -258,8 +260,7 @@ void PluginEditor::exportPlayedAs(const juce::File& file) {
     report(written ? fromUtf8(written.value).trim() + droppedNote : fromUtf8(written.error));
 }
 
-// Shows the host's menu for this parameter with our entries after it.
-void PluginEditor::showMenu(HostParameter& parameter, const std::function<void()>& editValue) {
+juce::PopupMenu PluginEditor::makeMenu(HostParameter& parameter, const std::function<void()>& editValue) {
     juce::PopupMenu menu;
     std::unique_ptr<juce::HostProvidedContextMenu> hostMenu;
     if (auto* const context = getHostContext()) hostMenu = context->getContextMenuForParameter(&parameter);
@@ -274,17 +275,18 @@ void PluginEditor::showMenu(HostParameter& parameter, const std::function<void()
     if (editValue) menu.addItem("Type a value", editValue);
     menu.addItem("Learn a controller: move it now", true, learningParameter_ == static_cast<int>(which),
                  [this, which] { learn(which); });
-    const std::string id{parameter.row().id};
     for (const auto& rule : state_.controllers)
-        if (rule.parameter == id)
-            menu.addItem("Forget controller " + juce::String{rule.controller}, [this, id] {
-                edit([&id](PluginState& s) {
-                    std::erase_if(s.controllers, [&id](const auto& other) { return other.parameter == id; });
-                });
+        if (rule.parameter == parameter.row().id)
+            menu.addItem("Forget controller " + juce::String{rule.controller}, [this, rule] {
+                edit([&rule](PluginState& s) { std::erase(s.controllers, rule); });
             });
+    return menu;
+}
+
+void PluginEditor::showMenu(juce::PopupMenu menu, juce::Component* below) {
+    const auto at = juce::PopupMenu::Options{}.withTargetComponent(below ? below : this);
     menu.setLookAndFeel(&look_);
-    menu.showMenuAsync(
-        juce::PopupMenu::Options{}.withTargetComponent(this).withMousePosition().withDeletionCheck(*this));
+    menu.showMenuAsync((below ? at : at.withMousePosition()).withDeletionCheck(*this));
 }
 
 void PluginEditor::learn(Parameter which) {

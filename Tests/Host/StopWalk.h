@@ -142,21 +142,10 @@ private:
         }
     }
     static void doublePress(juce::Component& c) {
-        const juce::MouseEvent e{juce::Desktop::getInstance().getMainMouseSource(),
+        const juce::MouseEvent e(juce::Desktop::getInstance().getMainMouseSource(),
                                  c.getLocalBounds().toFloat().getCentre(),
-                                 juce::ModifierKeys::leftButtonModifier,
-                                 0,
-                                 0,
-                                 0,
-                                 0,
-                                 0,
-                                 &c,
-                                 &c,
-                                 juce::Time::getCurrentTime(),
-                                 {},
-                                 juce::Time::getCurrentTime(),
-                                 2,
-                                 false};
+                                 juce::ModifierKeys::leftButtonModifier, 0, 0, 0, 0, 0, &c, &c,
+                                 juce::Time::getCurrentTime(), {}, juce::Time::getCurrentTime(), 2, false);
         c.mouseDoubleClick(e);
     }
     void holdAndMove(juce::Component& c) {

@@ -148,19 +148,6 @@ TEST(QuestionCard, APictureStandsBesideTheWordsAndFollowsWhatIsTyped) {
 
 // Where recordings and documents go, in homes with and without documents.
 
-/// Another home folder for the test.
-class Home {
-public:
-    explicit Home(const juce::File& home)
-        : before_{juce::SystemStats::getEnvironmentVariable("HOME", {})} {
-        setenv("HOME", home.getFullPathName().toRawUTF8(), 1);
-    }
-    ~Home() { setenv("HOME", before_.toRawUTF8(), 1); }
-
-private:
-    juce::String before_;
-};
-
 TEST(UserFolder, IsInTheDocumentsOrTheHomeAndCreatedWhenItIsNeeded) {
     TestFolder home;
     const Home here{home.folder};

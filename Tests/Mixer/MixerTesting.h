@@ -57,29 +57,6 @@ inline juce::String chooseIn(juce::Component& view, const juce::String& title, c
     return {};
 }
 
-/// A button, the left one unless another is given, at a place of `c`; pressed there, or elsewhere before.
-inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
-                                juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier,
-                                std::optional<juce::Point<float>> pressedAt = {}) {
-    const auto now = juce::Time::getCurrentTime();
-    const auto from = pressedAt.value_or(at);
-    return {juce::Desktop::getInstance().getMainMouseSource(),
-            at,
-            button,
-            0.0f,
-            0.0f,
-            0.0f,
-            0.0f,
-            0.0f,
-            &c,
-            &c,
-            now,
-            from,
-            now,
-            1,
-            from != at};
-}
-
 /// Another scene, as a choice from a list gives.
 inline void setScene(MixerModel& model, const Scene& scene) {
     model.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });

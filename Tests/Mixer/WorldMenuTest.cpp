@@ -16,22 +16,6 @@ struct Field : NewSceneRig {
 
 struct OnField : testing::Test, Field {};
 
-juce::StringArray wordsOf(const juce::PopupMenu& menu) {
-    juce::StringArray words;
-    for (juce::PopupMenu::MenuItemIterator it{menu}; it.next();)
-        if (!it.getItem().isSeparator) words.add(it.getItem().text);
-    return words;
-}
-
-void press(const juce::PopupMenu& menu, const juce::String& words) {
-    for (juce::PopupMenu::MenuItemIterator it{menu, true}; it.next();)
-        if (it.getItem().text == words) {
-            ASSERT_TRUE(it.getItem().isEnabled) << words;
-            return it.getItem().action();
-        }
-    FAIL() << words << " is not among " << wordsOf(menu).joinIntoString(", ");
-}
-
 TEST_F(OnField, EachThingHasItsOwn) {
     add(DrawTool::ball, 0.5, 0.5);
     const auto ball = wordsOf(makeMenu(share(0.5, 0.5))), empty = wordsOf(makeMenu(share(0.2, 0.8))),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every parameter that a host may move is felt, at each end of its range and in between, for itself alone.
+#include "Lv2Parts.h"
 #include "PluginTesting.h"
 #include <map>
 #include <set>
@@ -54,4 +55,29 @@ TEST(EveryParameter, IsFeltForItselfAlone) {
 }
 
 } // namespace
+TEST(Lv2Controls, WhatTheWindowSetIsWrittenToItsPortUntilTheHostHasIt) {
+    TestHost host;
+    Lv2Controls controls;
+    std::array<float, Lv2Controls::portCount> ports{};
+    ports[Lv2Controls::enabled] = 1.0f;
+    for (const auto& row : allParameters()) {
+        host.setToDefault(row.parameter);
+        ports[static_cast<std::size_t>(row.parameter)] = static_cast<float>(row.initial);
+    }
+    for (std::size_t p = 0; p < ports.size(); ++p) controls.connect(p, &ports[p]);
+    const auto write = [&](std::size_t p) { return controls.valueToWrite(p, *host.plugin); };
+    EXPECT_FALSE(write(0)) << "before the first block";
+    controls.read(*host.plugin);
+    for (const auto& row : allParameters()) {
+        const auto p = static_cast<std::size_t>(row.parameter);
+        EXPECT_FALSE(write(p)) << row.name;
+        host.setNormal(row.parameter, row.initial == row.maximum ? 0.0f : 1.0f);
+        ASSERT_TRUE(write(p)) << row.name;
+        EXPECT_NEAR(ports[p] = *write(p), row.initial == row.maximum ? row.minimum : row.maximum, 1e-4);
+    }
+    EXPECT_EQ(ports[Lv2Controls::enabled] = *write(Lv2Controls::enabled), 0.0f) << "bypassed";
+    controls.read(*host.plugin);
+    for (std::size_t p = 0; p < ports.size(); ++p) EXPECT_FALSE(write(p)) << p;
+}
+
 } // namespace physvib::everyParameter

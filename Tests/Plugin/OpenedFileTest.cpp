@@ -59,17 +59,23 @@ SavedSession sampleSession() {
 
 TEST_F(PluginFiles, ASceneIsPlayedAndNotesThatItHasNoMaterialForAreLeftOut) {
     auto state = host_.plugin->state();
-    state.notes = {{.note = 0, .material = 1}, {.note = 1, .material = 2}};
+    const auto push = [&state](int note, std::size_t body) {
+        return NoteRule{.note = note, .kind = NoteKind::push, .object = state.scene.bodies[body].name};
+    };
+    state.notes = {{.note = 0, .material = 1}, {.note = 1, .material = 2}, push(2, 1), push(3, 0)};
     Scene own = state.scene;
     own.name = "own";
-    own.bodies.clear();
+    own.bodies.resize(1);
+    own.bodies[0].fixtures[0].material = 0;
+    own.bodies[0].fixtures[0].isCamera = false;
     own.joints.clear();
     own.script.clear();
     own.materials = {state.scene.materials[1]};
     const auto opened = open("scene.json", sceneJson(own), state);
     EXPECT_EQ(opened.state.scene.name, "own");
-    ASSERT_EQ(opened.state.notes.size(), 1u);
+    ASSERT_EQ(opened.state.notes.size(), 2u);
     EXPECT_EQ(opened.state.notes[0].material, 0) << "the same, at its new place";
+    EXPECT_EQ(opened.state.notes[1], state.notes[3]) << "the body that is there";
     EXPECT_TRUE(host_.plugin->edit(opened.state));
     EXPECT_EQ(host_.plugin->errorText(), "");
 }

@@ -175,6 +175,13 @@ TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
     EXPECT_TRUE(editor->statusText().startsWith(
         "felt 41.6 ms after the contact: 20.7 ms block and thread + 20.0 ms two steps + 1.0 ms limiter"))
         << editor->statusText();
+    auto direct = busy();
+    direct.isDirect = true;
+    ASSERT_TRUE(host.plugin->edit(direct));
+    editor->refresh();
+    EXPECT_TRUE(
+        editor->statusText().endsWith("limiter, strikes 1.0 ms after the note (reported to the host)"))
+        << editor->statusText();
     ASSERT_TRUE(host.plugin->edit(presetNamed("Keys")));
     editor->refresh();
     EXPECT_TRUE(editor->statusText().startsWith("felt 1.0 ms after the note: 1.0 ms limiter"))

@@ -172,6 +172,25 @@ TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
     EXPECT_EQ(describeKey(60, MidiTable{shakenBox()}, shakenBox()).substring(0, 4), "C4: ");
 }
 
+TEST(Keyboard, AKeyThatWasPressedIsLetGoWhereverTheMouseGoesAndWithTheWindow) {
+    std::vector<std::pair<int, int>> played;
+    auto keys = std::make_unique<KeyboardPanel>([&played](int n, int v) { played.emplace_back(n, v > 0); });
+    keys->setBounds(0, 0, 940, KeyboardPanel::height);
+    const auto at = [&keys](int x) { return mouseAt(*keys, {static_cast<float>(x), 70.0f}); };
+    const int first = keys->noteAt({400, 70}), next = keys->noteAt({430, 70}), beside = 0;
+    ASSERT_NE(first, next);
+    keys->mouseDown(at(400));
+    for (const int x : {401, 430, beside, 400}) keys->mouseDrag(at(x));
+    keys->mouseUp(at(400));
+    keys->mouseDown(at(beside));
+    keys->mouseDown(at(430));
+    keys.reset();
+    EXPECT_EQ(
+        played,
+        (std::vector<std::pair<int, int>>{
+            {first, 1}, {first, 0}, {next, 1}, {next, 0}, {first, 1}, {first, 0}, {next, 1}, {next, 0}}));
+}
+
 TEST(Keyboard, AKeyOfTheWindowIsANote) {
     PlayedInstrument host{"Strings"};
     host.plugin->playKey(60, 100);
@@ -205,6 +224,103 @@ TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
         << "a controller moves one";
 }
 
+TEST(Learning, EachEntryOfAParametersMenuDoesWhatItSays) {
+    TestHost host;
+    auto state = host.plugin->state();
+    state.controllers = {{7, "tilt"}, {8, "tilt"}, {9, "gravity"}};
+    ASSERT_TRUE(host.plugin->edit(state));
+    const auto editor = openEditor<PluginEditor>(*host.plugin);
+    auto& tilt = host.plugin->parameter(Parameter::tilt);
+    const auto menu = editor->makeMenu(tilt);
+    EXPECT_EQ(wordsOf(menu).size(), 4) << wordsOf(menu).joinIntoString(", ");
+    press(menu, "Forget controller 7");
+    EXPECT_EQ(host.plugin->state().controllers, (std::vector<ControllerRule>{{8, "tilt"}, {9, "gravity"}}));
+    tilt.setValue(1.0f);
+    press(menu, "Back to " + tilt.getText(tilt.getDefaultValue(), 0));
+    EXPECT_EQ(tilt.getValue(), tilt.getDefaultValue());
+    press(menu, "Learn a controller: move it now");
+    editor->refresh();
+    EXPECT_EQ(editor->statusText(), "Move a controller: it will move Tilt");
+}
+
+/// A home folder of its own, as presets are in the user's.
+struct PresetList : testing::Test {
+    PresetList() {
+        EXPECT_EQ(savePreset(presetNamed("Strings"), presetFolder().getChildFile("Mine.json")), "");
+        EXPECT_TRUE(presetFolder().getChildFile("Old.json").replaceWithText("{}"));
+        editor = openEditor<PluginEditor>(*host.plugin);
+        list = below<juce::ComboBox>(*editor,
+                                     [](const auto& one) { return one.getTitle() == "Instrument or world"; });
+    }
+    ~PresetList() override { folder.deleteRecursively(); }
+    juce::String said() {
+        editor->refresh();
+        return editor->statusText();
+    }
+    const juce::File folder = juce::File::createTempFile("home");
+    const Home home{folder};
+    TestHost host;
+    std::unique_ptr<PluginEditor> editor;
+    juce::ComboBox* list = nullptr;
+};
+
+TEST_F(PresetList, ShowsWhatPlays) {
+    for (const auto& [chosen, playing] :
+         {std::pair{"Bass", "Bass"}, {"Mine", "Strings"}, {"Old", "Strings"}}) {
+        list->setText(chosen, juce::sendNotificationSync);
+        EXPECT_EQ(host.plugin->state().scene.name, playing);
+        EXPECT_EQ(list->getText(), playing) << chosen;
+        EXPECT_EQ(said().contains("Old.json"), juce::String{"Old"} == chosen) << said();
+    }
+}
+
+TEST_F(PresetList, NothingIsReplacedThatNobodyWasAskedAbout) {
+    const auto file = [](const char* name) { return presetFolder().getChildFile(name); };
+    const auto mine = file("Mine.json").loadFileAsString();
+    for (const auto& [name, words] :
+         {std::pair{"Mine", "Mine.json exists: choose it in the list to replace it"},
+          {"Bass 1.5", "Bass 1.5.json is saved"}}) {
+        editor->savePresetAs(file(name));
+        EXPECT_EQ(said(), words);
+        EXPECT_EQ(file("Mine.json").loadFileAsString(), mine);
+    }
+    EXPECT_EQ(presetFiles(presetFolder()).front(), file("Bass 1.5.json"));
+    editor->savePresetAs(file("Mine.json"));
+    EXPECT_NE(file("Mine.json").loadFileAsString(), mine);
+    editor->savePresetAs(file("Mine.json/Lost.json"));
+    EXPECT_TRUE(said().contains("Mine.json: ")) << said();
+}
+
+TEST_F(PresetList, EachEntryOfTheMenuOfFilesDoesWhatItSays) {
+    const auto take = [this](const char* words) { press(editor->makeFilesMenu(), words); };
+    const auto isOn = [this](const juce::String& words) {
+        return itemOf(editor->makeFilesMenu(), words).isEnabled;
+    };
+    const auto exportWords = juce::String::fromUTF8("Export what was felt\xe2\x80\xa6");
+    EXPECT_FALSE(isOn("Undo") || isOn("Redo") || isOn(exportWords));
+    auto state = host.plugin->state();
+    state.seed = 5;
+    ASSERT_TRUE(host.plugin->edit(state));
+    std::vector<std::uint32_t> seeds;
+    for (const auto* words : {"Undo", "Redo", "Compare: go to B", "Compare: back to A", "Undo"})
+        take(words), seeds.push_back(host.plugin->state().seed);
+    EXPECT_EQ(seeds, (std::vector<std::uint32_t>{1, 5, 5, 5, 1}));
+    take("About PhysVib");
+    EXPECT_TRUE(said().contains("GPL-3.0-or-later")) << said();
+    for (const bool isLight : {true, false}) {
+        take("Light window");
+        EXPECT_EQ(savedTheme() == Theme::light, isLight);
+        EXPECT_EQ(itemOf(editor->makeFilesMenu(), "Light window").isTicked, isLight);
+    }
+    editor->exportPlayedAs(folder.getChildFile("felt.csv"));
+    EXPECT_TRUE(said().startsWith("nothing was felt yet")) << said();
+    host.prepare(48000, 480);
+    host.block(480, oneNote(60));
+    host.played(9600);
+    editor->exportPlayedAs(folder.getChildFile("felt.csv"));
+    EXPECT_TRUE(said().endsWith("felt.csv: 1 events") && isOn(exportWords)) << said();
+}
+
 TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     const auto folder = juce::File::createTempFile("presets");
     PlayedInstrument maker{"MPE pad"};
@@ -213,6 +329,7 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     auto state = maker.plugin->state();
     state.editorWidth = 1500;
     state.editorHeight = 900;
+    state.limiterEnabled = false;
     EXPECT_EQ(savePreset(state, folder.getChildFile("Mine.json")), "");
     const auto files = presetFiles(folder);
     ASSERT_EQ(files.size(), 1u);
@@ -222,14 +339,23 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     const auto now = other.plugin->state();
     const auto opened = openFile(files[0].getFullPathName().toStdString(), now);
     ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "Mine.json: lowered to this instance: master 0.0 to -12.0 dB; music");
+    EXPECT_EQ(opened.value.note,
+              "Mine.json: lowered to this instance: master 0.0 to -12.0 dB; music; the limiter "
+              "stays on");
     other.plugin->open(opened.value.state);
     EXPECT_EQ(other.plugin->state().voice, state.voice);
+    EXPECT_TRUE(other.plugin->state().limiterEnabled);
     EXPECT_NEAR(other.plugin->parameter(Parameter::level).value(), -12.0, 1e-5);
     EXPECT_NEAR(other.plugin->parameter(Parameter::music).value(), 0.0, 1e-5);
     EXPECT_NE(other.plugin->state().editorWidth, 1500);
-    EXPECT_TRUE(files[0].replaceWithText(R"({"physvib_plugin_state": 5, "seed": "much"})"));
-    EXPECT_FALSE(openFile(files[0].getFullPathName().toStdString(), now));
+    auto unknown = now;
+    unknown.parameters.emplace_back("volume", 1.0);
+    for (const auto& text :
+         {std::string{R"({"physvib_plugin_state": 5, "seed": "much"})"}, pluginStateJson(unknown)}) {
+        EXPECT_TRUE(files[0].replaceWithText(text));
+        const auto path = files[0].getFullPathName().toStdString();
+        EXPECT_EQ(openFile(path, now).error.find(path + ": "), 0u);
+    }
     folder.deleteRecursively();
 }
 

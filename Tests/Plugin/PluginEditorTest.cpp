@@ -187,19 +187,174 @@ TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
     editor->open(file);
     editor->refresh();
     EXPECT_EQ(host.plugin->state().layout.name, "ring3");
+    restore(*host.plugin, std::string{"{ \"\xff\": 1 }"});
+    editor->refresh();
+    EXPECT_TRUE(editor->statusText().endsWith("the host's session keeps it until something is edited here"));
     file.deleteFile();
 }
 
-TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
+TEST(PluginEditor, EachControlChangesItsSettingAloneAndTheHostIsTold) {
     TestHost host;
     HostNews listener{*host.plugin};
     auto editor = openEditor<PluginEditor>(*host.plugin);
-    EXPECT_EQ(listener.edits, 0) << "to open it is no edit";
-    auto state = host.plugin->state();
-    state.seed = 99;
-    host.plugin->edit(state);
-    EXPECT_EQ(listener.edits, 1);
+    const auto lines = [&host] {
+        return juce::StringArray::fromLines(pluginStateJson(host.plugin->state()));
+    };
+    int edits = 0;                          // to open it is none
+    using Row = std::array<const char*, 3>; // a control, what is typed, chosen or drawn there, what changes
+    for (const auto& [name, value, change] :
+         {Row{"Steps per second", "123 /s", R"("steps_per_second": 123,)"},
+          Row{"Steps per second", "x", R"("steps_per_second": 10,)"},
+          Row{"Steps per second", "99999", R"("steps_per_second": 10000,)"},
+          Row{"Seed", "7", R"("seed": 7,)"}, Row{"Seed", "9999999999", R"("seed": 4294967295,)"},
+          Row{"Restart on play", "", R"("transport": "restart-on-play")"},
+          Row{"Tempo", "", R"("transport": "in-tempo")"},
+          Row{"Tempo", "", R"("transport": "restart-on-play")"},
+          Row{"Restart on play", "", R"("transport": "free")"}, Row{"Direct", "", R"("direct": true)"},
+          Row{"Limiter", "", R"("limiter": false)"}, Row{"Gain of B", "-7", R"("gain_db": -7)"},
+          Row{"Ceiling of B", "-9", R"("ceiling_db": -9)"},
+          Row{"Strip B", "lra-205", R"("actuator": "lra-205")"},
+          Row{"Strip B", "no profile", R"("actuator": "none")"}}) {
+        const auto before = lines();
+        auto* const control = below<juce::Component>(*editor, [name = name](auto& one) {
+            const auto* const button = dynamic_cast<juce::Button*>(&one);
+            return one.getTitle() == name || (button && button->getButtonText() == name);
+        });
+        if (auto* const list = dynamic_cast<juce::ComboBox*>(control))
+            list->setText(value, juce::sendNotificationSync);
+        if (auto* const box = dynamic_cast<juce::TextEditor*>(control))
+            box->setText(value), box->onFocusLost();
+        if (auto* const slider = dynamic_cast<juce::Slider*>(control))
+            slider->setValue(std::atof(value), juce::sendNotificationSync);
+        if (auto* const strip = dynamic_cast<MixStrip*>(control)) press(strip->makeActuatorMenu(), value);
+        if (auto* const button = dynamic_cast<juce::Button*>(control))
+            button->setToggleState(!button->getToggleState(), juce::dontSendNotification), button->onClick();
+        editor->refresh();
+        auto changed = lines();
+        for (const auto& line : before) changed.removeString(line);
+        const auto text = changed.joinIntoString(" ");
+        EXPECT_EQ(listener.edits, ++edits);
+        EXPECT_TRUE(text.contains(change) && changed.size() <= 2) << name << " " << value << ": " << text;
+    }
+}
+
+TEST(PluginEditor, AnActuatorThatWasMeasuredIsEqualised) { // built-in profiles have no Q
+    TestHost host;
+    auto editor = openEditor<PluginEditor>(*host.plugin);
+    auto& strip = *below<MixStrip>(*editor, [](auto& one) { return one.getTitle() == "Strip B"; });
+    const auto file = juce::File::createTempFile(".json");
+    const EqualisedActuator equalised{{204.0, 11.0}, {180.0, 230.0}};
+    ActuatorProfile mine;
+    mine.name = "mine";
+    mine.resonanceHz = 204.0, mine.q = 11.0, mine.band = equalised.band, mine.fullScaleG = 1.5;
+    for (const auto& text : {actuatorJson(mine), std::string{"{}"}}) {
+        file.replaceWithText(text);
+        strip.chooseActuator(file.getFullPathName().toStdString());
+        editor->refresh();
+        EXPECT_EQ(host.plugin->state().layout.actuators[1].actuator, "mine");
+        EXPECT_EQ(host.plugin->state().layout.actuators[1].fullScaleG, 1.5);
+    }
+    EXPECT_TRUE(editor->statusText().startsWith(file.getFullPathName() + ": "));
+    for (const auto& expected : {equalised, EqualisedActuator{}}) {
+        press(strip.makeActuatorMenu(), "Equalised: flat in its band");
+        editor->refresh();
+        EXPECT_EQ(host.plugin->state().equalised[1], expected);
+    }
+    file.deleteFile();
+}
+
+/// The list of rules for notes and controllers, with its forms.
+struct MidiForms : testing::Test {
+    using Answers = std::vector<std::pair<const char*, juce::String>>;
+
+    ScreenForTests screen;
+    TestHost host;
+    std::unique_ptr<PluginEditor> editor = openEditor<PluginEditor>(*host.plugin);
+    juce::ListBoxModel& list = *below<juce::ListBox>(*editor, [](const auto&) { return true; }) -> getModel();
+
+    /// Fills in the form that is open.
+    void answer(const Answers& answers, int button = 1) {
+        auto* const form = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent());
+        ASSERT_NE(form, nullptr);
+        for (const auto& [id, text] : answers)
+            if (auto* const box = form->getComboBoxComponent(id))
+                box->setText(text);
+            else
+                form->getTextEditor(id)->setText(text);
+        form->exitModalState(button);
+        ASSERT_TRUE(runUntil([form] { return !form->isVisible(); }));
+        editor->refresh();
+    }
+    void add(const juce::String& what, const Answers& answers, int button = 1) {
+        buttonOf(*editor, what)->onClick();
+        answer(answers, button);
+    }
+    juce::String rules() {
+        juce::StringArray rows;
+        for (int row = 0; row < list.getNumRows(); ++row) rows.add(list.getNameForRow(row));
+        return rows.joinIntoString("\n");
+    }
+};
+
+TEST_F(MidiForms, EachAnswerIsInTheRule) {
+    const auto scene = host.plugin->state().scene;
+    const juce::String body{scene.bodies.back().name}, material{scene.materials[3].name};
+    add("Add a note", {{"note", "61"}, {"material", material}, {"x", "25"}, {"y", "75"}});
+    add("Add a note", {{"note", "50"}, {"do", "pushes a body"}, {"object", body}, {"vx", "2"}, {"vy", "3"}});
+    const Answers place{{"material", material}, {"x", "10"}, {"y", "20"}, {"vx", "4"}, {"vy", "5"}};
+    add("Add a note", place);
+    list.returnKeyPressed(1);
+    answer({{"note", "127"}, {"do", "spawns a disc at a place"}, {"radius", "0.2"}});
+    add("Add a controller", {{"controller", "119"}, {"parameter", "Tilt"}});
+    add("Add a controller", {{"controller", "7"}}, 0);
+    const juce::String first = "D3 pushes " + body + " by 2.0, 3.0 N s\n";
+    const juce::String last = "\nG9 spawns a disc of " + material +
+                              " at 10 %, 20 %, radius 0.20 m, 4.0, 5.0 m/s" +
+                              "\nCC 119 moves Tilt over its whole range";
+    EXPECT_EQ(rules(), first + "C#4 strikes " + material + " at 25 %, 75 %" + last);
+    for (const auto& [id, wrong, what] :
+         std::vector<std::array<const char*, 3>>{{"note", "128", "strikes a material at a place"},
+                                                 {"x", "101", "strikes a material at a place"},
+                                                 {"y", "-1", "spawns a disc at a place"},
+                                                 {"radius", "0", "spawns a disc at a place"},
+                                                 {"vx", "1e10", "pushes a body"}}) {
+        const auto before = rules();
+        add("Add a note", {{"do", what}, {id, wrong}});
+        EXPECT_TRUE(editor->statusText().startsWith("MIDI: ") && rules() == before) << id;
+    }
+    add("Add a controller", {{"controller", "120"}});
+    EXPECT_TRUE(editor->statusText().startsWith("MIDI: ")) << editor->statusText();
+    list.returnKeyPressed(1);
+    answer({{"note", "60"}, {"x", "30"}});
+    list.returnKeyPressed(3);
+    answer({{"controller", "1"}, {"parameter", "Gravity"}});
+    list.deleteKeyPressed(2);
     editor->refresh();
+    EXPECT_EQ(rules(),
+              first + "C4 strikes " + material + " at 30 %, 75 %\nCC 1 moves Gravity over its whole range");
+    list.deleteKeyPressed(2);
+    EXPECT_TRUE(host.plugin->state().controllers.empty());
+}
+
+TEST_F(MidiForms, WhatChangesWhileOneIsOpenIsNotMixedUp) {
+    auto state = emptyBox();
+    const auto show = [&] { host.plugin->edit(state), editor->refresh(); };
+    const juce::String material{state.scene.materials[3].name};
+    state.notes = {{.note = 40, .material = 3}, {.note = 50, .material = 3}};
+    show();
+    list.returnKeyPressed(1);
+    std::ranges::rotate(state.scene.materials, state.scene.materials.begin() + 1);
+    state.notes = {{.note = 30, .material = 2}, {.note = 40, .material = 2}, {.note = 50, .material = 2}};
+    show();
+    answer({{"note", "51"}});
+    const auto row = " strikes " + material + " at 50 %, 50 %";
+    EXPECT_EQ(rules(), "F#1" + row + "\nE2" + row + "\nD#3" + row);
+    list.returnKeyPressed(0);
+    state.scene.materials.resize(1);
+    state.notes.clear();
+    show();
+    answer({});
+    EXPECT_EQ(editor->statusText(), "The scene has no material " + material);
 }
 
 // Undo, redo, A and B: whole states with their parameters, and SILENCE stays.
