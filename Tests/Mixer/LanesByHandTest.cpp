@@ -280,6 +280,21 @@ TEST_F(RecordedLanes, EndWhereAGroupIsAddedAndBeginAgain) {
     EXPECT_FALSE(model.mix().groups[0].lane.empty());
 }
 
+TEST_F(RecordedLanes, StayWithTheirStripAndGroupWhereOthersBeforeThemGo) {
+    model.change("Groups", [](Mix& mix) { addGroup(mix, "Left hand"), addGroup(mix, "Right hand"); });
+    start();
+    setFaders({-10.0, -10.0, -12.0});
+    model.change("Gain", [](Mix& mix) { mix.groups[1].gainDb = -6.0; });
+    ASSERT_TRUE(wait(0.1));
+    model.detach(1);
+    model.change("Ungroup", [](Mix& mix) { removeGroup(mix, 0); });
+    model.poll();
+    for (const auto& [j, db] : {std::pair{0, -10.0}, {1, -12.0}, {2, 0.0}}) // A, C and D
+        EXPECT_EQ(gainDbAt(model.mix(), j, 1e9), db) << labelOf(model.mix(), j);
+    ASSERT_FALSE(model.mix().groups[0].lane.empty());
+    EXPECT_EQ(model.mix().groups[0].lane.back().db, -6.0);
+}
+
 // Groups at the model and in its window: what they do to strips, how they are named, shown and taken back.
 
 struct LeftHand : RecordedLanes {
