@@ -168,8 +168,9 @@ void MixerLanes::end() {
         if (faders[i].moves.empty() || maxLaneDb(faders[i].moves) <= minStripDb) continue;
         const bool isStrip = i < stripCount_;
         const auto groups = now.begin() + std::ssize(next.strips), first = isStrip ? now.begin() : groups,
-                   last = isStrip ? groups : now.end(),
-                   found = std::find_if(first, last, [&](const Fader&f) { return f.name == faders[i].name; });
+                   last = isStrip ? groups : now.end();
+        const auto found =
+            std::find_if(first, last, [&](const Fader& f) { return f.name == faders[i].name; });
         if (found == last) continue; // it was removed meanwhile
         const auto write = [&](auto& target) {
             writeLane(faders[i].moves, faders[i].startDb, target.gainDb, target.lane);
