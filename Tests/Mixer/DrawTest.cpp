@@ -483,6 +483,22 @@ TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
     EXPECT_FALSE(body("box 1")->fixtures[0].restitution);
 }
 
+TEST_F(Drawing, ATypedNumberHasADecimalPointOrComma) {
+    for (const auto& [title, typed, value] : {std::tuple{"Bounce", "0,5", 0.5},
+                                              {"Bounce", "0.25 lively", 0.25},
+                                              {"Density", "1,250 medium", 1250.0},
+                                              {"Belt speed", "-1,5 m/s", -1.5},
+                                              {"Motor speed", "2.5", 2.5},
+                                              {"Motor torque", "1,000 N m", 1000.0},
+                                              {"Stiffness of the spring", "0,5 Hz", 0.5},
+                                              {"Exponent", "1,5", 1.5},
+                                              {"Frequency", "165,5 Hz", 165.5},
+                                              {"Frequency", "1,200.5 Hz", 1200.5},
+                                              {"The script begins at", "1,5", 1.5},
+                                              {"The script ends at", "to 1,234.50 s", 1234.5}})
+        EXPECT_DOUBLE_EQ(the<juce::Slider>(view, title).getValueFromText(typed), value) << title << typed;
+}
+
 std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std::int64_t untilNs) {
     Simulation world{scene, seed, 100};
     std::vector<CollisionEvent> events;
