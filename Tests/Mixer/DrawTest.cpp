@@ -483,6 +483,19 @@ TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
     EXPECT_FALSE(body("box 1")->fixtures[0].restitution);
 }
 
+TEST_F(Drawing, WhereNoMaterialVibratesTheFirstIsDrawnWith) {
+    Scene scene = newScene(drawn(), SceneGround::floor);
+    for (auto& material : scene.materials) material.frequencyHz = 0.0;
+    for (auto& body : scene.bodies) body.fixtures[0].isCamera = false;
+    setScene(model, scene);
+    settle();
+    pane.setTool(DrawTool::wall); // as of any tool, which chooses its material
+    EXPECT_EQ(pane.material(), 0);
+    drawBall();
+    ASSERT_NE(body("ball 1"), nullptr) << model.messageText();
+    EXPECT_EQ(body("ball 1")->fixtures[0].material, 0);
+}
+
 TEST_F(Drawing, ATypedNumberHasADecimalPointOrComma) {
     for (const auto& [title, typed, value] : {std::tuple{"Bounce", "0,5", 0.5},
                                               {"Bounce", "0.25 lively", 0.25},
