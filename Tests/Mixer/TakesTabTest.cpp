@@ -94,6 +94,20 @@ TEST_F(ListedTakes, ATakeIsCopiedAndDeletedWithItsEvents) {
     EXPECT_EQ(list().getModel()->getNumRows(), 0);
 }
 
+TEST_F(ListedTakes, WhatIsChosenStaysChosenAndKeepsItsEventsWhereItCannotBeDeleted) {
+    takes->choose(0);
+    writeTake(folder("another.wav"), 0.1);
+    folder("another.wav").setLastModificationTime(juce::Time::getCurrentTime() + juce::RelativeTime{60.0});
+    takes->rescan();
+    EXPECT_EQ(list().getModel()->getNameForRow(list().getSelectedRow()), "hands-take, 1.5 s");
+    folder("hands-take.wav").deleteFile();
+    folder("hands-take.wav/inside").createDirectory(); // deleting no folder that is not empty
+    button("Delete the take").onClick();
+    view.question()->answer("Delete");
+    EXPECT_TRUE(runUntil([&] { return list().getModel()->getNumRows() == 1; }));
+    EXPECT_EQ(folder("hands-take.csv").existsAsFile(), folder("hands-take.wav").exists());
+}
+
 SampledSound soundOf(const juce::File& file) {
     auto sound = readRecording(pathOf(file));
     EXPECT_TRUE(sound) << sound.error;
