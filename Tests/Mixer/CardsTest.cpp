@@ -203,4 +203,20 @@ TEST(UserFolder, NothingIsOverwritten) {
     EXPECT_EQ(folder.newFile("take", endings).value, home("take-3.wav"));
 }
 
+TEST(RenderTask, EndsWhenItIsCancelledAndSaysSoOnlyOfWhatWasNotMade) {
+    for (const std::string error : {"", "cancelled", "the disk is full"}) {
+        std::string told;
+        const auto work = [error](const auto& progress) {
+            for (int k = 0; k < 5000 && progress(0.5); ++k) juce::Thread::sleep(1);
+            return error;
+        };
+        RenderTask task{{}, work, [&](const std::string& line, bool isCancelled) {
+                            told = line + (isCancelled ? ", nothing made" : ", told");
+                        }};
+        the<juce::Button>(task, "Cancel the making of the file").onClick();
+        EXPECT_TRUE(runUntil([&] { return !told.empty(); }, 2.0));
+        EXPECT_EQ(told, error + (error == "cancelled" ? ", nothing made" : ", told"));
+    }
+}
+
 } // namespace physvib::cards_test
