@@ -243,19 +243,6 @@ TEST_F(RecordedLanes, AreAddedToTheLaneThatPlays) {
     EXPECT_EQ(gainDbAt(model.mix(), 0, 1e9), -16.0);
 }
 
-TEST_F(RecordedLanes, AreOfTheGroupWhoseFaderWasMoved) {
-    model.change("Groups", [](Mix& mix) {
-        addGroup(mix, "Left hand");
-        addGroup(mix, "Right hand");
-    });
-    start();
-    model.change("Gain", [](Mix& mix) { mix.groups[1].gainDb = -12.0; });
-    stop();
-    EXPECT_TRUE(model.mix().groups[0].lane.empty());
-    ASSERT_FALSE(model.mix().groups[1].lane.empty());
-    EXPECT_EQ(model.mix().groups[1].lane.back().db, -12.0);
-}
-
 TEST_F(RecordedLanes, EndWithTheRunOfTheSceneAndBeginWithTheNext) {
     start();
     setFaders({-10.0, 0.0, 0.0});
