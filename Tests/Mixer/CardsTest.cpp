@@ -82,17 +82,15 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     EXPECT_EQ(asked.taken, asked.folder("there.json"));
     asked.card->keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_EQ(asked.cancelled, 1);
-}
-
-TEST(FileCard, SavesInAFolderThatIsThereOnly) {
-    Asked asked{true};
-    asked.card->setName("missing/mine");
-    asked.card->accept();
-    EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->error().contains("expected a folder")) << asked.card->error();
-    asked.card->setName("inner/mine.json");
-    asked.card->accept();
-    EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));
+    Asked saved{true};
+    for (const auto& [name, taken, error] :
+         {std::tuple{"missing/mine", juce::File{}, "expected a folder"},
+          {"inner/mine.json", saved.folder("inner").getChildFile("mine.json"), ""}}) {
+        saved.card->setName(name);
+        saved.card->accept();
+        EXPECT_EQ(saved.taken, taken);
+        EXPECT_TRUE(saved.card->error().contains(error)) << saved.card->error();
+    }
 }
 
 TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {

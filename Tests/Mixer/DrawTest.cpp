@@ -519,8 +519,6 @@ TEST_F(Drawing, WhereNoMaterialVibratesTheFirstIsDrawnWith) {
     for (auto& body : scene.bodies) body.fixtures[0].isCamera = false;
     setScene(model, scene);
     settle();
-    pane.setTool(DrawTool::wall); // as of any tool, which chooses its material
-    EXPECT_EQ(pane.material(), 0);
     drawBall();
     ASSERT_NE(body("ball 1"), nullptr) << model.messageText();
     EXPECT_EQ(body("ball 1")->fixtures[0].material, 0);
@@ -531,11 +529,9 @@ TEST_F(Drawing, ATypedNumberHasADecimalPointOrComma) {
                                               {"Bounce", "0.25 lively", 0.25},
                                               {"Density", "1,250 medium", 1250.0},
                                               {"Belt speed", "-1,5 m/s", -1.5},
-                                              {"Motor speed", "2.5", 2.5},
                                               {"Motor torque", "1,000 N m", 1000.0},
                                               {"Stiffness of the spring", "0,5 Hz", 0.5},
                                               {"Exponent", "1,5", 1.5},
-                                              {"Frequency", "165,5 Hz", 165.5},
                                               {"Frequency", "1,200.5 Hz", 1200.5},
                                               {"The script begins at", "1,5", 1.5},
                                               {"The script ends at", "to 1,234.50 s", 1234.5}})
@@ -670,22 +666,18 @@ TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
         << "what it has caught up with is no more than real time";
 }
 
-TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
+TEST(FirstStart, APicoComesFirstThenTheInterfaceAndNoDeviceLast) {
+    const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
     const auto ordered = sortedByLikelihood({{"None", "no device", 0},
                                              {"ALSA", "HDMI 0", 8},
                                              {"ALSA", "Default ALSA Output", 32},
                                              {"JACK", "system", 8},
+                                             {"ALSA", pico, 8},
                                              {"ALSA", "USB Audio", 8}});
     std::vector<std::string> names;
     for (const auto& device : ordered) names.push_back(device.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0",
+    EXPECT_EQ(names, (std::vector<std::string>{pico, "system", "USB Audio", "Default ALSA Output", "HDMI 0",
                                                "no device"}));
-}
-
-TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
-    const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
-    const auto ordered = sortedByLikelihood({{"JACK", "system", 8}, {"ALSA", pico, 8}});
-    EXPECT_EQ(ordered.front().name, pico);
     EXPECT_STREQ(layoutPresetFor(8, pico), "pico8");
     EXPECT_STREQ(layoutPresetFor(4, "CoreAudio:PhysVib pico4"), "pico4");
     EXPECT_STREQ(layoutPresetFor(8, picoDeviceName), "pico8") << "as play calls the first one";
