@@ -329,6 +329,14 @@ TEST_F(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     EXPECT_NE(body("rain 10"), nullptr);
     undo();
     EXPECT_EQ(drawn().bodies.size(), before);
+    model.setSlowness(0);
+    setScene(model, *findBuiltInScene("drop"));
+    settle();
+    drag(share(0.4, 0.4), share(0.6, 0.6));
+    setScene(model, *findBuiltInScene("marbles")); // before any time has passed
+    settle();
+    model.setSlowness(1), runFor(0.2), view.refresh();
+    EXPECT_EQ(body("rain 2"), nullptr) << "a rain is of its scene";
 }
 
 TEST_F(Drawing, WhoTakesAnotherToolChoosesNothing) {
@@ -666,7 +674,7 @@ TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
         << "what it has caught up with is no more than real time";
 }
 
-TEST(FirstStart, APicoComesFirstThenTheInterfaceAndNoDeviceLast) {
+TEST(FirstStart, APicoComesFirstThenTheInterfaceAndNoDeviceLastAndItReplacesTheFirstLayout) {
     const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
     const auto ordered = sortedByLikelihood({{"None", "no device", 0},
                                              {"ALSA", "HDMI 0", 8},
@@ -682,9 +690,6 @@ TEST(FirstStart, APicoComesFirstThenTheInterfaceAndNoDeviceLast) {
     EXPECT_STREQ(layoutPresetFor(4, "CoreAudio:PhysVib pico4"), "pico4");
     EXPECT_STREQ(layoutPresetFor(8, picoDeviceName), "pico8") << "as play calls the first one";
     EXPECT_STREQ(layoutPresetFor(8, "system"), "phone4");
-}
-
-TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
     Mix mix = MixerModel::defaultMix();
     fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");
