@@ -82,17 +82,15 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     EXPECT_EQ(asked.taken, asked.folder("there.json"));
     asked.card->keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_EQ(asked.cancelled, 1);
-}
-
-TEST(FileCard, SavesInAFolderThatIsThereOnly) {
-    Asked asked{true};
-    asked.card->setName("missing/mine");
-    asked.card->accept();
-    EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->error().contains("expected a folder")) << asked.card->error();
-    asked.card->setName("inner/mine.json");
-    asked.card->accept();
-    EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));
+    Asked saved{true};
+    for (const auto& [name, taken, error] :
+         {std::tuple{"missing/mine", juce::File{}, "expected a folder"},
+          {"inner/mine.json", saved.folder("inner").getChildFile("mine.json"), ""}}) {
+        saved.card->setName(name);
+        saved.card->accept();
+        EXPECT_EQ(saved.taken, taken);
+        EXPECT_TRUE(saved.card->error().contains(error)) << saved.card->error();
+    }
 }
 
 TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
@@ -188,6 +186,22 @@ TEST(UserFolder, NothingIsOverwritten) {
     EXPECT_EQ(folder.newFile("take", endings).value, home("take-2.wav"));
     home("take-2.wav").replaceWithText("a take");
     EXPECT_EQ(folder.newFile("take", endings).value, home("take-3.wav"));
+}
+
+TEST(RenderTask, EndsWhenItIsCancelledAndSaysSoOnlyOfWhatWasNotMade) {
+    for (const std::string error : {"", "cancelled", "the disk is full"}) {
+        std::string told;
+        const auto work = [error](const auto& progress) {
+            for (int k = 0; k < 5000 && progress(0.5); ++k) juce::Thread::sleep(1);
+            return error;
+        };
+        RenderTask task{{}, work, [&](const std::string& line, bool isCancelled) {
+                            told = line + (isCancelled ? ", nothing made" : ", told");
+                        }};
+        the<juce::Button>(task, "Cancel the making of the file").onClick();
+        EXPECT_TRUE(runUntil([&] { return !told.empty(); }, 2.0));
+        EXPECT_EQ(told, error + (error == "cancelled" ? ", nothing made" : ", told"));
+    }
 }
 
 } // namespace physvib::cards_test

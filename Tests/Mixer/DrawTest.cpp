@@ -18,16 +18,17 @@ namespace physvib::draw_test {
 using namespace test;
 
 struct Board : NewSceneRig {
+    int keysHeld = 0; // while the mouse is used
     juce::MouseEvent mouse(Vector at, Vector pressedAt) {
-        return mouseAt(pane, world.pixelOfMetres(at), juce::ModifierKeys::leftButtonModifier,
+        return mouseAt(pane, world.pixelOfMetres(at), juce::ModifierKeys::leftButtonModifier | keysHeld,
                        world.pixelOfMetres(pressedAt));
     }
-    void drag(Vector from, Vector to) {
+    void stroke(Vector from, Vector to) {
         pane.mouseDown(mouse(from, from));
         pane.mouseDrag(mouse(to, from));
         pane.mouseUp(mouse(to, from));
-        settle();
     }
+    void drag(Vector from, Vector to) { stroke(from, to), settle(); }
     void key(juce::juce_wchar c) {
         key(KeyPress{static_cast<int>(juce::CharacterFunctions::toUpperCase(c)), {}, c});
     }
@@ -328,6 +329,14 @@ TEST_F(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     EXPECT_NE(body("rain 10"), nullptr);
     undo();
     EXPECT_EQ(drawn().bodies.size(), before);
+    model.setSlowness(0);
+    setScene(model, *findBuiltInScene("drop"));
+    settle();
+    drag(share(0.4, 0.4), share(0.6, 0.6));
+    setScene(model, *findBuiltInScene("marbles")); // before any time has passed
+    settle();
+    model.setSlowness(1), runFor(0.2), view.refresh();
+    EXPECT_EQ(body("rain 2"), nullptr) << "a rain is of its scene";
 }
 
 TEST_F(Drawing, WhoTakesAnotherToolChoosesNothing) {
@@ -483,6 +492,60 @@ TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
     EXPECT_FALSE(body("box 1")->fixtures[0].restitution);
 }
 
+TEST_F(Drawing, ARectangleChoosesShiftAddsAndTheHandleTurnsOnTheGridInSteps) {
+    for (const double x : {0.3, 0.6, 0.9}) pane.addAt(DrawTool::box, share(x, 0.5));
+    settle();
+    key('s');
+    const int shift = juce::ModifierKeys::shiftModifier;
+    const auto box = share(0.3, 0.5), air = share(0.01, 0.9);
+    for (const auto& [keys, from, to, chosen] :
+         {std::tuple{0, share(0.2, 0.4), share(0.7, 0.6), std::vector<std::string>{"box 1", "box 2"}},
+          {shift, share(0.8, 0.6), share(0.99, 0.4), {"box 1", "box 2", "box 3"}},
+          {shift, box, box, {"box 2", "box 3"}},
+          {shift, air, air, {"box 2", "box 3"}},
+          {0, box, box, {"box 1"}},
+          {0, air, air, {}}}) {
+        keysHeld = keys;
+        stroke(from, to);
+        EXPECT_EQ(pane.selected(), chosen);
+    }
+    for (const auto& [name, degrees] : {std::pair{"box 1", -80.0}, {"box 2", -75.0}}) {
+        pane.select({name});
+        const double up = 26.0 / static_cast<double>(world.pixelsPerMetre()) +
+                          0.5 * std::get<BoxShape>(body(name)->fixtures[0].shape).heightMetres,
+                     turn = juce::degreesToRadians(80.0);
+        const auto [x, y] = body(name)->positionMetres;
+        stroke({x, y + up}, {x + up * std::sin(turn), y + up * std::cos(turn)});
+        EXPECT_NEAR(juce::radiansToDegrees(body(name)->angleRadians), degrees, 0.01);
+        pane.setSnapping(true);
+    }
+}
+
+TEST_F(Drawing, WhereNoMaterialVibratesTheFirstIsDrawnWith) {
+    Scene scene = newScene(drawn(), SceneGround::floor);
+    for (auto& material : scene.materials) material.frequencyHz = 0.0;
+    for (auto& body : scene.bodies) body.fixtures[0].isCamera = false;
+    setScene(model, scene);
+    settle();
+    drawBall();
+    ASSERT_NE(body("ball 1"), nullptr) << model.messageText();
+    EXPECT_EQ(body("ball 1")->fixtures[0].material, 0);
+}
+
+TEST_F(Drawing, ATypedNumberHasADecimalPointOrComma) {
+    for (const auto& [title, typed, value] : {std::tuple{"Bounce", "0,5", 0.5},
+                                              {"Bounce", "0.25 lively", 0.25},
+                                              {"Density", "1,250 medium", 1250.0},
+                                              {"Belt speed", "-1,5 m/s", -1.5},
+                                              {"Motor torque", "1,000 N m", 1000.0},
+                                              {"Stiffness of the spring", "0,5 Hz", 0.5},
+                                              {"Exponent", "1,5", 1.5},
+                                              {"Frequency", "1,200.5 Hz", 1200.5},
+                                              {"The script begins at", "1,5", 1.5},
+                                              {"The script ends at", "to 1,234.50 s", 1234.5}})
+        EXPECT_DOUBLE_EQ(the<juce::Slider>(view, title).getValueFromText(typed), value) << title << typed;
+}
+
 std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std::int64_t untilNs) {
     Simulation world{scene, seed, 100};
     std::vector<CollisionEvent> events;
@@ -524,7 +587,7 @@ TEST_F(Drawing, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
     EXPECT_EQ(script.recording(), nullptr);
 }
 
-TEST_F(Drawing, AnEditOfTheDrawingEndsTheRecordingAndStays) {
+TEST_F(Drawing, AnEditOfTheDrawingEndsTheRecordingWhoseEndsAreDragged) {
     MixerScript& script = model.script();
     script.start();
     ASSERT_TRUE(runUntil([&] { return model.poll(), script.seconds() > 0.05; }));
@@ -533,6 +596,25 @@ TEST_F(Drawing, AnEditOfTheDrawingEndsTheRecordingAndStays) {
     EXPECT_TRUE(runUntil([&] { return model.poll(), !script.isRecording(); }));
     ASSERT_EQ(drawn().script.size(), 1U);
     EXPECT_NE(body("ball 1"), nullptr);
+    show();
+    auto& strip = the(view, "Script of hands");
+    ASSERT_TRUE(runUntil([&] { return pane.setTool(DrawTool::hand), show(), strip.isVisible(); }));
+    const double length = script.recording()->lengthSeconds;
+    for (const auto& [from, to, begin, end] :
+         {std::tuple{0.1, 0.25, 0.25, 1.0}, {0.9, 0.75, 0.25, 0.75}, {0.7, 0.2, 0.25, 0.75}}) { // an empty
+                                                                                                // part is
+                                                                                                // none
+        const auto at = [&](double share) {
+            return mouseAt(strip,
+                           {12.0f + static_cast<float>(share) * static_cast<float>(strip.getWidth() - 24),
+                            static_cast<float>(strip.getHeight()) - 19.0f});
+        };
+        strip.mouseDown(at(from)), strip.mouseDrag(at(to)), strip.mouseUp(at(to));
+        show();
+        EXPECT_NEAR(script.trim().fromSeconds, begin * length, 0.01);
+        EXPECT_NEAR(script.trim().toSeconds, end * length, 0.01);
+    }
+    EXPECT_NEAR(the<juce::Slider>(view, "The script ends at").getValue(), 0.75 * length, 0.01);
 }
 
 TEST(NewScene, ABallThatFallsInANewBoxIsFelt) {
@@ -592,29 +674,22 @@ TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
         << "what it has caught up with is no more than real time";
 }
 
-TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
+TEST(FirstStart, APicoComesFirstThenTheInterfaceAndNoDeviceLastAndItReplacesTheFirstLayout) {
+    const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
     const auto ordered = sortedByLikelihood({{"None", "no device", 0},
                                              {"ALSA", "HDMI 0", 8},
                                              {"ALSA", "Default ALSA Output", 32},
                                              {"JACK", "system", 8},
+                                             {"ALSA", pico, 8},
                                              {"ALSA", "USB Audio", 8}});
     std::vector<std::string> names;
     for (const auto& device : ordered) names.push_back(device.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0",
+    EXPECT_EQ(names, (std::vector<std::string>{pico, "system", "USB Audio", "Default ALSA Output", "HDMI 0",
                                                "no device"}));
-}
-
-TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
-    const std::string pico = "PhysVib pico8, USB Audio; Direct hardware device without any conversions";
-    const auto ordered = sortedByLikelihood({{"JACK", "system", 8}, {"ALSA", pico, 8}});
-    EXPECT_EQ(ordered.front().name, pico);
     EXPECT_STREQ(layoutPresetFor(8, pico), "pico8");
     EXPECT_STREQ(layoutPresetFor(4, "CoreAudio:PhysVib pico4"), "pico4");
     EXPECT_STREQ(layoutPresetFor(8, picoDeviceName), "pico8") << "as play calls the first one";
     EXPECT_STREQ(layoutPresetFor(8, "system"), "phone4");
-}
-
-TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
     Mix mix = MixerModel::defaultMix();
     fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");

@@ -77,7 +77,7 @@ TEST_F(LanesByHand, ANewPointIsDraggedFromWhereItWasAddedAndUndoneWithIt) {
     EXPECT_TRUE(lane().empty());
 }
 
-TEST_F(LanesByHand, APointStaysBetweenItsNeighbours) {
+TEST_F(LanesByHand, APointStaysBetweenItsNeighboursAndReturnAddsOneWhereTheLaneIs) {
     setLane({{2.0, -10.0}, {5.0, -12.0}, {8.0, -10.0}});
     for (int i = 0; i < 2; ++i) row->keyPressed(KeyPress{KeyPress::rightKey}); // the first, the second
     nudge(KeyPress::leftKey, 2);
@@ -86,30 +86,23 @@ TEST_F(LanesByHand, APointStaysBetweenItsNeighbours) {
     EXPECT_EQ(lane()[1].seconds, 2.0);
     nudge(KeyPress::rightKey, 200);
     EXPECT_EQ(lane()[1].seconds, 8.0);
-}
-
-TEST_F(LanesByHand, ReturnAddsAPointWhereTheLaneIs) {
     setLane({{0.0, -20.0}});
     row->keyPressed(KeyPress{KeyPress::returnKey});
     ASSERT_EQ(lane().size(), 2u);
     EXPECT_EQ(lane()[1].db, -20.0);
 }
 
-TEST_F(LanesByHand, TheRightButtonTakesAwayThePointBelowIt) {
+TEST_F(LanesByHand, APointThatWasUndoneIsNotChosenAndTheRightButtonTakesAwayTheOneBelowIt) {
     press(at(0.2f, 0.5f));
-    press(at(0.8f, 0.2f));
-    row->mouseDown(mouseAt(*row, at(0.2f, 0.5f), juce::ModifierKeys::rightButtonModifier));
-    ASSERT_EQ(lane().size(), 1u);
-    EXPECT_NEAR(lane()[0].seconds, 8.0, 0.2) << "not the one that was chosen";
-}
-
-TEST_F(LanesByHand, APointThatWasUndoneIsNoLongerChosen) {
-    press(at(0.3f, 0.5f));
     press(at(0.8f, 0.2f));
     EXPECT_TRUE(row->getDescription().contains(" dB at "));
     model.undoManager().undo();
     model.dispatchPendingMessages();
     EXPECT_EQ(row->getDescription(), "1 point");
+    press(at(0.8f, 0.2f));
+    row->mouseDown(mouseAt(*row, at(0.2f, 0.5f), juce::ModifierKeys::rightButtonModifier));
+    ASSERT_EQ(lane().size(), 1u);
+    EXPECT_NEAR(lane()[0].seconds, 8.0, 0.2) << "not the one that was chosen";
 }
 
 TEST_F(LanesByHand, NearlyNoGainIsNone) {
@@ -243,19 +236,6 @@ TEST_F(RecordedLanes, AreAddedToTheLaneThatPlays) {
     EXPECT_EQ(gainDbAt(model.mix(), 0, 1e9), -16.0);
 }
 
-TEST_F(RecordedLanes, AreOfTheGroupWhoseFaderWasMoved) {
-    model.change("Groups", [](Mix& mix) {
-        addGroup(mix, "Left hand");
-        addGroup(mix, "Right hand");
-    });
-    start();
-    model.change("Gain", [](Mix& mix) { mix.groups[1].gainDb = -12.0; });
-    stop();
-    EXPECT_TRUE(model.mix().groups[0].lane.empty());
-    ASSERT_FALSE(model.mix().groups[1].lane.empty());
-    EXPECT_EQ(model.mix().groups[1].lane.back().db, -12.0);
-}
-
 TEST_F(RecordedLanes, EndWithTheRunOfTheSceneAndBeginWithTheNext) {
     start();
     setFaders({-10.0, 0.0, 0.0});
@@ -268,16 +248,25 @@ TEST_F(RecordedLanes, EndWithTheRunOfTheSceneAndBeginWithTheNext) {
     EXPECT_FALSE(strip(1).lane.empty());
 }
 
-TEST_F(RecordedLanes, EndWhereAGroupIsAddedAndBeginAgain) {
+TEST_F(RecordedLanes, StayWithTheirStripAndGroupWhereOthersComeOrGoAndBeginAgain) {
+    model.change("Groups", [](Mix& mix) { addGroup(mix, "Left hand"), addGroup(mix, "Right hand"); });
     start();
-    setFaders({-10.0, 0.0, 0.0});
+    setFaders({-10.0, -10.0, -12.0});
+    model.change("Gain", [](Mix& mix) { mix.groups[1].gainDb = -6.0; });
     ASSERT_TRUE(wait(0.1));
-    model.change("Group", [](Mix& mix) { addGroup(mix, "Left hand"); });
+    model.detach(1);
+    model.change("Groups",
+                 [](Mix& mix) { removeGroup(mix, 0), addGroup(mix, "Both"), addGroup(mix, "None"); });
     model.poll();
-    EXPECT_FALSE(strip(0).lane.empty());
-    model.change("Gain", [](Mix& mix) { mix.groups[0].gainDb = -12.0; });
+    for (const auto& [j, db] : {std::pair{0, -10.0}, {1, -12.0}, {2, 0.0}}) // A, C and D
+        EXPECT_EQ(gainDbAt(model.mix(), j, 1e9), db) << labelOf(model.mix(), j);
+    model.change("Gain", [](Mix& mix) { mix.groups[1].gainDb = -12.0; });
     stop();
-    EXPECT_FALSE(model.mix().groups[0].lane.empty());
+    const auto& groups = model.mix().groups;
+    ASSERT_FALSE(groups[0].lane.empty() || groups[1].lane.empty());
+    EXPECT_EQ(groups[0].lane.back().db, -6.0);
+    EXPECT_EQ(groups[1].lane.back().db, -12.0);
+    EXPECT_TRUE(groups[2].lane.empty());
 }
 
 // Groups at the model and in its window: what they do to strips, how they are named, shown and taken back.
@@ -319,9 +308,22 @@ TEST_F(LeftHand, AreMadeRenamedMutedAndTakenApartInTheWindow) {
         mute->triggerClick();
         ASSERT_TRUE(runUntil([&] { return model.mix().groups[0].isMuted == isMuted; }));
     }
-    auto* name = dynamic_cast<juce::Label*>(find(view, "Name of Left hand"));
-    ASSERT_NE(name, nullptr);
-    name->setText("Palm", juce::sendNotificationSync);
+    juce::Slider* fader = nullptr;
+    for (auto* child : the(view, "Group Left hand").getChildren())
+        if (auto* slider = dynamic_cast<juce::Slider*>(child)) fader = slider;
+    ASSERT_NE(fader, nullptr);
+    fader->setValue(-12.0, juce::sendNotificationSync);
+    EXPECT_EQ(model.mix().groups[0].gainDb, -12.0);
+    model.undoManager().undo();
+    model.dispatchPendingMessages();
+    EXPECT_EQ(fader->getValue(), 0.0) << "after it was undone, too";
+    auto& name = the<juce::Label>(view, "Name of Left hand");
+    for (const auto& bad : {juce::String{"  "}, juce::String::repeatedString("x", 2000)}) {
+        name.setText(bad, juce::sendNotificationSync);
+        ASSERT_EQ(model.mix().groups[0].name, "Left hand");
+        EXPECT_EQ(name.getText(), "Left hand");
+    }
+    name.setText("Palm", juce::sendNotificationSync);
     EXPECT_EQ(model.mix().groups[0].name, "Palm");
     model.dispatchPendingMessages();
     auto& ungroup = the<juce::Button>(view, "Ungroup Palm");
@@ -330,27 +332,6 @@ TEST_F(LeftHand, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     EXPECT_TRUE(model.mix().strips[1].isMuted) << "felt as before";
     model.dispatchPendingMessages();
     EXPECT_EQ(find(view, "Ungroup Palm"), nullptr);
-}
-
-TEST_F(LeftHand, ShowTheNameAndTheGainThatTheyHave) {
-    MixerView view{model};
-    model.dispatchPendingMessages();
-    auto& shown = the(view, "Group Left hand");
-    auto& name = the<juce::Label>(view, "Name of Left hand");
-    for (const auto& bad : {juce::String{"  "}, juce::String::repeatedString("x", 2000)}) {
-        name.setText(bad, juce::sendNotificationSync);
-        ASSERT_EQ(model.mix().groups[0].name, "Left hand");
-        EXPECT_EQ(name.getText(), "Left hand");
-    }
-    juce::Slider* fader = nullptr;
-    for (auto* child : shown.getChildren())
-        if (auto* slider = dynamic_cast<juce::Slider*>(child)) fader = slider;
-    ASSERT_NE(fader, nullptr);
-    fader->setValue(-12.0, juce::sendNotificationSync);
-    EXPECT_EQ(model.mix().groups[0].gainDb, -12.0);
-    model.undoManager().undo();
-    model.dispatchPendingMessages();
-    EXPECT_EQ(fader->getValue(), 0.0) << "after it was undone, too";
 }
 
 } // namespace physvib::lanes_by_hand_test

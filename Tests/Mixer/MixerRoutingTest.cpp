@@ -399,10 +399,13 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     says("Actuators: 4 of 4 have an output there");
     ASSERT_EQ(model.moveOutputsToMonitor({0, 1}, -20.0), "");
     EXPECT_EQ(monitor(), "1 and 2");
+    chooseIn(view, "Level of the monitor", number(-30.0, 0));
+    EXPECT_EQ(model.device().choice().monitorDb, -30.0);
     says("Actuators: 2 of 4 have an output there");
     says("Heard: left on 1, right on 2");
     model.undoManager().undo();
     EXPECT_EQ(monitor(), "off: outputs 1 and 2, which are of A B");
+    EXPECT_FALSE(the(view, "Level of the monitor").isEnabled()) << "its choice would forget those outputs";
     says("Heard: not there: an actuator, or no output");
     model.undoManager().redo();
     EXPECT_EQ(monitor(), "1 and 2");

@@ -548,6 +548,29 @@ TEST_F(ShownMixer, AStripIsTestedAndSweptByButtonAndByKey) {
     EXPECT_NEAR(model.savedSession().log.strikes.back().frequencyHz, 400.0, 1e-6);
 }
 
+TEST_F(ShownMixer, AnActuatorGetsWhatIsTypedOrIsToldWhatIsExpected) {
+    view.tabs().choose("Actuators");
+    the<juce::ListBox>(view, "List of actuators").selectRow(1);
+    for (const auto& [label, g, told] : {std::tuple{"A", "1", "Label: "},
+                                         {"", "1", "Label: "},
+                                         {"thumb", "0", "Full scale: "},
+                                         {"thumb", "100,5", "Full scale: "},
+                                         {"thumb", "1,5", ""}}) {
+        model.report({});
+        button("Name, profile and full scale of the chosen actuator (Return)").onClick();
+        ASSERT_NE(view.question(), nullptr);
+        chooseIn(*view.question(), "Actuator", "none");
+        view.question()->setValue("Label", label);
+        view.question()->setValue("Full scale in g", g);
+        view.question()->answer("Take");
+        EXPECT_TRUE(runUntil([&] { return view.question() == nullptr; }));
+        EXPECT_TRUE(model.messageText().startsWith(told)) << g << model.messageText();
+        EXPECT_EQ(model.mix().layout.actuators[1].label, told[0] == 0 ? "thumb" : "B") << g;
+    }
+    EXPECT_EQ(model.mix().layout.actuators[1].actuator, "none");
+    EXPECT_EQ(model.mix().layout.actuators[1].fullScaleG, 1.5);
+}
+
 TEST(MixerView, APresetIsKnownByItsPlaces) {
     Mix mix = MixerModel::defaultMix();
     mix.layout.name = "own"; // as a session that `physvib play` saved

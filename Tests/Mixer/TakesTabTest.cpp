@@ -56,6 +56,9 @@ TEST_F(ListedTakes, ListsNamesAndLengthsAndWhatIsRecordedLater) {
     writeTake(folder("another.wav"), 75.0);
     EXPECT_TRUE(runUntil([&] { return view.refresh(), list().getModel()->getNumRows() == 2; }, 4.0));
     EXPECT_EQ(list().getModel()->getNameForRow(0), "another, 1:15") << "the newest first";
+    writeTake(folder("another.wav"), 59.96);
+    takes->rescan();
+    EXPECT_EQ(list().getModel()->getNameForRow(0), "another, 1:00") << "not 60.0 s";
 }
 
 TEST_F(ListedTakes, ATakeIsPlayedEachChannelOnItsActuatorUntilItIsStopped) {
@@ -94,6 +97,20 @@ TEST_F(ListedTakes, ATakeIsCopiedAndDeletedWithItsEvents) {
     EXPECT_EQ(list().getModel()->getNumRows(), 0);
 }
 
+TEST_F(ListedTakes, WhatIsChosenStaysChosenAndKeepsItsEventsWhereItCannotBeDeleted) {
+    takes->choose(0);
+    writeTake(folder("another.wav"), 0.1);
+    folder("another.wav").setLastModificationTime(juce::Time::getCurrentTime() + juce::RelativeTime{60.0});
+    takes->rescan();
+    EXPECT_EQ(list().getModel()->getNameForRow(list().getSelectedRow()), "hands-take, 1.5 s");
+    folder("hands-take.wav").deleteFile();
+    folder("hands-take.wav/inside").createDirectory(); // deleting no folder that is not empty
+    button("Delete the take").onClick();
+    view.question()->answer("Delete");
+    EXPECT_TRUE(runUntil([&] { return list().getModel()->getNumRows() == 1; }));
+    EXPECT_EQ(folder("hands-take.csv").existsAsFile(), folder("hands-take.wav").exists());
+}
+
 SampledSound soundOf(const juce::File& file) {
     auto sound = readRecording(pathOf(file));
     EXPECT_TRUE(sound) << sound.error;
@@ -126,17 +143,11 @@ struct TrimmedTake : ListedTakes {
     }
 };
 
-TEST_F(TrimmedTake, OnePressCutsTheSilenceAndAnotherTakesItBack) {
+TEST_F(TrimmedTake, OnePressCutsTheSilenceBeyondTheProgramOfThatTakeAloneAndAnotherTakesItBack) {
     EXPECT_TRUE(button("Trim the take").isEnabled());
     trim();
     EXPECT_EQ(button("Trim the take").getButtonText(), "Whole");
     EXPECT_EQ(soundOf(folder("hands-take.wav")).channels[1].size(), 72000U) << "it stays as it is";
-    button("Trim the take").onClick();
-    EXPECT_EQ(shown(), "hands-take, 1.5 s");
-}
-
-TEST_F(TrimmedTake, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
-    trim();
     const auto shownAnew = [&] {
         MixerView later{model};
         later.scope().choose("Takes");
@@ -146,6 +157,7 @@ TEST_F(TrimmedTake, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
     const auto kept = folder("parts/hands-take.json");
     const auto text = kept.loadFileAsString();
     button("Trim the take").onClick();
+    EXPECT_EQ(shown(), "hands-take, 1.5 s");
     EXPECT_EQ(shownAnew(), "hands-take, 1.5 s");
     EXPECT_FALSE(kept.existsAsFile()) << "nothing is left of a trim that was taken back";
     auto& trimmer = the(view, "Start and end of the take");
@@ -239,12 +251,6 @@ TEST_F(TrimmedTake, TwoPartsWithinAMillisecondAreTwoFiles) {
         takes->play();
     }
     EXPECT_EQ(folder("parts").findChildFiles(juce::File::findFiles, false, "*.wav").size(), 2);
-}
-
-TEST_F(ListedTakes, AMinuteIsNotSixtySeconds) {
-    writeTake(folder("hands-take.wav"), 59.96);
-    takes->rescan();
-    EXPECT_EQ(list().getModel()->getNameForRow(0), "hands-take, 1:00");
 }
 
 TEST(TakesTab, WhatIsSilentThroughoutIsNotTrimmed) {

@@ -192,20 +192,29 @@ TEST_F(OnField, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
     EXPECT_FALSE(count.isVisible());
 }
 
-TEST_F(OnField, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
-    pane.setTool(DrawTool::select);
+TEST_F(OnField, NeverCoversWhatIsSelectedNorBesideADrawerBadgesAndTheTopWallAndNamesItsMaterial) {
     auto* inspector = find(panel, "Chosen bodies");
-    for (const auto& [x, y] : {std::pair{0.93, 0.93}, {0.07, 0.93}, {0.93, 0.15}, {0.07, 0.15}, {0.5, 0.5}}) {
-        add(DrawTool::ball, x, y);
-        pane.setTool(DrawTool::select);
-        const auto name = drawn().bodies.back().name;
-        pane.select({name});
-        view.refresh();
-        ASSERT_TRUE(inspector->isVisible());
-        const auto body = juce::Rectangle<float>{70.0f, 70.0f}.withCentre(world.pixelOfBody(name));
-        EXPECT_FALSE((inspector->getBounds() - world.getPosition()).toFloat().intersects(body))
-            << x << ", " << y;
-        EXPECT_TRUE(panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
+    for (const bool hasDrawers : {false, true}) {
+        if (hasDrawers) view.setMode(Mode::engineer), view.setPanels({true, true}), view.setSize(1280, 800);
+        for (const auto& [x, y] :
+             {std::pair{0.93, 0.93}, {0.07, 0.93}, {0.93, 0.1}, {0.07, 0.15}, {0.5, 0.5}}) {
+            add(DrawTool::ball, x, y);
+            pane.setTool(DrawTool::select);
+            const auto name = drawn().bodies.back().name;
+            pane.select({name});
+            view.refresh();
+            ASSERT_TRUE(inspector->isVisible());
+            const auto place = (inspector->getBounds() - world.getPosition()).toFloat();
+            const float side = hasDrawers ? 40.0f : 70.0f;
+            EXPECT_FALSE(
+                place.intersects(juce::Rectangle<float>{side, side}.withCentre(world.pixelOfBody(name))))
+                << x << ", " << y;
+            EXPECT_TRUE(panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
+            for (int j = 0; hasDrawers && j < model.mix().count(); ++j)
+                EXPECT_FALSE(place.intersects(world.badgeAt(j))) << j << " at " << x << ", " << y;
+            if (hasDrawers)
+                EXPECT_GT(place.getY(), world.pixelOfShare({0.0, 1.0}).y + 4.0f) << "the wall is in sight";
+        }
     }
     pane.setMaterial(3);
     model.dispatchPendingMessages();
@@ -273,28 +282,6 @@ TEST_F(OnField, CoversNoBadgeAndStaysWhereItIs) {
         const auto banner = the(view, "Trouble").getBounds() - panel.getPosition();
         for (const char* title : {"Materials to draw with", "Chosen bodies"})
             EXPECT_FALSE(banner.intersects(the(panel, title).getBounds())) << title;
-    }
-}
-
-TEST_F(OnField, CoversNoCornerNoBodyAndNoTopWallBesideADrawer) {
-    view.setMode(Mode::engineer);
-    view.setPanels({true, true});
-    view.setSize(1280, 800);
-    auto& inspector = the(panel, "Chosen bodies");
-    for (const auto& [x, y] : {std::pair{0.9, 0.9}, {0.1, 0.9}, {0.5, 0.5}, {0.9, 0.1}}) {
-        add(DrawTool::ball, x, y);
-        pane.setTool(DrawTool::select);
-        const auto name = drawn().bodies.back().name;
-        pane.select({name});
-        view.refresh();
-        const auto place = inspector.getBounds() - world.getPosition();
-        EXPECT_FALSE(place.toFloat().intersects(
-            juce::Rectangle<float>{40.0f, 40.0f}.withCentre(world.pixelOfBody(name))))
-            << x << ", " << y;
-        for (int j = 0; j < model.mix().count(); ++j)
-            EXPECT_FALSE(place.toFloat().intersects(world.badgeAt(j))) << j << " at " << x << ", " << y;
-        EXPECT_GT(place.toFloat().getY(), world.pixelOfShare({0.0, 1.0}).y + 4.0f) << "the wall is in sight";
-        EXPECT_TRUE(panel.getLocalBounds().contains(inspector.getBounds()));
     }
 }
 

@@ -132,9 +132,6 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
     slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     slider.setSliderStyle(juce::Slider::LinearBar);
     slider.setNormalisableRange(perceptualRange(minValue, low, high, maxValue));
-    slider.valueFromTextFunction = [](const juce::String& typed) {
-        return typed.trim().replaceCharacter(',', '.').getDoubleValue();
-    };
 }
 
 const Material* MaterialsTab::selected() const {

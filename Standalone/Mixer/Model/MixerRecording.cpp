@@ -121,57 +121,62 @@ double MixerLanes::sceneSeconds() const {
     return 1e-9 * static_cast<double>(model_.session().world().sceneNs());
 }
 
-std::vector<double> MixerLanes::faderValuesDb() const {
-    std::vector<double> valuesDb;
-    for (const Strip& strip : model_.mix().strips) valuesDb.push_back(strip.gainDb);
-    for (const StripGroup& group : model_.mix().groups) valuesDb.push_back(group.gainDb);
-    return valuesDb;
+std::vector<MixerLanes::Fader> MixerLanes::fadersNow() const {
+    const Mix& mix = model_.mix();
+    std::vector<Fader> faders;
+    for (std::size_t j = 0; j < mix.strips.size(); ++j)
+        faders.push_back({mix.strips[j].gainDb, mix.strips[j].gainDb, mix.layout.actuators[j].label});
+    for (const StripGroup& group : mix.groups) faders.push_back({group.gainDb, group.gainDb, group.name});
+    return faders;
 }
 
 void MixerLanes::poll() {
     const bool isRecording = model_.recording().isRunning();
-    const bool hasChanged = runNumber_ != model_.session().world().runNumber() ||
-                            stripCount_ != model_.mix().strips.size() ||
-                            faders_.size() != stripCount_ + model_.mix().groups.size();
+    const auto now = fadersNow();
+    const bool haveOthers = stripCount_ != model_.mix().strips.size() || faders_.size() != now.size();
+    for (std::size_t i = 0; i < faders_.size() && !haveOthers; ++i) faders_[i].name = now[i].name;
+    const bool hasChanged = runNumber_ != model_.session().world().runNumber() || haveOthers;
     if (!faders_.empty() && (!isRecording || hasChanged)) end();
     if (!isRecording) return;
     if (faders_.empty()) {
         stripCount_ = model_.mix().strips.size();
         runNumber_ = model_.session().world().runNumber();
-        for (const double db : faderValuesDb()) faders_.push_back({db, db});
+        faders_ = fadersNow();
     } else
-        recordMoves();
+        recordMoves(now);
     polledAtSeconds_ = sceneSeconds();
 }
 
 // Each move starts at the fader's value of the last poll().
-void MixerLanes::recordMoves() {
-    const auto valuesDb = faderValuesDb();
-    for (std::size_t i = 0; i < valuesDb.size(); ++i) {
+void MixerLanes::recordMoves(const std::vector<Fader>& now) {
+    for (std::size_t i = 0; i < now.size(); ++i) {
         Fader& fader = faders_[i];
-        if (valuesDb[i] == fader.lastDb) continue;
+        const double db = now[i].lastDb;
+        if (db == fader.lastDb) continue;
         setPoint(fader.moves, polledAtSeconds_, fader.lastDb);
-        setPoint(fader.moves, std::max(polledAtSeconds_ + jumpSeconds, sceneSeconds()), valuesDb[i]);
-        fader.lastDb = valuesDb[i];
+        setPoint(fader.moves, std::max(polledAtSeconds_ + jumpSeconds, sceneSeconds()), db);
+        fader.lastDb = db;
     }
 }
 
+// A strip or group is known by its name, as others before it may have gone.
 void MixerLanes::end() {
-    const auto faders = std::exchange(faders_, {});
+    const auto faders = std::exchange(faders_, {}), now = fadersNow();
     Mix next = model_.mix();
     juce::StringArray names;
     for (std::size_t i = 0; i < faders.size(); ++i) {
         if (faders[i].moves.empty() || maxLaneDb(faders[i].moves) <= minStripDb) continue;
-        const std::size_t group = i - std::min(i, stripCount_);
-        if (i < stripCount_ ? i >= next.strips.size() : group >= next.groups.size())
-            continue; // it was removed meanwhile
-        if (i < stripCount_) {
-            writeLane(faders[i].moves, faders[i].startDb, next.strips[i].gainDb, next.strips[i].lane);
-            names.add(labelOf(next, i));
-        } else {
-            writeLane(faders[i].moves, faders[i].startDb, next.groups[group].gainDb, next.groups[group].lane);
-            names.add(utf8(next.groups[group].name));
-        }
+        const bool isStrip = i < stripCount_;
+        const auto groups = now.begin() + std::ssize(next.strips), first = isStrip ? now.begin() : groups,
+                   last = isStrip ? groups : now.end();
+        const auto found =
+            std::find_if(first, last, [&](const Fader& f) { return f.name == faders[i].name; });
+        if (found == last) continue; // it was removed meanwhile
+        const auto write = [&](auto& target) {
+            writeLane(faders[i].moves, faders[i].startDb, target.gainDb, target.lane);
+        };
+        isStrip ? write(nth(next.strips, found - first)) : write(nth(next.groups, found - first));
+        names.add(utf8(found->name));
     }
     if (names.isEmpty()) return;
     model_.edit("Record gains", next);

@@ -77,11 +77,12 @@ public:
 private:
     struct Fader {
         double startDb = 0.0, lastDb = 0.0;
+        std::string name;
         GainLane moves{}; ///< its values in dB over the scene's time
     };
-    std::vector<double> faderValuesDb() const; ///< values of all strips, then of all groups
+    std::vector<Fader> fadersNow() const; ///< of all strips, then of all groups
     double sceneSeconds() const;
-    void recordMoves();
+    void recordMoves(const std::vector<Fader>& now);
     void end();
 
     MixerModel& model_;

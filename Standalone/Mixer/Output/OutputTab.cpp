@@ -222,6 +222,7 @@ void OutputTab::fillMonitorLists() {
                              (ownerLabels.isEmpty() ? juce::String{} : ", which are of" + ownerLabels),
                          dontNotify);
     }
+    monitorLevel_.setEnabled(monitor_.getSelectedId() != 0); // a level is of the outputs that are shown
     monitorLevel_.setSelectedId(zeroDbId - juce::roundToInt(choice.monitorDb), dontNotify);
     if (monitorLevel_.getSelectedId() == 0)
         monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", dontNotify);

@@ -340,11 +340,10 @@ void TakesTab::askErase() {
 void TakesTab::erase() {
     if (!selectedTake()) return;
     const auto [file, seconds] = std::pair{selectedTake()->file, selectedTake()->seconds};
-    const bool isRemoved = discardFile(file);
-    if (toEventsFile(file).existsAsFile()) discardFile(toEventsFile(file));
-    if (isRemoved)
+    if (discardFile(file)) {
+        if (toEventsFile(file).existsAsFile()) discardFile(toEventsFile(file));
         (void)savePart(file, seconds, {0.0, seconds}); // deletes the file of the part
-    else
+    } else
         model_.report(file.getFullPathName() + ": cannot be deleted");
     rescan();
 }

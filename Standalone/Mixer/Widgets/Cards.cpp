@@ -454,7 +454,7 @@ void RenderTask::timerCallback() {
     stopTimer();
     const auto onDone = onDone_; // which may destroy this object and its error
     const auto error = error_;
-    onDone(error, threadShouldExit());
+    onDone(error, error == "cancelled"); // it may have been finished or have failed when that was asked for
 }
 
 void RenderTask::paint(juce::Graphics& g) {

@@ -144,7 +144,17 @@ std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& label, cons
     return button;
 }
 
+double typedNumber(const juce::String& typed, bool isWhole) {
+    const auto digits = typed.retainCharacters("-0123456789.,");
+    const bool hasThousands = isWhole || digits.containsChar('.');
+    return (hasThousands ? digits.removeCharacters(",") : digits.replaceCharacter(',', '.')).getDoubleValue();
+}
+
 void onSliderChange(juce::Slider& slider, std::function<void(bool)> onChange) {
+    if (!slider.valueFromTextFunction)
+        slider.valueFromTextFunction = [&slider](const juce::String& typed) {
+            return typedNumber(typed, slider.getInterval() >= 1.0);
+        };
     const auto isFirst = std::make_shared<bool>(true);
     slider.onDragStart = [isFirst] { *isFirst = true; };
     slider.onValueChange = [&slider, isFirst, onChange = std::move(onChange)] {

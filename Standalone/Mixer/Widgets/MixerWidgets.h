@@ -66,8 +66,12 @@ inline void drawSelectedRow(juce::Graphics& g, const juce::Component& component,
 std::unique_ptr<juce::TextButton> makeLinkButton(const juce::String& label, const juce::String& name,
                                                  std::function<void()> onClick = {});
 
+/// The number among other words, with a decimal point or comma. Commas of whole numbers, and before a point,
+/// are of thousands.
+double typedNumber(const juce::String& typed, bool isWhole);
+
 /// Calls `onChange` with every new value of the slider. `continuesEdit` is true for all but the first value
-/// of a drag.
+/// of a drag. What is typed is read by typedNumber().
 void onSliderChange(juce::Slider& slider, std::function<void(bool continuesEdit)> onChange);
 
 /// Makes every control under `root` reachable by keyboard, with a visible focus.

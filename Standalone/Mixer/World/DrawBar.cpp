@@ -225,9 +225,6 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const OpenMaterialPage& 
     bounce_.textFromValueFunction = [](double b) {
         return number(b, 2) + (b < 0.2 ? " dead" : b < 0.7 ? " lively" : " bouncy");
     };
-    density_.valueFromTextFunction = bounce_.valueFromTextFunction = [](const juce::String& typed) {
-        return typed.retainCharacters("0123456789.").getDoubleValue();
-    };
     density_.setSkewFactorFromMidPoint(800.0);
     bindSlider(density_, "Density", setDensity);
     describe(bounce_, "Bounce", "Coefficient of restitution of this body alone");

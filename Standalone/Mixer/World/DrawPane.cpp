@@ -10,7 +10,8 @@ namespace physvib {
 namespace {
 
 /// Index of the material for a new body. Tools that draw moving bodies use the material of the last moving
-/// body that vibrates; other tools, or a scene without such a body, use the first material that vibrates.
+/// body that vibrates; other tools, or a scene without such a body, use the first material that vibrates, or
+/// the first one if none does.
 int defaultMaterial(const Scene& scene, DrawTool tool) {
     const auto vibrates = [](const Material& m) { return m.frequencyHz > 0.0; };
     if (tool != DrawTool::wall && tool != DrawTool::line && tool != DrawTool::conveyor)
@@ -19,7 +20,8 @@ int defaultMaterial(const Scene& scene, DrawTool tool) {
             if (body->type == BodyType::dynamicBody && vibrates(nth(scene.materials, material)))
                 return material;
         }
-    return static_cast<int>(std::ranges::find_if(scene.materials, vibrates) - scene.materials.begin());
+    const auto first = std::ranges::find_if(scene.materials, vibrates);
+    return first == scene.materials.end() ? 0 : static_cast<int>(first - scene.materials.begin());
 }
 
 double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
@@ -104,13 +106,11 @@ void DrawPane::selectAll() {
 void DrawPane::mixChanged() {
     const auto oldCount = selected_.size();
     std::erase_if(selected_, [&](const std::string& name) { return drawing().find(name) == nullptr; });
-    const auto& materials = drawing().drawn().materials;
     if (materialScene_ != model_.mix().scene) {
         materialScene_ = model_.mix().scene;
         isMaterialChosen_ = false;
         material_ = defaultMaterial(drawing().drawn(), tool_);
     }
-    if (material_ >= static_cast<int>(materials.size())) material_ = 0;
     if (oldCount != selected_.size() && onChange) onChange();
     repaint();
 }
@@ -432,8 +432,7 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
     const double turnHandleY = box.max.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
     return Handles{{toPixels(box.min.x, box.min.y), toPixels(box.max.x, box.min.y),
                     toPixels(box.max.x, box.max.y), toPixels(box.min.x, box.max.y)},
-                   toPixels(0.5 * (box.min.x + box.max.x), turnHandleY),
-                   toPixels(0.0, 0.0)};
+                   toPixels(0.5 * (box.min.x + box.max.x), turnHandleY)};
 }
 
 void DrawPane::beginGrip(const juce::MouseEvent& e) {

@@ -75,7 +75,7 @@ private:
     enum class Grip { none, move, size, turn, marquee }; // what a drag with the tool select changes
     struct Handles {                                     // of one body, in pixels
         std::array<juce::Point<float>, 4> corners;
-        juce::Point<float> turn, centre;
+        juce::Point<float> turn;
     };
     const SceneDrawing& drawing() const noexcept { return model_.world().drawing(); }
     Vector snappedMetres(const juce::MouseEvent& e) const {

@@ -115,6 +115,8 @@ void Rain::start(std::vector<BodyDescription> bodies) {
     if (pattern_.isFountain) setFountainStart(bodies, model_.world().drawing().drawn());
     std::ranges::reverse(bodies);
     pendingBodies_ = std::move(bodies);
+    scene_ = model_.mix().scene;
+    runNumber_ = model_.session().world().runNumber();
     startNs_ = model_.session().world().sceneNs();
     spawnedCount_ = 0;
     model_.undoManager().beginNewTransaction(rainEditName);
@@ -126,7 +128,8 @@ void Rain::spawnDueBodies() {
     if (pendingBodies_.empty()) return;
     const auto elapsedNs = model_.session().world().sceneNs() - startNs_;
     const bool isUndone = model_.undoManager().getRedoDescription() == rainEditName;
-    if (elapsedNs < 0 || isUndone) return pendingBodies_.clear();
+    const bool isSameRun = scene_ == model_.mix().scene && runNumber_ == model_.session().world().runNumber();
+    if (!isSameRun || isUndone) return pendingBodies_.clear();
     const auto dueCount = 1 + elapsedNs * pattern_.bodiesPerSecond / 1'000'000'000;
     const bool isFirst = spawnedCount_ == 0;
     std::vector<Action> actions;

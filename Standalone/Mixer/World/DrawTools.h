@@ -88,7 +88,9 @@ public:
 private:
     MixerModel& model_;
     RainPattern pattern_;
-    std::vector<BodyDescription> pendingBodies_;  // not added yet; the next one is the last element
+    std::vector<BodyDescription> pendingBodies_; // not added yet; the next one is the last element
+    std::shared_ptr<const Scene> scene_;         // at the start, as the number of the run
+    std::size_t runNumber_ = 0;
     std::int64_t startNs_ = 0, spawnedCount_ = 0; // scene time of the start; bodies added since
 };
 

@@ -514,9 +514,7 @@ ScriptStrip::ScriptStrip(MixerModel& model)
     for (auto* slider : {&fromSlider_, &toSlider_}) {
         slider->setSliderStyle(juce::Slider::LinearBar);
         slider->setRange(0.0, 1.0, stepSeconds);
-        slider->valueFromTextFunction = [](const juce::String& typed) {
-            return typed.retainCharacters("0123456789.").getDoubleValue();
-        };
+        slider->valueFromTextFunction = [](const juce::String& typed) { return typedNumber(typed, false); };
         slider->onDragEnd = [this] { applyTrim(); };
         slider->onValueChange = [this, slider] {
             if (!slider->isMouseButtonDown()) applyTrim();
