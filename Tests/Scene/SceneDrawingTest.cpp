@@ -453,6 +453,44 @@ TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
     EXPECT_EQ(validate(both), "");
 }
 
+struct Car : testing::Test {
+    Drawn drawn{blank()};
+    const Vector axle{1.2, 1.7};
+    void SetUp() override {
+        ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
+        ASSERT_EQ(drawn.add(makeBall(axle, {1.3, 1.7}).value, "wheel"), "");
+    }
+    std::string join(const Joint& joint, const char* a = "car", const char* name = "joint") {
+        return drawn.edit({JoinAction{{name, a, "wheel", joint}}});
+    }
+    /// The car a quarter round to the left, the wheel half round and 0.1 m along its suspension.
+    static std::optional<BodyPose> pose(const std::string& body) {
+        using std::numbers::pi;
+        return body == "car" ? BodyPose{2.0, 1.0, 0.5 * pi} : BodyPose{2.15, 0.7, pi};
+    }
+};
+
+TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
+    const Vector top{1.5, 1.95};
+    for (const Joint& joint : {Joint{WheelJoint{axle, {0.0, 1.0}}}, {DistanceJoint{top, axle}}})
+        ASSERT_EQ(join(joint, "car", std::holds_alternative<WheelJoint>(joint) ? "w" : "d"), "");
+    ASSERT_EQ(join(DistanceJoint{top, axle}, "floor", "rope"), ""); // to who is not copied
+    std::vector<std::string> names;
+    ASSERT_EQ(drawn.edit(pasteActions(drawn.drawing, copyBodies(drawn.drawing, {"car", "wheel"}), {0.4, 0.2},
+                                      names)),
+              "");
+    EXPECT_EQ(names, (std::vector<std::string>{"car 1", "wheel 1"}));
+    const auto& joints = drawn.drawing.drawn().joints;
+    ASSERT_EQ(joints.size(), 5u);
+    for (const std::size_t k : {3u, 4u}) {
+        EXPECT_EQ(joints[k].bodyA, "car 1");
+        EXPECT_EQ(joints[k].bodyB, "wheel 1");
+    }
+    EXPECT_EQ(std::get<WheelJoint>(joints[3].joint).anchorMetres, (Vector{axle.x + 0.4, axle.y + 0.2}));
+    EXPECT_EQ(std::get<DistanceJoint>(joints[4].joint).anchorAMetres, (Vector{top.x + 0.4, top.y + 0.2}));
+    EXPECT_EQ(std::get<DistanceJoint>(joints[4].joint).anchorBMetres, (Vector{axle.x + 0.4, axle.y + 0.2}));
+}
+
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
     EXPECT_EQ(makeBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
     EXPECT_EQ(makePolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error,
