@@ -470,6 +470,21 @@ struct Car : testing::Test {
     }
 };
 
+TEST_F(Car, IsSavedWithItsAxleAndLimitsAsTheyAreNow) {
+    ASSERT_EQ(join(WheelJoint{axle, {0.0, 1.0}, 2.0, 0.5, Interval{-0.2, 0.3}}), "");
+    ASSERT_EQ(join(RevoluteJoint{axle, Interval{-0.5, 1.0}}, "car", "hinge"), "");
+    const Scene now = sceneNow(drawn.drawing.drawn(), pose);
+    const auto& wheel = std::get<WheelJoint>(now.joints[0].joint);
+    EXPECT_NEAR(wheel.anchorMetres.x, 2.15, 1e-9) << "in the middle of the wheel";
+    EXPECT_NEAR(wheel.anchorMetres.y, 0.7, 1e-9);
+    EXPECT_NEAR(wheel.axis.x, -1.0, 1e-9);
+    EXPECT_NEAR(wheel.travelMetres->lower, -0.3, 1e-9);
+    EXPECT_NEAR(wheel.travelMetres->upper, 0.2, 1e-9);
+    const auto& limits = *std::get<RevoluteJoint>(now.joints[1].joint).limitsRadians;
+    EXPECT_NEAR(limits.lower, -0.5 - 0.5 * std::numbers::pi, 1e-9) << "so much of it is turned";
+    EXPECT_NEAR(limits.upper, 1.0 - 0.5 * std::numbers::pi, 1e-9);
+}
+
 TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
     const Vector top{1.5, 1.95};
     for (const Joint& joint : {Joint{WheelJoint{axle, {0.0, 1.0}}}, {DistanceJoint{top, axle}}})
