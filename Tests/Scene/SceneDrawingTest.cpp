@@ -5,6 +5,7 @@
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/BodyLists.h"
+#include "Scene/World/BodyMass.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
@@ -485,6 +486,24 @@ TEST_F(Car, IsSavedWithItsAxleAndLimitsAsTheyAreNow) {
     EXPECT_NEAR(limits.upper, 1.0 - 0.5 * std::numbers::pi, 1e-9);
 }
 
+TEST_F(Car, AMotorThatIsChangedOnTheWayGoesOnFromThere) {
+    ASSERT_EQ(join(RevoluteJoint{axle, {}, 1.0, 5.0}), "");
+    const auto actions = motorActions(drawn.drawing, "joint", {-2.0, 7.0}, pose);
+    ASSERT_TRUE(actions) << actions.error;
+    ASSERT_EQ(actions.value.size(), 4u) << "the joint goes, both bodies begin there, the joint comes";
+    EXPECT_EQ(std::get<UnjoinAction>(actions.value[0]).joint, "joint");
+    for (const std::size_t k : {1u, 2u}) {
+        const auto& change = std::get<ChangeAction>(actions.value[k]);
+        EXPECT_EQ(change.body.positionMetres.x, pose(change.body.name)->xMetres);
+        EXPECT_EQ(change.body.angleRadians, pose(change.body.name)->angleRadians);
+        EXPECT_FALSE(change.stays);
+    }
+    const auto& joint = std::get<JoinAction>(actions.value[3]).joint;
+    EXPECT_EQ(driveOf(joint), (MotorDrive{-2.0, 7.0}));
+    EXPECT_NEAR(std::get<RevoluteJoint>(joint.joint).anchorMetres.x, 2.25, 1e-9);
+    EXPECT_EQ(drawn.drawing.check(actions.value), "");
+}
+
 TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
     const Vector top{1.5, 1.95};
     for (const Joint& joint : {Joint{WheelJoint{axle, {0.0, 1.0}}}, {DistanceJoint{top, axle}}})
@@ -506,7 +525,49 @@ TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
     EXPECT_EQ(std::get<DistanceJoint>(joints[4].joint).anchorBMetres, (Vector{axle.x + 0.4, axle.y + 0.2}));
 }
 
+TEST_F(Car, WhoIsErasedTakesJointsAndTheScriptsInputsAlong) {
+    ASSERT_EQ(join(RevoluteJoint{axle, {}, 1.0, 5.0}), "");
+    ASSERT_EQ(join(RevoluteJoint{axle, {}, 1.0, 5.0}, "floor", "other"), "");
+    Scene scene = drawn.drawing.drawn();
+    const std::vector<ScriptInput> script{{0.1, 1, 0.0, MotorAction{"joint", 2.0, {}}},
+                                          {0.2, 1, 0.0, ImpulseAction{"car", {}, {}}},
+                                          {0.3, 1, 0.0, MotorAction{"other", 2.0, {}}},
+                                          {0.4, 1, 0.0, ImpulseAction{"wheel", {}, {}}},
+                                          {0.5, 1, 0.0, GravityAction{}}};
+    scene.script = script;
+    const Scene left = sceneWithout(scene, {"car"});
+    EXPECT_EQ(left.script, (std::vector{script[2], script[3], script[4]}));
+    EXPECT_EQ(left.joints, std::vector{scene.joints[1]});
+    EXPECT_EQ(left.bodies, (std::vector{scene.bodies[0], scene.bodies[2]}));
+    EXPECT_EQ(sceneWithout(scene, {"joint", "other"}).script.size(), 3u) << "a joint alone as well";
+}
+
+TEST_F(Car, AJointInTheAirIsRefusedAndABodyElsewhereIsPutThere) {
+    const auto& d = drawn.drawing;
+    ASSERT_EQ(join(DistanceJoint{axle, {1.5, 1.95}, 0.0, 0.0, true}), "");
+    auto car = drawn.where("car");
+    EXPECT_EQ(joinActions(d, JointKind::rope, car, drawn.where("wheel"), axle, axle).error,
+              "a rope, spring or slider: expected two places");
+    for (const char* joint : {"joint", "none"}) {
+        EXPECT_EQ(motorActions(d, joint, {}, {}).error,
+                  std::string{"a motor: expected a pin or a wheel, found "} + joint);
+        EXPECT_EQ(springActions(d, joint, 1.0).error, std::string{"a spring: expected one, found "} + joint);
+    }
+    car.second = {{0.5, 1.0}, 0.3};
+    const auto pin = joinActions(d, JointKind::pin, car, drawn.where("wheel"), axle, axle);
+    ASSERT_EQ(pin.value.size(), 2u) << pin.error;
+    EXPECT_EQ(std::get<ChangeAction>(pin.value[0]).body.positionMetres, (Vector{0.5, 1.0}));
+    EXPECT_EQ(std::get<ChangeAction>(pin.value[0]).body.angleRadians, 0.3);
+}
+
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
+    EXPECT_EQ(snapToGrid({0.26, -0.24}, 0.5), (Vector{0.5, 0.0}));
+    std::vector<Vector> round;
+    for (int k = 0; k < 20; ++k)
+        round.push_back({std::cos(0.1 * std::numbers::pi * k), std::sin(0.1 * std::numbers::pi * k)});
+    const auto many = makePolygon(round).value.fixtures[0].shape;
+    EXPECT_EQ(std::get<PolygonShape>(many).verticesMetres.size(), sceneLimits::maxPolygonVertices);
+    EXPECT_GT(momentsOf(many).areaSquareMetres, 2.6) << "of 3.14";
     EXPECT_EQ(makeBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
     EXPECT_EQ(makePolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error,
               "polygon: expected at least 3 corners that are not in a line");
