@@ -101,8 +101,17 @@ TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
             "conditions.csv:14: column frequency_hz: expected a number from 1 to 20000, found \"fast\"", 1);
     write("study/conditions.csv", "file,axis,frequency_hz\nnone.wav,z,50\n");
     refuses("attenuation study", 1, "expected a column material, found none", 1);
+    write("study/conditions.csv", "material,axis,frequency_hz\n0030-15,z,50\n");
+    refuses("attenuation study", 1, "expected a column file, found none", 1);
     refuses("attenuation nowhere", 2, "expected a reference beside \"nowhere\", or a folder of conditions",
             1);
+    record("one.wav", 50, {{0.5}});
+    record("quiet.wav", 50, {{0.5}, {}});
+    refuses("attenuation one.wav quiet.wav", 1, "one.wav: expected the channels of quiet.wav, 2, found 1", 3);
+    refuses("attenuation quiet.wav quiet.wav", 1, "quiet.wav: channel 2: expected a vibration, found silence",
+            3);
+    refuses("attenuation one.wav quiet.wav --export a.csv", 2,
+            "expected --export and --picture with a folder of conditions only", 3);
 }
 
 TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
@@ -133,6 +142,10 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
             "expected a recording with actuator B driven at 205 Hz, found none", 3);
+    record("rec/still.wav", 205, {{}, {0.1}});
+    write("rec/conditions.csv", "file,driven,frequency_hz\nstill.wav,A,205\n");
+    refuses("coupling rec --layout two.json --out d.json", 1,
+            "rec/still.wav: expected that the driven actuator vibrates, found silence on its channel", 3);
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,C,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
             "column driven: expected the label of an actuator of the layout, found \"C\"", 3);
