@@ -112,6 +112,8 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
     for (float& x : samples) x = std::clamp(x, -0.05f, 0.05f);
     refusesIt(samples, "felt.wav: what was recorded: expected a recording that is not clipped");
     refusesIt(sweep_, "felt.wav: expected a resonance from 20 to 1000 Hz, found none"); // a cable
+    write("felt.wav", test::wavBytes({.rateHz = 4000}, std::string(8000, '\1')));
+    refuses(pair, 1, "felt.wav: expected the rate of sweep.wav, 8000 Hz, found 4000 Hz", 2);
     write("felt.wav", "not a recording");
     refuses(pair, 1, "felt.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 2);
     refuses("calibrate --device Nowhere --out mine.json", 1, "Nowhere: no such audio device", 2);
@@ -125,6 +127,8 @@ TEST_F(CalibrateCommand, BadCallsAreUsageErrors) {
             "--out: expected a name that ends in .json, found \"mine.txt\"", 1);
     refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --band 9", 2,
             "--band: expected LO-HI", 1);
+    refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --place A", 2,
+            "--place: expected with --layout and --layout-out", 1);
     refuses("calibrate --device x --out m.json --channel 0", 2, "--channel", 1);
     refuses("calibrate --device x --out m.json --level 3", 2, "--level", 1);
     refuses("calibrate --sweep s.wav --device x", 2, "--sweep stands alone", 1);
@@ -155,6 +159,13 @@ TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
     EXPECT_TRUE(has(outcome.err, "confidence high"));
     EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
     runs("material hit.wav --rule two-peaks");
+    runs("material hit.wav --band 90-1000 --picture hit.svg");
+    const std::string picture = read("hit.svg");
+    for (const char* words :
+         {"<title>Waveform</title>", "<title>Spectrum</title>", "Hz, in the band", "its mode"})
+        EXPECT_TRUE(has(picture, words));
+    EXPECT_EQ(test::wordsIn(picture, "(349\\.\\d) Hz, in the band").size(), 1u);
+    refuses("material --list --picture list.svg", 2, "--picture goes with FILE.wav", 3);
 }
 
 TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
