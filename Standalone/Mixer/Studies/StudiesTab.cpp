@@ -195,14 +195,16 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
 
 void StudiesTab::handleProtocolChoice() {
     const int id = protocolChoice_.getSelectedId();
+    const auto showChosen = [this] {
+        if (protocol_) protocolChoice_.setText(displayTitle(protocol_->name), juce::dontSendNotification);
+    };
     if (id == fileId)
         askForFile(
             *this, {"A protocol", ".json", juce::File{folder_.getText()}},
-            [this](const juce::File& file) { chooseProtocol(pathOf(file)); },
-            [this] {
-                if (protocol_)
-                    protocolChoice_.setText(displayTitle(protocol_->name), juce::dontSendNotification);
-            });
+            [this, showChosen](const juce::File& file) {
+                if (!chooseProtocol(pathOf(file)).empty()) showChosen();
+            },
+            showChosen);
     else if (id > 0)
         chooseProtocol(nth(knownProtocols(), id - 1).name), offerLayout();
 }
