@@ -81,6 +81,14 @@ struct ChosenStudy : testing::Test, MixerInView {
     juce::String shown(const juce::String& title) { return the<juce::ComboBox>(tab, title).getText(); }
 };
 
+TEST_F(ChosenStudy, HasItsNoiseAsLoudAsItSays) {
+    for (const auto& [db, text] :
+         {std::pair{"-30", "\u221230 dBFS"}, {"-30.4", "\u221230.4 dBFS"}, {"-33", "\u221233.0 dBFS"}}) {
+        ASSERT_EQ(choose(std::string{R"(, "pink_noise": true, "pink_noise_db": )"} + db), "");
+        EXPECT_EQ(shown("Level of the pink noise"), utf8(text));
+    }
+}
+
 TEST_F(ChosenStudy, StaysWhereAFileIsNoneAndTheNextCanBeChosen) {
     folder("bad.json").replaceWithText("{}");
     tab.setFolder(folder.folder);

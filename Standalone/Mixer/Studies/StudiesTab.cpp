@@ -185,7 +185,8 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     else
         protocolChoice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
     description_ = describeProtocol(*protocol_);
-    noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
+    const int noiseId = -juce::roundToInt(protocol_->pinkNoiseDb);
+    noiseLevel_.setSelectedId(noiseId == -protocol_->pinkNoiseDb ? noiseId : 0, juce::dontSendNotification);
     if (noiseLevel_.getSelectedId() == 0)
         noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
     refreshStatus();
