@@ -112,6 +112,8 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
     for (float& x : samples) x = std::clamp(x, -0.05f, 0.05f);
     refusesIt(samples, "felt.wav: what was recorded: expected a recording that is not clipped");
     refusesIt(sweep_, "felt.wav: expected a resonance from 20 to 1000 Hz, found none"); // a cable
+    write("felt.wav", test::wavBytes({.rateHz = 4000}, std::string(8000, '\1')));
+    refuses(pair, 1, "felt.wav: expected the rate of sweep.wav, 8000 Hz, found 4000 Hz", 2);
     write("felt.wav", "not a recording");
     refuses(pair, 1, "felt.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 2);
     refuses("calibrate --device Nowhere --out mine.json", 1, "Nowhere: no such audio device", 2);
@@ -120,11 +122,12 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
 TEST_F(CalibrateCommand, BadCallsAreUsageErrors) {
     refuses("calibrate --out mine.json", 2, "expected --device, or --played and --recorded, or --sweep", 1);
     refuses("calibrate --played sweep.wav --out mine.json", 2, "expected both --played and --recorded", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav", 2, "expected --out FILE.json", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav --out mine.txt", 2,
-            "--out: expected a name that ends in .json, found \"mine.txt\"", 1);
-    refuses("calibrate --played sweep.wav --recorded sweep.wav --out m.json --band 9", 2,
-            "--band: expected LO-HI", 1);
+    for (const auto& [options, words] : std::vector<std::pair<std::string, const char*>>{
+             {"", "expected --out FILE.json"},
+             {"--out mine.txt", "--out: expected a name that ends in .json, found \"mine.txt\""},
+             {"--out m.json --band 9", "--band: expected LO-HI"},
+             {"--out m.json --place A", "--place: expected with --layout and --layout-out"}})
+        refuses("calibrate --played sweep.wav --recorded sweep.wav " + options, 2, words, 1);
     refuses("calibrate --device x --out m.json --channel 0", 2, "--channel", 1);
     refuses("calibrate --device x --out m.json --level 3", 2, "--level", 1);
     refuses("calibrate --sweep s.wav --device x", 2, "--sweep stands alone", 1);
@@ -155,6 +158,9 @@ TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
     EXPECT_TRUE(has(outcome.err, "confidence high"));
     EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
     runs("material hit.wav --rule two-peaks");
+    runs("material hit.wav --band 90-1000 --picture hit.svg");
+    EXPECT_EQ(test::wordsIn(read("hit.svg"), "(349\\.\\d) Hz, in the band").size(), 1u);
+    refuses("material --list --picture list.svg", 2, "--picture goes with FILE.wav", 3);
 }
 
 TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {

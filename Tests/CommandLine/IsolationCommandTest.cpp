@@ -90,19 +90,24 @@ TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
     recordLayers();
     const std::string table = read("study/conditions.csv");
-    write("study/conditions.csv", table + "reference"
-                                          "z50-1.wav,0030-15,6,50,2.4,z\n");
-    refuses("attenuation study --picture a.svg", 1,
-            "referencez50-1.wav: expected a reference of the same frequency, voltage and axis", 1);
-    write("study/conditions.csv", table + "none.wav,0030-15,6,50,2.4,z\n");
-    refuses("attenuation study", 1, "none.wav: cannot be read", 1);
-    write("study/conditions.csv", table + "referencez50-1.wav,0030-15,6,fast,2.4,z\n");
-    refuses("attenuation study", 1,
-            "conditions.csv:14: column frequency_hz: expected a number from 1 to 20000, found \"fast\"", 1);
-    write("study/conditions.csv", "file,axis,frequency_hz\nnone.wav,z,50\n");
-    refuses("attenuation study", 1, "expected a column material, found none", 1);
+    for (const auto& [rows, words] : std::vector<std::pair<std::string, const char*>>{
+             {table + "referencez50-1.wav,0030-15,6,50,2.4,z\n",
+              "referencez50-1.wav: expected a reference of the same frequency, voltage and axis"},
+             {table + "none.wav,0030-15,6,50,2.4,z\n", "none.wav: cannot be read"},
+             {table + "referencez50-1.wav,0030-15,6,fast,2.4,z\n",
+              "conditions.csv:14: column frequency_hz: expected a number from 1 to 20000, found \"fast\""},
+             {"file,axis,frequency_hz\nnone.wav,z,50\n", "expected a column material, found none"},
+             {"material,axis,frequency_hz\n0030-15,z,50\n", "expected a column file, found none"}}) {
+        write("study/conditions.csv", rows);
+        refuses("attenuation study --picture a.svg", 1, words, 1);
+    }
     refuses("attenuation nowhere", 2, "expected a reference beside \"nowhere\", or a folder of conditions",
             1);
+    record("one.wav", 50, {{0.5}});
+    record("quiet.wav", 50, {{0.5}, {}});
+    refuses("attenuation one.wav quiet.wav", 1, "one.wav: expected the channels of quiet.wav, 2, found 1", 3);
+    refuses("attenuation quiet.wav quiet.wav", 1, "quiet.wav: channel 2: expected a vibration, found silence",
+            3);
 }
 
 TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
@@ -133,6 +138,10 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
             "expected a recording with actuator B driven at 205 Hz, found none", 3);
+    record("rec/still.wav", 205, {{}, {0.1}});
+    write("rec/conditions.csv", "file,driven,frequency_hz\nstill.wav,A,205\n");
+    refuses("coupling rec --layout two.json --out d.json", 1,
+            "rec/still.wav: expected that the driven actuator vibrates, found silence on its channel", 3);
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,C,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
             "column driven: expected the label of an actuator of the layout, found \"C\"", 3);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The components with which participants answer, without a screen: each answer is of what was felt.
+// Components of studies without a screen: answers are of what was felt, and what is chosen stands there.
 #include "Lab/Files/ProtocolFile.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Widgets/Cards.h"
 #include "MixerTesting.h"
 #include "TestPlaces.h"
 
@@ -35,6 +37,37 @@ TEST(StudyAnswers, RatingsSideBySideAreOfTheObjectThatWasFeltAtEachLetter) {
         experiment.acceptAnswer(answer->answer());
     }
     EXPECT_GT(orders.size(), 2u) << "in one order alone, none could be mixed up";
+}
+
+struct ChosenStudy : testing::Test, MixerInView {
+    TestFolder folder;
+    StudiesTab& tab = (view.tabs().choose("Studies"), *view.tabs().find<StudiesTab>());
+    juce::String shown(const juce::String& title) { return the<juce::ComboBox>(tab, title).getText(); }
+};
+
+TEST_F(ChosenStudy, HasItsNoiseAsLoudAsItSays) {
+    const juce::File file = folder("short.json"),
+                     sample{PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/yes-no.json"};
+    for (const auto& [db, text] : {std::pair{"-30", "\u221230 dBFS"}, {"-30.4", "\u221230.4 dBFS"}}) {
+        file.replaceWithText(sample.loadFileAsString().replaceFirstOccurrenceOf(
+            "{", juce::String{"{\"pink_noise_db\": "} + db + ","));
+        ASSERT_EQ(tab.chooseProtocol(pathOf(file)), "");
+        EXPECT_EQ(shown("Level of the pink noise"), utf8(text));
+    }
+}
+
+TEST_F(ChosenStudy, StaysWhereAFileIsNoneAndTheNextCanBeChosen) {
+    folder("bad.json").create();
+    tab.setFolder(folder.folder);
+    const auto before = shown("Protocol");
+    for (int k = 0; k < 2; ++k) {
+        chooseIn(tab, "Protocol", "Protocol file");
+        auto& card = dynamic_cast<FileCard&>(*view.card());
+        card.setName("bad");
+        card.accept();
+        ASSERT_TRUE(runUntil([&] { return view.card() == nullptr; }));
+        EXPECT_EQ(shown("Protocol"), before) << "which Begin would begin";
+    }
 }
 
 } // namespace physvib::study_answers_test

@@ -351,11 +351,23 @@ TEST(SceneDrawing, AMotorThatIsDrawnInGoesAtTheScriptsPace) {
     }
 }
 
-TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {
+struct Car : testing::Test {
     Drawn drawn{blank()};
-    ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
-    ASSERT_EQ(drawn.add(makeBall({1.2, 1.7}, {1.3, 1.7}).value, "wheel"), "");
     const Vector pin{1.2, 1.7}, top{1.5, 1.95};
+    void SetUp() override {
+        ASSERT_EQ(drawn.add(makeBox({1.0, 1.9}, {2.0, 2.0}).value, "car"), "");
+        ASSERT_EQ(drawn.add(makeBall(pin, {1.3, 1.7}).value, "wheel"), "");
+    }
+    std::string join(const Joint& joint, const char* a = "car", const char* name = "joint") {
+        return drawn.edit({JoinAction{{name, a, "wheel", joint}}});
+    }
+    static std::optional<BodyPose> pose(const std::string& body) {
+        using std::numbers::pi;
+        return body == "car" ? BodyPose{2.0, 1.0, 0.5 * pi} : BodyPose{2.15, 0.7, pi}; // 0.1 m sprung
+    }
+};
+
+TEST_F(Car, WhoIsMovedTakesJointsAlongAsItTurns) {
     const std::array<Joint, 4> joints{WheelJoint{pin, {0.0, 1.0}}, SliderJoint{pin, {1.0, 0.0}},
                                       RevoluteJoint{pin}, DistanceJoint{top, pin}};
     const auto expectNear = [](const Vector& found, const Vector& expected) {
@@ -364,7 +376,7 @@ TEST(SceneDrawing, WhoIsMovedTakesJointsAlongAsItTurns) {
     };
     for (const auto& [movesCar, movesWheel] : {std::pair{true, false}, {false, true}, {true, true}})
         for (const Joint& joint : joints) {
-            ASSERT_EQ(drawn.edit({JoinAction{{"joint", "car", "wheel", joint}}}), "");
+            ASSERT_EQ(join(joint), "");
             auto car = drawn.where("car"), wheel = drawn.where("wheel");
             const Vector carFrom = car.second.metres, wheelFrom = wheel.second.metres, carTo{2.0, 1.5},
                          wheelTo{0.4, 1.0};
@@ -467,6 +479,32 @@ TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
     EXPECT_NEAR(slider.travelMetres->lower, -0.3, 1e-9) << "as far down as it has come up";
     EXPECT_NEAR(slider.travelMetres->upper, 0.7, 1e-9);
     EXPECT_EQ(validate(both), "");
+}
+
+TEST_F(Car, IsSavedWithItsAxleAndLimitsAsTheyAreNow) {
+    ASSERT_EQ(join(WheelJoint{pin, {0.0, 1.0}, 2.0, 0.5, Interval{-0.2, 0.3}}), "");
+    ASSERT_EQ(join(RevoluteJoint{pin, Interval{-0.5, 1.0}}, "car", "hinge"), "");
+    const Scene now = sceneNow(drawn.drawing.drawn(), pose);
+    const auto& wheel = std::get<WheelJoint>(now.joints[0].joint);
+    const Interval hinge = *std::get<RevoluteJoint>(now.joints[1].joint).limitsRadians;
+    constexpr double quarter = 0.5 * std::numbers::pi;
+    const double found[] = {wheel.anchorMetres.x, wheel.axis.x, wheel.travelMetres->lower, hinge.lower,
+                            hinge.upper},
+                 expected[] = {2.15, -1.0, -0.3, -0.5 - quarter, 1.0 - quarter};
+    for (std::size_t k = 0; k < std::size(found); ++k) EXPECT_NEAR(found[k], expected[k], 1e-9) << k;
+}
+
+TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
+    ASSERT_EQ(join(WheelJoint{pin, {0.0, 1.0}}), "");
+    ASSERT_EQ(join(DistanceJoint{top, pin}, "car", "rod"), "");
+    ASSERT_EQ(join(DistanceJoint{top, pin}, "floor", "other"), "");
+    std::vector<std::string> names;
+    const auto copy = copyBodies(drawn.drawing, {"car", "wheel"});
+    ASSERT_EQ(drawn.edit(pasteActions(drawn.drawing, copy, {0.5, 0.25}, names)), "");
+    const Vector pin1{pin.x + 0.5, pin.y + 0.25}, top1{top.x + 0.5, top.y + 0.25};
+    EXPECT_EQ((std::vector(drawn.drawing.drawn().joints.begin() + 3, drawn.drawing.drawn().joints.end())),
+              (std::vector<JointDescription>{{"joint 1", "car 1", "wheel 1", WheelJoint{pin1, {0.0, 1.0}}},
+                                             {"joint 2", "car 1", "wheel 1", DistanceJoint{top1, pin1}}}));
 }
 
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {

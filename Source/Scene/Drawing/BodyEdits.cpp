@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace physvib {
 using detail::Motion;
@@ -127,7 +128,7 @@ std::vector<Action> pasteActions(const SceneDrawing& drawing, const CopiedBodies
     const auto shiftPlace = [&](Vector& place) { place = {place.x + shift.x, place.y + shift.y}; };
     for (BodyDescription body : copy.bodies) {
         const std::string stem = stemOf(body.name), name = trial.unusedName(stem.empty() ? "body" : stem);
-        newNames[body.name] = body.name = name;
+        newNames[std::exchange(body.name, name)] = name;
         names.push_back(name);
         shiftPlace(body.positionMetres);
         add(SpawnAction{std::move(body), {}});

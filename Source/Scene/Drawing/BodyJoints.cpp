@@ -195,7 +195,8 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
                 } else {
                     const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
                     const double turnRadians = b->second.angleRadians() - a->second.angleRadians();
-                    kind.anchorMetres = onA;
+                    constexpr bool isWheel = requires { kind.suspensionHz; };
+                    kind.anchorMetres = isWheel ? onB : onA; // else it would turn beside its middle
                     if constexpr (requires { kind.axis; }) {
                         kind.axis = a->second.rotate(kind.axis);
                         const double length = portable::hypot(kind.axis.x, kind.axis.y),

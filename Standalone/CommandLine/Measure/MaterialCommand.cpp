@@ -173,9 +173,6 @@ int runMaterial(const MaterialOptions& o) {
         return reportExit(exitUsage, "material: --picture goes with FILE.wav");
     if (o.texturePath.empty() == o.speedMetresPerSecond.has_value())
         return reportExit(exitUsage, "material: --texture and --speed go together");
-    // range checks accept nan
-    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg))
-        return reportExit(exitUsage, "--speed, --load, --mass: expected numbers");
     if (o.listsMaterials) return listMaterials();
     if (!o.texturePath.empty())
         return printTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});

@@ -9,21 +9,22 @@
 namespace physvib {
 namespace {
 
-/// Level without the mean, which contains gravity.
+/// Level without the mean, which contains gravity; 0 for a constant.
 double computeLevel(const std::vector<float>& x) {
+    const double first = x.front(), size = static_cast<double>(x.size());
     double mean = 0.0, power = 0.0;
-    for (const float s : x) mean += s / static_cast<double>(x.size());
-    for (const float s : x) power += (s - mean) * (s - mean) / static_cast<double>(x.size());
+    for (const float s : x) mean += (s - first) / size;
+    for (const float s : x) power += (s - first - mean) * (s - first - mean) / size;
     return std::sqrt(power);
 }
 
-/// Hann window, which suppresses gravity and the effect of incomplete periods.
+/// Hann window, which suppresses gravity and the effect of incomplete periods; 0 for a constant.
 std::complex<double> computeTone(const std::vector<float>& x, double radiansPerSample) {
     std::complex<double> sum = 0.0;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(x.size());
     for (std::size_t n = 0; n < x.size(); ++n) {
         const auto index = static_cast<double>(n);
-        sum += (1.0 - std::cos(step * index)) * static_cast<double>(x[n]) *
+        sum += (1.0 - std::cos(step * index)) * (static_cast<double>(x[n]) - x.front()) *
                std::polar(1.0, -radiansPerSample * index);
     }
     return sum * (2.0 / static_cast<double>(x.size()));

@@ -185,7 +185,8 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     else
         protocolChoice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
     description_ = describeProtocol(*protocol_);
-    noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
+    const int noiseId = -juce::roundToInt(protocol_->pinkNoiseDb);
+    noiseLevel_.setSelectedId(noiseId == -protocol_->pinkNoiseDb ? noiseId : 0, juce::dontSendNotification);
     if (noiseLevel_.getSelectedId() == 0)
         noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
     refreshStatus();
@@ -195,14 +196,16 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
 
 void StudiesTab::handleProtocolChoice() {
     const int id = protocolChoice_.getSelectedId();
+    const auto showChosen = [this] {
+        if (protocol_) protocolChoice_.setText(displayTitle(protocol_->name), juce::dontSendNotification);
+    };
     if (id == fileId)
         askForFile(
             *this, {"A protocol", ".json", juce::File{folder_.getText()}},
-            [this](const juce::File& file) { chooseProtocol(pathOf(file)); },
-            [this] {
-                if (protocol_)
-                    protocolChoice_.setText(displayTitle(protocol_->name), juce::dontSendNotification);
-            });
+            [this, showChosen](const juce::File& file) {
+                if (!chooseProtocol(pathOf(file)).empty()) showChosen();
+            },
+            showChosen);
     else if (id > 0)
         chooseProtocol(nth(knownProtocols(), id - 1).name), offerLayout();
 }

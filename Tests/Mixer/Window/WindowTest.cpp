@@ -444,6 +444,10 @@ TEST_F(Windows, AStrangersSessionIsNoLouderThanTheDeskWas) {
     again.newDocument();
     EXPECT_EQ(again.model().mix().strips[3].output, 3) << "what a file took is the user's still";
     EXPECT_EQ(again.model().mix().levelDb, -30.0);
+    again.openFile(theirs);
+    again.model().messages().current().action.run(); // Levels of the file
+    EXPECT_EQ(again.model().mix().levelDb, 0.0);
+    EXPECT_EQ(again.model().mix().strips[0].gainDb, maxStripDb);
 }
 
 TEST_F(Windows, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
