@@ -93,4 +93,20 @@ TEST(PadTrial, ATrialThatCannotBeMeasuredSaysWhyAndLeavesMotorsAtRest) {
     EXPECT_EQ(fitMotor(steps.value).error, "nothing moved: is the controller lying on something soft?");
 }
 
+TEST(PadTrial, AControllerThatLeavesInAnyPartIsNamedAndATrialThatEndsTellsIt) {
+    NumberPad whole{{}, {}};
+    int lines = 0;
+    EXPECT_EQ(tryMotors(whole, {}, whole.time(), [&](const std::string&) { ++lines; }), "");
+    EXPECT_EQ(lines, 9);
+    EXPECT_GT(whole.time().seconds(), 15.6) << "eight steps of 1.2 s, and ten hits until 6 s";
+    for (const double seconds : {0.3, 5.0, 9.7, 12.0, 15.5}) {
+        NumberPad ended{{}, {}}, pulled{{}, {}};
+        EXPECT_EQ(tryMotors(ended, {}, ended.time(seconds), [](const auto&) {}), "ended before its time");
+        auto time = pulled.time();
+        time.tick = [&] { pulled.tick(), pulled.isAttached_ = pulled.time().seconds() < seconds; };
+        EXPECT_EQ(tryMotors(pulled, {}, time, [](const auto&) {}), "numbers is gone") << seconds;
+        EXPECT_EQ(std::max(ended.strongest(), pulled.strongest()), 0.0);
+    }
+}
+
 } // namespace physvib::pad_trial_test

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Measures motor strength as the standard deviation of the acceleration in short windows, minus that at rest.
 #include "Live/Pads/PadTrial.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -38,6 +40,35 @@ double commandAt(double level, const std::vector<PadStep>& steps, const std::vec
                                           (strengths[i] - strengths[i - 1]);
     }
     return steps.back().command;
+}
+
+/// Plays ten impacts of 20 ms with increasing level, as `play` sends them; false: ended early.
+bool playHits(GamePad& pad, const PadModel& law, const PadTrialClock& clock) {
+    ActuatorLayout phone;
+    layoutPreset("phone2", phone);
+    const PhantomPanner grips = PadMotors::makeGripPanner({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
+    PadMotors motors{law};
+    constexpr std::int64_t intervalNs = 600'000'000;
+    for (int i = 1; i <= 10; ++i) {
+        CollisionEvent hit;
+        hit.timeNs = i * intervalNs;
+        hit.durationNs = 20'000'000;
+        hit.frequencyHz = 60.0;
+        hit.amplitude = i / 10.0;
+        hit.x = hit.y = 0.5;
+        motors.strike(hit, grips);
+    }
+    const double beginSeconds = clock.seconds();
+    PadCommand lastCommand;
+    for (; clock.keepGoing() && pad.isAttached(); clock.tick()) {
+        if (motors.dueNs() == PadMotors::never) return pad.rumble(0.0, 0.0), true;
+        if (static_cast<double>(motors.dueNs()) * 1e-9 > clock.seconds() - beginSeconds) continue;
+        const PadCommand command = motors.next(1.0);
+        if (!command.isSame(lastCommand)) pad.rumble(command.low, command.high);
+        lastCommand = command;
+    }
+    pad.rumble(0.0, 0.0);
+    return false;
 }
 
 double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
@@ -118,6 +149,23 @@ Result<PadMotor> fitMotor(const std::vector<PadStep>& steps) {
     motor.fallSeconds =
         std::max(0.005, rounded(secondsTo(fullStep.onSeconds, [&](double s) { return s <= 0.1 * peak; })));
     return motor;
+}
+
+std::string tryMotors(GamePad& pad, const PadModel& law, const PadTrialClock& clock,
+                      const std::function<void(const std::string&)>& say) {
+    const auto reason = [&pad] {
+        return pad.isAttached() ? "ended before its time" : pad.info().name + " is gone";
+    };
+    for (const auto& [motorName, low, high] :
+         {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
+        for (const double command : {0.2, 0.4, 0.7, 1.0}) {
+            say(std::string{motorName} + ": command " + numberText(command));
+            if (!holdMotors(pad, low * command, high * command, 0.7, clock) ||
+                !holdMotors(pad, 0.0, 0.0, 0.5, clock))
+                return reason();
+        }
+    say("ten hits of 20 ms, from 0.1 to 1 of full scale: all of them should be felt");
+    return playHits(pad, law, clock) ? "" : reason();
 }
 
 } // namespace physvib

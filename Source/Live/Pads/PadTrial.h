@@ -39,4 +39,9 @@ Result<PadMotor> fitMotor(const std::vector<PadStep>& steps);
 /// Holds both commands for that time, repeated as needed; false: ended early.
 bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialClock& clock);
 
+/// Holds each motor at four commands, then plays ten impacts of 20 ms with increasing level, as `play` sends
+/// them; `say` gets a line before each part. Empty, or one line: the pad is gone, or the trial was ended.
+std::string tryMotors(GamePad& pad, const PadModel& law, const PadTrialClock& clock,
+                      const std::function<void(const std::string&)>& say);
+
 } // namespace physvib

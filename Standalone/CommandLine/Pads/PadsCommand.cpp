@@ -2,7 +2,6 @@
 // The command `physvib pads`: lists game controllers, and tests and calibrates their motors.
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
-#include "Core/Pads/PadMotors.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/AudioDevice.h"
@@ -81,32 +80,6 @@ Result<std::unique_ptr<GamePad>> awaitPad(GamePads& pads, const std::string& nam
                                   : "no game controller with motors is called " + inQuotes(name)};
 }
 
-/// Plays ten impacts of 20 ms with increasing level, as `play` sends them.
-void playHits(GamePad& pad, const PadModel& law, const PadTrialClock& clock) {
-    ActuatorLayout phone;
-    layoutPreset("phone2", phone);
-    const PhantomPanner grips = PadMotors::makeGripPanner({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
-    PadMotors motors{law};
-    constexpr std::int64_t intervalNs = 600'000'000;
-    for (int i = 1; i <= 10; ++i) {
-        CollisionEvent hit;
-        hit.timeNs = i * intervalNs;
-        hit.durationNs = 20'000'000;
-        hit.frequencyHz = 60.0;
-        hit.amplitude = i / 10.0;
-        hit.x = hit.y = 0.5;
-        motors.strike(hit, grips);
-    }
-    const double beginSeconds = clock.seconds();
-    for (PadCommand lastCommand; clock.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
-         clock.tick()) {
-        if (static_cast<double>(motors.dueNs()) * 1e-9 > clock.seconds() - beginSeconds) continue;
-        const PadCommand command = motors.next(1.0);
-        if (!command.isSame(lastCommand)) pad.rumble(command.low, command.high);
-        lastCommand = command;
-    }
-}
-
 int testMotors(const PadsOptions& o) {
     installInterruptHandlers();
     GamePads pads;
@@ -118,19 +91,9 @@ int testMotors(const PadsOptions& o) {
     law.commandsPerSecond = std::min(law.commandsPerSecond, maxCommandsPerSecond(pad.info().bus));
     const PadTrialClock clock = makeTrialClock(pads);
     std::cout << pad.info().name << ", " << profile.value.name << '\n';
-    for (const auto& [motorName, low, high] :
-         {std::tuple{"heavy motor, left grip", 1.0, 0.0}, {"light motor, right grip", 0.0, 1.0}})
-        for (const double command : {0.2, 0.4, 0.7, 1.0}) {
-            std::cout << motorName << ": command " << numberText(command) << std::endl;
-            if (!holdMotors(pad, low * command, high * command, 0.7, clock) ||
-                !holdMotors(pad, 0.0, 0.0, 0.5, clock))
-                return reportExit(exitFailed,
-                                  pad.isAttached() ? "ended before its time" : pad.info().name + " is gone");
-        }
-    std::cout << "ten hits of 20 ms, from 0.1 to 1 of full scale: all of them should be felt" << std::endl;
-    playHits(pad, law, clock);
-    pad.rumble(0.0, 0.0);
-    return interrupted ? reportExit(exitFailed, "ended before its time") : exitDone;
+    const std::string error =
+        tryMotors(pad, law, clock, [](const std::string& line) { std::cout << line << std::endl; });
+    return error.empty() ? exitDone : reportExit(exitFailed, error);
 }
 
 int calibrateMotors(const PadsOptions& o) {
