@@ -87,7 +87,9 @@ Result<std::string> writeClipFiles(const PlayedExport& source, const std::string
     };
     const auto clip = makeHitClip(hits, {0.004, static_cast<std::size_t>(source.panner.channels()), gains});
     if (!clip) return Failure{clip.error};
-    return writeParts(splitClip(clip.value, path, format), format);
+    const auto parts = splitClip(clip.value, path, format);
+    if (auto error = replacedPartError(parts, path); !error.empty()) return Failure{std::move(error)};
+    return writeParts(parts, format);
 }
 
 } // namespace

@@ -103,6 +103,13 @@ std::vector<ClipPart> splitClip(const Clip& clip, const std::string& targetPath,
     return parts;
 }
 
+std::string replacedPartError(const std::vector<ClipPart>& parts, const std::string& targetPath) {
+    for (const ClipPart& part : parts)
+        if (std::error_code code; part.path != targetPath && std::filesystem::exists(part.path, code))
+            return part.path + ": is there already; a file for each actuator replaces none";
+    return {};
+}
+
 Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat format,
                                const FrequencyScale& defaultScale) {
     std::list<AtomicFile> files;

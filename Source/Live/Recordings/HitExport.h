@@ -35,6 +35,10 @@ struct ClipPart {
 /// NAME-B.haptic... Any thread.
 std::vector<ClipPart> splitClip(const Clip& clip, const std::string& targetPath, ClipFormat format);
 
+/// Empty, or one line on a part's file that is there already, if that is not `targetPath`: nobody was asked
+/// whether it may be replaced. Not on the render thread.
+std::string replacedPartError(const std::vector<ClipPart>& parts, const std::string& targetPath);
+
 /// Writes all files or none. `defaultScale`: frequency range that the format's 0 to 1 stands for, where the
 /// channel's actuator has no known band. Returns one line per file with its length and size, or one line with
 /// the reason. M only.

@@ -69,7 +69,7 @@ Result<MeasuredCoupling> measureCoupling(const RecordingList& list, const Layout
             return Failure{list.table().cellError(row, *list.table().column("driven"),
                                                   "the label of an actuator of the layout")};
         const std::string path = list.path(row);
-        const auto tones = channelTones(path, hz.value);
+        const auto tones = channelTones(list, row, hz.value);
         if (!tones) return Failure{tones.error};
         if (tones.value.size() != actuatorCount)
             return Failure{path + ": expected a channel per actuator of the layout, " +

@@ -42,7 +42,9 @@ Result<std::vector<Value>> measureChannels(const std::string& path, Measure meas
         if (error.empty()) error = clippingError(channel, rateHz);
         if (!error.empty())
             return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + error};
-        values.push_back(measure(channel, rateHz));
+        const Result<Value> value = measure(channel, rateHz);
+        if (!value) return Failure{value.error};
+        values.push_back(value.value);
     }
     return values;
 }
@@ -54,10 +56,18 @@ Result<std::vector<double>> axisLevels(const std::string& path) {
         path, [](const std::vector<float>& channel, double) { return computeLevel(channel); });
 }
 
-Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz) {
-    return measureChannels<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) {
-        return computeTone(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
-    });
+Result<std::vector<std::complex<double>>> channelTones(const RecordingList& list, const CsvRow& row,
+                                                       double frequencyHz) {
+    using Tone = std::complex<double>;
+    return measureChannels<Tone>(
+        list.path(row), [&](const std::vector<float>& channel, double rateHz) -> Result<Tone> {
+            if (!(frequencyHz < 0.5 * rateHz))
+                return Failure{list.table().cellError(row, *list.table().column("frequency_hz"),
+                                                      "less than " + plainNumber(0.5 * rateHz) +
+                                                          ", half the sample rate of " +
+                                                          list.cell(row, "file"))};
+            return computeTone(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz);
+        });
 }
 
 } // namespace physvib

@@ -70,8 +70,10 @@ private:
 /// Root mean square of each channel without its mean; or one error line with the file's name. Message thread.
 Result<std::vector<double>> axisLevels(const std::string& path);
 
-/// Complex amplitude of each channel at that frequency; or one error line. Message thread.
-Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz);
+/// Complex amplitude of each channel of the row's recording at that frequency; or one error line, also if the
+/// frequency is not below half the recording's sample rate. Message thread.
+Result<std::vector<std::complex<double>>> channelTones(const RecordingList& list, const CsvRow& row,
+                                                       double frequencyHz);
 
 /// Parses a band such as "90-1000" (LO-HI in Hz, 0 < LO < HI); nullopt for any other text. Any thread.
 inline std::optional<FrequencyBand> parseBand(std::string_view text) {

@@ -97,11 +97,8 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
     if (!clip) return Failure{clip.error};
     const auto parts = splitClip(clip.value, path, format);
     WrittenHits written;
-    for (const ClipPart& part : parts) {
-        if (parts.size() > 1 && juce::File{part.path}.exists())
-            return Failure{part.path + ": is there already; a file for each actuator replaces none"};
-        written.paths.push_back(part.path);
-    }
+    if (auto error = replacedPartError(parts, path); !error.empty()) return Failure{std::move(error)};
+    for (const ClipPart& part : parts) written.paths.push_back(part.path);
     if (const auto result = writeParts(parts, format); !result) return Failure{result.error};
     written.losses = listLosses(parts, format);
     return written;
