@@ -145,10 +145,10 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,C,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
             "column driven: expected the label of an actuator of the layout, found \"C\"", 3);
-    write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\nb.wav,B,4000\n");
+    write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,4000\nb.wav,B,4000\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
-            "rec/conditions.csv:3: column frequency_hz: expected less than 4000, half the sample rate of "
-            "b.wav, found \"4000\"",
+            "rec/conditions.csv:2: column frequency_hz: expected less than 4000, half the sample rate of "
+            "a1.wav, found \"4000\"",
             3);
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\n");
     refuses("coupling rec --layout phone4 --out d.json", 1,

@@ -117,9 +117,9 @@ TEST(PlayedExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     EXPECT_TRUE(exportPlayed(felt, at("felt.ahap")));
     EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "felt-*.ahap"), 4)
         << "one for each actuator";
-    const auto part = folder.getChildFile("felt-B.ahap");
+    const auto part = folder.getChildFile("felt-A.ahap");
     EXPECT_TRUE(part.replaceWithText("of the user"));
-    EXPECT_EQ(exportPlayed(felt, at("felt.ahap")).error.find(at("felt-B.ahap") + ": is there already"), 0u)
+    EXPECT_EQ(exportPlayed(felt, at("felt.ahap")).error.find(at("felt-A.ahap") + ": is there already"), 0u)
         << "only felt.ahap was asked about";
     EXPECT_EQ(part.loadFileAsString(), "of the user");
     EXPECT_FALSE(exportPlayed(felt, at("felt.xyz")));
