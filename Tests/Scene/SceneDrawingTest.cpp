@@ -446,8 +446,10 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     drawn.now = [&](const std::string& body) {
         return std::optional{body == "ball" ? ball() : drawn.world.pose(0)};
     };
-    for (const char* name : {"ball", "joint 1"}) { // the rope goes with it, or alone
-        ASSERT_EQ(drawn.edit(removeActions(drawn.drawing, {name})), "");
+    for (const bool isAlone : {false, true}) { // the rope goes with it, or alone
+        ASSERT_EQ(drawn.edit(isAlone ? std::vector<Action>{UnjoinAction{"joint 1"}}
+                                     : removeActions(drawn.drawing, {"ball"})),
+                  "");
         drawn.steps(30);
         drawn.undo();
         drawn.steps(30);
@@ -505,6 +507,23 @@ TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
     EXPECT_EQ((std::vector(drawn.drawing.drawn().joints.begin() + 3, drawn.drawing.drawn().joints.end())),
               (std::vector<JointDescription>{{"joint 1", "car 1", "wheel 1", WheelJoint{pin1, {0.0, 1.0}}},
                                              {"joint 2", "car 1", "wheel 1", DistanceJoint{top1, pin1}}}));
+}
+
+TEST_F(Car, ABodyGoesWithTheJointsThatHoldItAndWithNothingElseOfTheirNames) {
+    ASSERT_EQ(drawn.add(makeBall({0.5, 1.0}, {0.6, 1.0}).value, "rod"), "");
+    ASSERT_EQ(join(RevoluteJoint{pin}, "car", "floor"), "");
+    ASSERT_EQ(join(DistanceJoint{top, pin}, "floor", "rod"), "");
+    Scene scene = drawn.drawing.drawn();
+    scene.script = {{0.0, 1, 0.0, MotorAction{"floor", 1.0, {}}},
+                    {0.0, 1, 0.0, ImpulseAction{"rod", {}, {}}}};
+    const Scene left = sceneWithout(scene, {"floor"});
+    EXPECT_TRUE(left.script == scene.script);
+    ASSERT_EQ(drawn.edit(removeActions(drawn.drawing, {"floor"})), "");
+    for (const Scene& one : {left, drawn.drawing.drawn()}) {
+        ASSERT_EQ(one.joints.size(), 1U);
+        EXPECT_EQ(one.joints[0].name, "floor");
+        EXPECT_EQ(one.bodies.size(), 3U) << "car, wheel and rod";
+    }
 }
 
 TEST(SceneDrawing, SaysWhatCannotBeDrawn) {

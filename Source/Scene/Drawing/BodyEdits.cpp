@@ -75,19 +75,18 @@ std::vector<Action> removeActions(const SceneDrawing& drawing, const std::vector
     std::vector<Action> actions;
     const auto isSelected = isOneOf(names);
     for (const JointDescription& joint : drawing.drawn().joints)
-        if (isSelected(joint.name) || isSelected(joint.bodyA) || isSelected(joint.bodyB))
-            actions.push_back(UnjoinAction{joint.name});
+        if (isSelected(joint.bodyA) || isSelected(joint.bodyB)) actions.push_back(UnjoinAction{joint.name});
     for (const std::string& name : names)
         if (drawing.find(name) != nullptr) actions.push_back(RemoveAction{name});
     return actions;
 }
 
 Scene sceneWithout(Scene scene, const std::vector<std::string>& names) {
-    auto removedNames = names;
-    const auto isRemoved = isOneOf(removedNames);
+    std::vector<std::string> jointNames;
+    const auto isRemoved = isOneOf(names), isJointRemoved = isOneOf(jointNames);
     std::erase_if(scene.joints, [&](const JointDescription& joint) {
-        const bool isAffected = isRemoved(joint.name) || isRemoved(joint.bodyA) || isRemoved(joint.bodyB);
-        if (isAffected) removedNames.push_back(joint.name);
+        const bool isAffected = isRemoved(joint.bodyA) || isRemoved(joint.bodyB);
+        if (isAffected) jointNames.push_back(joint.name);
         return isAffected;
     });
     std::erase_if(scene.bodies, [&](const BodyDescription& body) { return isRemoved(body.name); });
@@ -96,8 +95,8 @@ Scene sceneWithout(Scene scene, const std::vector<std::string>& names) {
             [&](const auto& action) {
                 if constexpr (requires { isRemoved(action.body); })
                     return isRemoved(action.body);
-                else if constexpr (requires { isRemoved(action.joint); })
-                    return isRemoved(action.joint);
+                else if constexpr (requires { isJointRemoved(action.joint); })
+                    return isJointRemoved(action.joint);
                 else
                     return false;
             },
