@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes material tables; a material's fields are those of scenes.
+// Reads material tables; a material's fields are those of scenes.
 #include "Scene/MaterialTable.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
@@ -39,12 +39,6 @@ Result<MaterialTable> readMaterials(std::string_view text, std::string_view name
 
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
     return loadText(path, limits::maxMaterialsFileBytes, readMaterials);
-}
-
-std::string materialsJson(const MaterialTable& table) {
-    OrderedJson root = {{materialsVersionField, materialsFormatVersion}};
-    root.update(detail::fieldsJson(table, table.materials));
-    return prettyJson(root);
 }
 
 const std::vector<MaterialTable>& builtInMaterials() {

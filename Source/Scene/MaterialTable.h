@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// The version of the format that is written, and the newest that is read.
+/// The newest version of the format.
 constexpr int materialsFormatVersion = 1;
 
 struct MaterialTable {
@@ -30,9 +30,6 @@ Result<MaterialTable> readMaterials(std::string_view text, std::string_view name
 
 /// Reads a file, with the checks and errors of readMaterials(). Message thread only.
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
-
-/// `table` as JSON, a material per line; readMaterials restores it bit for bit. Any thread.
-std::string materialsJson(const MaterialTable& table);
 
 /// The tables that come with PhysVib, Table 5.1 of the thesis first. Read on first use; any thread.
 const std::vector<MaterialTable>& builtInMaterials();

@@ -4,6 +4,7 @@
 #include "Scene/MaterialTable.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    physvib::fuzz::tried(data, size, physvib::readMaterials, physvib::materialsJson);
+    const auto read = physvib::readMaterials(physvib::fuzz::asText(data, size), "f");
+    if (!read) physvib::fuzz::demandClearRefusal(read, physvib::fuzz::isDefault(read.value));
     return 0;
 }
