@@ -207,6 +207,31 @@ TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
                     "levels.csv: expected a level of drop, 2, found none"));
 }
 
+TEST_F(Study, LevelsAreOfTheOneSessionThatSetsThem) {
+    const auto session = [](const std::string& name, const std::string& moved, const std::string& training) {
+        return R"({ "name": ")" + name + R"(", "task": "adjust", )" + training +
+               R"("alternatives": [{ "name": "AV-FV-DRV" }, { "name": "AV-FF-DRF" }], "adjustment": { "alternative": ")" +
+               moved + R"(" } })";
+    };
+    const auto protocol = [&](const std::string& name, const std::string& sessions) {
+        write(name + ".json",
+              R"({ "physvib_protocol": 1, "name": ")" + name +
+                  R"(", "conditions": [{ "name": "drop", "layout": "phone1", "stimuli": "calls",
+            "factors": [{ "name": "height", "values": ["1", "2"] }], "call": "render drop --set height={height} --seconds 1 --layout phone1 --method {alternative} --level-db {level_db}" }], "sessions": [)" +
+                  sessions + "] }");
+        runs("study run " + name + ".json --observer simulated");
+        return "study levels " + name + ".json " + name + "-P01.csv --out levels.csv";
+    };
+    const std::string training = session("first", "AV-FF-DRF", "\"training\": true, "),
+                      main = session("main", "AV-FV-DRV", "");
+    runs(protocol("tried", training + ", " + main));
+    EXPECT_EQ(std::regex_replace(read("levels.csv"), std::regex{"#.*\n|,-?[0-9.]+,1,0\n"}, "\n"),
+              "\ncondition,stimulus,alternative,level_db,participants,standard_deviation\n"
+              "drop,1,AV-FV-DRV\ndrop,2,AV-FV-DRV\n");
+    EXPECT_TRUE(has(call(protocol("twice", main + ", " + session("again", "AV-FF-DRF", ""))).err,
+                    "twice.json: expected one session of the task adjust, found 2\n"));
+}
+
 // Every trial of the protocol renders one of these calls.
 TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimiterActs) {
     for (const std::string method :

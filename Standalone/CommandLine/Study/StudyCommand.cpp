@@ -17,6 +17,7 @@
 #include "System/Process.h"
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -208,10 +209,13 @@ int planStudy(const StudyOptions& o) {
 int averageAdjustments(const StudyOptions& o) {
     const auto protocol = loadCheckedProtocol(o.protocol);
     if (!protocol) return reportExit(exitFailed, protocol.error);
-    const auto session = std::ranges::find_if(protocol.value.sessions,
-                                              [](const SessionPlan& s) { return s.adjustment.has_value(); });
-    if (session == protocol.value.sessions.end())
-        return reportExit(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
+    std::vector<SessionPlan> sessions = protocol.value.sessions;
+    std::erase_if(sessions, [](const SessionPlan& s) { return !s.adjustment; });
+    if (std::ranges::any_of(sessions, std::logical_not{}, &SessionPlan::isTraining)) // as readLevels() does
+        std::erase_if(sessions, [](const SessionPlan& s) { return s.isTraining; });
+    if (sessions.size() != 1) // because a stimulus has one level in the file
+        return reportExit(exitFailed, o.protocol + ": expected one session of the task adjust, found " +
+                                          std::to_string(sessions.size()));
     const auto data = readStudyFiles(
         StudySources{o.trials}, [&](const std::vector<NamedText>& files) -> Result<StudyData<LevelTrial>> {
             for (const NamedText& file : files)
@@ -222,7 +226,8 @@ int averageAdjustments(const StudyOptions& o) {
             return readLevels(files);
         });
     if (!data) return reportExit(exitFailed, data.error);
-    const auto averages = averageLevels(data.value.groups.front().trials, session->adjustment->alternative);
+    const auto averages =
+        averageLevels(data.value.groups.front().trials, sessions[0].adjustment->alternative);
     if (averages.empty())
         return reportExit(exitFailed, o.trials.front() + ": expected adjustments, found none");
     Provenance provenance{PHYSVIB_VERSION,
