@@ -7,6 +7,7 @@
 #include "Scene/LayoutFile.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
+#include <future>
 #include <gtest/gtest.h>
 
 namespace physvib::called_boards_test {
@@ -74,6 +75,24 @@ TEST_F(CalledBoards, GrainsOfAListAreSpreadAsOnADevice) {
     PhantomPanner{layout.value.geometry, PanningLaw::automatic, 1.0, 0.12, 0.06}.gainsAt(grain, gains);
     for (std::size_t j = 0; j < 4; ++j)
         EXPECT_EQ(board.strikes()[0].event.amplitudes[j], boardAmplitude(0.5 * gains[j])) << j;
+}
+
+TEST_F(CalledBoards, ATestThatDoesNotComeToItsEndIsNotPassed) {
+    const auto ended = [this](const std::string& port, auto act) {
+        const std::string command = "cd '" + folder_.string() + "'; '" PHYSVIB_PROGRAM "' board " + port +
+                                    " test >.out 2>.err & echo $! >.pid; wait $!";
+        auto status = std::async(std::launch::async, [&] { return std::system(command.c_str()); });
+        EXPECT_TRUE(test::comesTrue([&] { return has(read(".out"), "in turn"); })) << read(".err");
+        act();
+        EXPECT_EQ(WEXITSTATUS(status.get()), 1);
+        return read(".err");
+    };
+    EXPECT_EQ(ended(board.port(), [&] { kill(std::stoi(read(".pid")), SIGINT); }),
+              "physvib: ended before its time\n");
+    write(".out", "");
+    auto other = std::make_unique<FakeBoard>(ours(), 0);
+    other->count({.good = 1});
+    EXPECT_EQ(ended(other->port(), [&] { other.reset(); }), "physvib: the board is gone\n");
 }
 
 /// Begins now.

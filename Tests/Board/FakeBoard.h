@@ -7,6 +7,7 @@
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
+#include "Wire/SelfTest.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -72,6 +73,8 @@ private:
             send(wire::Pong{ping.id, frame, 0});
             if (lies_) send(wire::Pong{ping.id, frame + 400, 0}); // once more
         }
+        if (wire::SelfTest test; wire::decode(payload, test))
+            send(wire::expectedSelfTest(*std::make_unique<BoardRenderer>()));
         const std::scoped_lock lock{mutex_};
         if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike), ++sinceStop_;
         if (wire::Segment segment; wire::decode(payload, segment))

@@ -62,8 +62,9 @@ void printBoardInfo(const BoardLinkStatus& status) {
 
 constexpr std::int64_t nsPerMs = 1'000'000;
 
-/// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale.
-void playChannelsInTurn(BoardLink& link) {
+/// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale. False: ended
+/// early.
+bool playChannelsInTurn(BoardLink& link) {
     const std::int64_t start =
         BoardLink::nowNs() + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + 50 * nsPerMs;
     for (std::size_t j = 0; j < limits::board::channels; ++j) {
@@ -76,13 +77,18 @@ void playChannelsInTurn(BoardLink& link) {
         tone.durationNs = 250 * nsPerMs;
         link.push({start + static_cast<std::int64_t>(j) * 400 * nsPerMs, toBoardEvent(tone, gains)});
     }
-    waitFor([&] { return BoardLink::nowNs() > start + 1600 * nsPerMs; }, 5000);
+    const auto isReady = [&] { return link.status().state == BoardLinkStatus::State::ready; };
+    waitFor([&] { return BoardLink::nowNs() > start + 1600 * nsPerMs || !isReady(); }, 5000);
+    return !interrupted && isReady();
 }
+
+constexpr const char* endedEarly = "ended before its time"; // as pads test says
 
 int runSelfTest(BoardLink& link) {
     link.requestSelfTest();
     if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000))
-        return reportExit(exitFailed, link.status().port + ": no answer to the self-test");
+        return reportExit(exitFailed,
+                          interrupted ? endedEarly : link.status().port + ": no answer to the self-test");
     const auto reply = *link.status().selfTest;
     const auto renderer = std::make_unique<BoardRenderer>();
     const bool isEqual = reply.hash == wire::expectedSelfTest(*renderer).hash;
@@ -91,7 +97,8 @@ int runSelfTest(BoardLink& link) {
               << 100.0 * reply.blockCycles / reply.cyclesPerBlock << " %); the bits are "
               << (isEqual ? "those of this computer" : "NOT those of this computer") << '\n';
     std::cout << "channels 1 to 4 in turn, 205 Hz" << std::endl;
-    playChannelsInTurn(link);
+    if (!playChannelsInTurn(link))
+        return reportExit(exitFailed, interrupted ? endedEarly : "the board is gone");
     return isEqual ? exitDone
                    : reportExit(exitFailed, link.status().port + ": the board computes other bits");
 }
