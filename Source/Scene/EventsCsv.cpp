@@ -26,8 +26,6 @@ bool isIncluded(OptionalColumns columns, const EventColumn& column) {
                                             : true;
 }
 
-constexpr OptionalColumns everyColumn{true, true, true, true};
-
 std::string columnNames(OptionalColumns columns) {
     std::string names;
     for (const EventColumn& column : eventColumns) {
@@ -245,7 +243,7 @@ Result<EventList> loadEventsCsv(const std::filesystem::path& path) {
     return reader().read(found.value);
 }
 
-OptionalColumns neededColumns(std::span<const CollisionEvent> events) {
+static OptionalColumns neededColumns(std::span<const CollisionEvent> events) {
     const auto hasKind = [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; };
     const auto hasSound = [](const CollisionEvent& e) { return e.sound != 0; };
     const auto hasDepth = [](const CollisionEvent& e) { return e.z != 0.0; };

@@ -40,8 +40,7 @@ struct OptionalColumns {
     bool kinds = false, materials = false, depths = false, parts = false;
 };
 
-/// The optional columns that these events need. Any thread.
-OptionalColumns neededColumns(std::span<const CollisionEvent> events);
+inline constexpr OptionalColumns everyColumn{true, true, true, true}; ///< for events that are not known yet
 
 /// The first two lines of a list: provenance comment (with `field` if known) and header. Any thread.
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns);

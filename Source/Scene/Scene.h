@@ -44,10 +44,6 @@ struct Material {
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
 
-inline bool hasRoughMaterial(const std::vector<Material>& materials) {
-    return std::ranges::any_of(materials, [](const Material& m) { return m.texture().isRough(); });
-}
-
 struct CircleShape {
     double radiusMetres = 0.0;
     bool operator==(const CircleShape&) const = default;

@@ -44,8 +44,8 @@ close_server() {
     server=
 }
 
-# rows EVENTS.csv: without the comment, which names the file's origin.
-rows() { grep -v '^#' "$1"; }
+# rows EVENTS.csv: without the comment, which names the file's origin, and as a list of hits in a plane has them: a session's has every column.
+rows() { grep -v '^#' "$1" | sed 's/,kind,material,z_m,part$/,material/; s/,hit,\([^,]*\),0,$/,\1/'; }
 
 # raw FILE.wav: its samples, interleaved; the data chunk is what follows the word "data" and its length.
 raw() { tail -c +"$(($(grep -abo data "$1" | head -n 1 | cut -d: -f1) + 9))" "$1"; }

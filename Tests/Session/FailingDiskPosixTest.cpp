@@ -109,6 +109,44 @@ TEST_F(FailingDisks, ThatRecoverLoseNoLine) {
     }
 }
 
+TEST_F(FailingDisks, ThatRecoverGetAllThatCouldWait) {
+    const std::string half(GrowingFile::maxPendingBytes / 2 + 1, 'a');
+    const std::string whole = half + half;
+    for (const int failures : {0, 1, 2}) {
+        put(folder / "a.log", "");
+        GrowingFile file;
+        file.open(folder / "a.log");
+        if (failures == 0) file.append(whole);
+        for (int i = 0; i < 2 && failures > 0; ++i) {
+            disk = {"write", i < failures ? 1 : 99};
+            file.append(half);
+            disk = {};
+        }
+        const std::string why = failures < 2 ? ""
+                                             : (folder / "a.log").string() +
+                                                   ": cannot be written: No space left on device; too much "
+                                                   "would have to wait, so it ends here";
+        EXPECT_EQ(file.error(), why) << failures;
+        file.append("b");
+        EXPECT_EQ(file.error(), why) << failures;
+        EXPECT_EQ(std::filesystem::file_size(folder / "a.log"), failures < 2 ? whole.size() + 1 : 0U)
+            << failures;
+    }
+}
+
+TEST_F(FailingDisks, AListKeepsWhatOnlyItsLaterEventsHave) {
+    CollisionEvent plain{.timeNs = 1, .frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5};
+    CollisionEvent grain = plain;
+    grain.source.kind = ContactKind::roll;
+    grain.source.part = 7;
+    grain.sound = 9;
+    grain.z = 0.25;
+    Kept kept{folder / "a.json", {plain, grain}};
+    ASSERT_EQ(kept.journal->finish(), "");
+    EXPECT_EQ(readEventsCsv(contentOf(folder / "a.events.csv"), "events").value.events,
+              (std::vector{plain, grain}));
+}
+
 TEST_F(FailingDisks, AListOfEventsThatCameInAnyOrderIsReadAgainWhole) {
     for (const std::vector<std::int64_t>& times : {std::vector<std::int64_t>{0, 1, 2},
                                                    {5'000'000, 4'999'999, 6'000'000},

@@ -13,12 +13,6 @@ SavedSession sessionHead(const SessionSetup& setup) {
             {},          {},           setup.equalised, setup.shaping,        setup.layout};
 }
 
-// Chooses the columns before any event is known: depths and parts if the layout has them.
-OptionalColumns columnsFor(const SessionSetup& setup) {
-    const ActuatorLayout& layout = setup.panner.layout();
-    return {hasRoughMaterial(setup.scene.materials), true, !isFlat(layout), hasParts(layout)};
-}
-
 } // namespace
 
 SessionJournal::SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup,
@@ -26,7 +20,6 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
-    , columns_{columnsFor(setup)}
     , journalLines_{sessionHead(setup), std::filesystem::absolute(path_).parent_path()} {
     createFiles(fieldOf(setup.panner), provenance);
     if (!error_.empty()) return;
@@ -44,7 +37,7 @@ SessionJournal::~SessionJournal() {
 void SessionJournal::createFiles(FieldSize field, const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(journalLines_.head());
-    events.write(eventsCsvHead(provenance, field, columns_));
+    events.write(eventsCsvHead(provenance, field, everyColumn));
     for (AtomicFile* file : {&session, &events})
         if (error_.empty()) error_ = file->error();
     for (AtomicFile* file : {&events, &session})
@@ -91,7 +84,7 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
         if (rowCount_++ >= limits::maxEventRows) break;
         // a late event was played after others, but rows must be in time order
         event.timeNs = lastRowNs_ = std::max(lastRowNs_, event.timeNs);
-        appendEventRow(rows, event, columns_, soundNames_);
+        appendEventRow(rows, event, everyColumn, soundNames_);
     }
     events_.append(rows);
     publishError();
@@ -160,18 +153,18 @@ bool GrowingFile::sync() {
 
 void GrowingFile::append(std::string_view lines) {
     if (isFull_) return;
-    if (pendingLines_.size() + lines.size() > maxPendingBytes) {
-        isFull_ = true;
-        pendingLines_ = {};
-        error_ += "; too much would have to wait, so it ends here";
-        return;
-    }
     pendingLines_ += lines;
     file_.clearError();
-    if (!file_.append(pendingLines_)) return fail(file_.reason());
-    bytes_ += static_cast<std::int64_t>(pendingLines_.size());
-    pendingLines_.clear();
-    error_.clear();
+    if (file_.append(pendingLines_)) {
+        bytes_ += static_cast<std::int64_t>(pendingLines_.size());
+        pendingLines_.clear();
+        return error_.clear();
+    }
+    fail(file_.reason());
+    if (pendingLines_.size() <= maxPendingBytes) return;
+    isFull_ = true;
+    pendingLines_ = {};
+    error_ += "; too much would have to wait, so it ends here";
 }
 
 } // namespace physvib

@@ -97,7 +97,6 @@ private:
     std::filesystem::path path_, eventsPath_;
     Session& session_;
     std::string error_;
-    const OptionalColumns columns_;       // of the event list
     std::optional<AtomicFile> finalFile_; // the final session file; keeps the name from other writers
 
     // Used by the journal's thread; by M after that has ended.
