@@ -11,8 +11,10 @@
 namespace physvib::session_file_test {
 
 /// The corpus' session with another piece.
-std::string sessionWith(const std::string& from, const std::string& to) {
-    std::string text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/two-takes.json", 10'000).value;
+std::string sessionWith(const std::string& from, const std::string& to,
+                        const std::string& name = "two-takes") {
+    std::string text =
+        readFile(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/" + name + ".json", 10'000).value;
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
@@ -35,7 +37,7 @@ TEST(SessionFile, AStrikeThatWouldHoldACoilAtDirectCurrentIsNamed) {
               "found 2 Hz");
 }
 
-TEST(SessionFile, StrikesKeepDepthAndPartWhereTheyHaveThem) {
+TEST(SessionFile, StrikesKeepDepthPartAndKindWhereTheyHaveThem) {
     const auto with = [](const std::string& place) {
         return sessionWith("\"channels\": 2,",
                            "\"channels\": 2, \"strikes\": [{\"time_s\": 0.01, \"frequency_hz\": 200, "
@@ -49,9 +51,13 @@ TEST(SessionFile, StrikesKeepDepthAndPartWhereTheyHaveThem) {
     EXPECT_EQ(strikes[0].z, -0.25);
     EXPECT_EQ(strikes[0].source.part, 12);
     EXPECT_EQ(readSession(sessionJson(session.value), "s.json").value.log.strikes, strikes);
+    const auto grain = readSession(with(", \"kind\": \"slide\""), "s.json");
+    ASSERT_EQ(grain.error, "");
+    EXPECT_EQ(grain.value.log.strikes[0].source.kind, ContactKind::slide) << "panned as it was";
+    EXPECT_EQ(readSession(sessionJson(grain.value), "s.json").value.log.strikes, grain.value.log.strikes);
     const std::string flat = sessionJson(readSession(with(""), "s.json").value);
-    EXPECT_EQ(flat.find("z_m"), std::string::npos) << "as it was";
-    EXPECT_EQ(flat.find("\"part\""), std::string::npos);
+    for (const char* absent : {"z_m", "\"part\"", "\"kind\""})
+        EXPECT_EQ(flat.find(absent), std::string::npos) << "as it was";
     EXPECT_EQ(readSession(with(", \"part\": -1"), "s.json").error,
               "s.json: strikes[0].part: expected 0 to 2147483647, found -1");
     const std::string largest = std::to_string(std::numeric_limits<PartNumber>::max());
@@ -107,6 +113,66 @@ TEST(SessionFile, AnEqualiserOutOfRangeIsNamed) {
               "s.json: equalised[1].band_hz: expected a highest frequency above the lowest");
     EXPECT_EQ(fault("\"resonance_hz\": 200, \"q\": 10", "[5e-324, 400]"),
               "s.json: equalised[1].band_hz[0]: expected 1 to 20000, found 5e-324");
+}
+
+TEST(SessionFile, EveryNumberOutOfItsRangeIsNamed) {
+    const std::string strike =
+        R"("frequency_hz": 200, "decay_per_s": 30, "amplitude": 1, "x_m": 0, "y_m": 0)";
+    const struct {
+        std::string from, to, fault;
+    } rows[]{
+        {"5.009333333", "-1", "seconds: expected a number from 0 to 1e+06, found -1"},
+        {"5.009333333", "1e7", "seconds: expected a number from 0 to 1e+06, found 10000000.0"},
+        {"\"steps_per_second\": 100", "\"steps_per_second\": 9",
+         "steps_per_second: expected 10 to 10000, found 9"},
+        {"\"steps_per_second\": 100", "\"steps_per_second\": 99.5",
+         "steps_per_second: expected a whole number, found 99.5"},
+        {"\"channels\": 2", "\"channels\": 65", "channels: expected 1 to 64, found 65"},
+        {"[0.5, 1]", "[0.5]", "ceilings: expected 2 numbers, one per channel"},
+        {"[0.5, 1]", "[0, 1]", "ceilings[0]: expected 1e-06 to 1, found 0"},
+        {"[0.5, 1]", "[1, 1e-50]", "ceilings[1]: expected 1e-06 to 1, found 1e-50"},
+        {"[0.5, 1]", "[1, 1.5]", "ceilings[1]: expected 1e-06 to 1, found 1.5"},
+        {"\"exponent\": 1", "\"exponent\": 101", "panning.exponent: expected 0.001 to 100, found 101"},
+        {"[4, 2]", "[4, 0]", "panning.field_m[1]: expected 0.001 to 1e+06, found 0"},
+        {"\"start_s\": 0", "\"start_s\": -1",
+         "takes[0].start_s: expected a number from 0 to 1e+06, found -1"},
+        {"\"world_end_s\": 1.5", "\"world_end_s\": 1e7",
+         "takes[0].world_end_s: expected a number from 0 to 1e+06, found 10000000.0"},
+        {"\"seed\": 1", "\"seed\": -1", "takes[0].seed: expected a number from 0 to 4294967295, found -1"},
+        {"\"seed\": 1", "\"seed\": 1.5", "takes[0].seed: expected a whole number, found 1.5"},
+        {"0.000666667", "-1", "takes[0].stalls[0].seconds: expected a number from 0 to 1e+06, found -1"},
+        {"0.000666667", "1, \"steps\": 0", "takes[0].stalls[0].steps: expected 1 to 1000000000, found 0"},
+        {"\"channel\": 1", "\"channel\": 3", "controls[0].channel: expected a channel from 1 to 2, found 3"},
+        {"\"value\": 0.5", "\"value\": 1001", "controls[0].value: expected -1000 to 1000, found 1001"},
+        {"\"time_s\": 0.2", "\"time_s\": 0.05",
+         "controls[1].time_s: expected a time that is not before that of the item above"},
+        {"\"gain\", \"channel\": 1, \"value\"", "\"delay\", \"channel\": 1, \"seconds\"",
+         "controls[0].seconds: expected 0 to 0.05, found 0.5"},
+        {"\"controls\"", "\"shaping\": { \"fixed_amplitude\": -1 }, \"controls\"",
+         "shaping.fixed_amplitude: expected a number from 0 to 1e+06, found -1"},
+        {"\"controls\"", "\"shaping\": { \"gain\": 1e7 }, \"controls\"",
+         "shaping.gain: expected a number from 0 to 1e+06, found 10000000.0"},
+        {"\"controls\"", "\"shaping\": { \"gamma\": 1 }, \"controls\"",
+         "shaping.gamma: expected 0 to 0.99, found 1"},
+        {"\"controls\"",
+         "\"recordings\": [{ \"time_s\": 0, \"files\": [{ \"frequency_hz\": 0, \"file\": \"a\" }] }], "
+         "\"controls\"",
+         "recordings[0].files[0].frequency_hz: expected a number > 0, found 0"},
+        {"\"controls\"", "\"clips\": [{ \"file\": \"a\", \"hash\": \"0\", \"channel\": 64 }], \"controls\"",
+         "clips[0].channel: expected 0 to 63, found 64"},
+        {"\"controls\"", "\"strikes\": [{ \"time_s\": -1, " + strike + " }], \"controls\"",
+         "strikes[0].time_s: expected a number from 0 to 1e+06, found -1"},
+        {"\"controls\"", "\"strikes\": [{ \"time_s\": 1, \"kind\": \"fall\", " + strike + " }], \"controls\"",
+         "strikes[0].kind: expected one of hit, roll, slide, found \"fall\""},
+    };
+    for (const auto& row : rows) EXPECT_EQ(faultWith(row.from, row.to), "s.json: " + row.fault) << row.to;
+    for (const auto& [from, to, fault] :
+         {std::array{"\"output\":4", "\"output\":4.5", "output: expected a whole number, found 4.5"},
+          {"\"output\":4", "\"output\":1025", "output: expected 0 to 1024, found 1025"},
+          {"\"group\":6", "\"group\":6.5", "group: expected a whole number, found 6.5"},
+          {"\"group\":6", "\"group\":0", "group: expected 1 to 16, found 0"}})
+        EXPECT_EQ(readSession(sessionWith(from, to, "lanes"), "s.json").error,
+                  std::string{"s.json: desk.strips[2]."} + fault);
 }
 
 TEST(SessionFile, EndsPausedIfItsLastWorldStoodStillToTheEnd) {

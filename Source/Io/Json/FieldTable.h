@@ -74,7 +74,7 @@ constexpr auto wholeNumber(int min, int max) {
 /// An index that counts from 0 in memory and from 1 in files; `min` and `max` are as in files.
 struct OneBased {
     int min, max;
-    int operator()(const auto& json) const { return static_cast<int>(json.numberWithin(min, max)) - 1; }
+    int operator()(const auto& json) const { return json.wholeNumberWithin(min, max) - 1; }
     int write(int value) const { return value + 1; }
 };
 

@@ -114,6 +114,12 @@ OrderedJson writeCustom(const PerChannel<EqualisedActuators>& kind, const Equali
     return list;
 }
 
+std::uint32_t readCustom(const JsonField& json, const Custom<std::uint32_t>&) {
+    const double found = json.numberUpTo(4294967295.0);
+    if (found != std::floor(found)) json.fail("expected a whole number, found " + numberText(found));
+    return static_cast<std::uint32_t>(found);
+}
+
 Mix readMix(const JsonField& json) {
     Mix mix;
     readTable(json, mix);

@@ -10,6 +10,7 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionFile.h"
+#include "Scene/EventColumns.h"
 #include "Scene/LayoutJson.h"
 #include <array>
 #include <string_view>
@@ -28,6 +29,8 @@ FrequencyBand readCustom(const JsonField& json, const Custom<FrequencyBand>& kin
 OrderedJson writeCustom(const Custom<FrequencyBand>& kind, const FrequencyBand& band);
 EqualisedActuators readCustom(const JsonField& list, const PerChannel<EqualisedActuators>& kind);
 OrderedJson writeCustom(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised);
+std::uint32_t readCustom(const JsonField& json, const Custom<std::uint32_t>& kind); ///< a seed
+inline OrderedJson writeCustom(const Custom<std::uint32_t>&, std::uint32_t seed) { return seed; }
 
 // JSON form of render controls and panners, for session files and input lines. For .cpp files of documents.
 
@@ -41,6 +44,8 @@ struct ControlDescription {
     double minimum = 0.0, maximum = 0.0;
 };
 
+inline constexpr double minCeiling = 1e-6;
+
 inline constexpr auto controlTable = std::to_array<ControlDescription>({
     {"layout", RenderControl::Kind::panner, ControlDescription::ValueType::panner, "panning"},
     {"gain", RenderControl::Kind::gain, ControlDescription::ValueType::number, "value", -1000.0, 1000.0},
@@ -48,7 +53,8 @@ inline constexpr auto controlTable = std::to_array<ControlDescription>({
     {"stop", RenderControl::Kind::stopAll, ControlDescription::ValueType::nothing},
     {"delay", RenderControl::Kind::delay, ControlDescription::ValueType::number, "seconds", 0.0,
      limits::maxChannelDelaySeconds},
-    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::ValueType::number, "value", 1e-6, 1.0},
+    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::ValueType::number, "value", minCeiling,
+     1.0},
 });
 inline constexpr auto controlNames = entryNames(controlTable);
 
@@ -74,7 +80,7 @@ void visitFields(auto& v, FieldsOf<WorldStall>) {
 void visitRun(auto& v, bool isJournal) {
     v.field("start_s", &SceneRun::startNs, kinds::Time{});
     if (!isJournal) v.field("world_end_s", &SceneRun::worldEndNs, kinds::Time{});
-    v.field("seed", &SceneRun::seed, kinds::upTo(4294967295.0));
+    v.field("seed", &SceneRun::seed, Custom<std::uint32_t>{});
     v.part("scene", Need::optional);
     if (!isJournal) v.part("inputs", Need::optional), v.part("stalls", Need::optional);
 }
@@ -99,6 +105,7 @@ void visitFields(auto& v, FieldsOf<CollisionEvent>) {
     v.field("z_m", &E::z, kinds::number, Need::optional);
     v.field("part", nest(&E::source, &CollisionSource::part),
             kinds::wholeNumber(0, std::numeric_limits<PartNumber>::max()), Need::optional);
+    v.field("kind", nest(&E::source, &CollisionSource::kind), kinds::OneOf{contactKindNames}, Need::optional);
     v.field("duration_s", &E::durationNs, kinds::Time{}, Need::optional);
     if (v.has("travel_s", travel)) {
         v.field("to_x_m", nest(course, &C::toX), kinds::number);

@@ -128,13 +128,6 @@ static OrderedJson writeCustom(const kinds::LayoutFile&, const LayoutDescription
     return writeCustom(Custom<LayoutDescription>{}, layout);
 }
 
-static std::uint32_t readCustom(const JsonField& json, const Custom<std::uint32_t>&) {
-    const double found = json.numberUpTo(4294967295.0);
-    if (found != std::floor(found)) json.fail("expected a whole number, found " + numberText(found));
-    return static_cast<std::uint32_t>(found);
-}
-static OrderedJson writeCustom(const Custom<std::uint32_t>&, const std::uint32_t& seed) { return seed; }
-
 static std::vector<NoteRule> readCustom(const JsonField& list, const kinds::Notes& kind) {
     std::vector<NoteRule> notes;
     for (std::size_t i = 0, n = checkedSize(list, maxNotes); i < n; ++i)

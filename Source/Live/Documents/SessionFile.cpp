@@ -4,7 +4,6 @@
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/DocumentJson.h"
-#include "Scene/EventColumns.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneJson.h"
 #include "Scene/SceneValidation.h"
@@ -177,10 +176,8 @@ Ceilings readCustom(const JsonField& list, const PerChannel<Ceilings>& kind) {
     if (list.arraySize() != static_cast<std::size_t>(kind.channels))
         list.fail("expected " + std::to_string(kind.channels) + " numbers, one per channel");
     Ceilings ceilings = RendererSettings::fullScale();
-    for (std::size_t j = 0; j < list.arraySize(); ++j) {
-        if (list.item(j).number() <= 0.0) list.item(j).fail("expected a number > 0");
-        ceilings[j] = static_cast<float>(list.item(j).numberUpTo(1.0));
-    }
+    for (std::size_t j = 0; j < list.arraySize(); ++j)
+        ceilings[j] = static_cast<float>(list.item(j).numberWithin(minCeiling, 1.0));
     return ceilings;
 }
 OrderedJson writeCustom(const PerChannel<Ceilings>& kind, const Ceilings& ceilings) {
