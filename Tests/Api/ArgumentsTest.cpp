@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <gtest/gtest.h>
 #include <physvib/physvib.h>
 #include <string>
+#include <tuple>
+#include <unistd.h>
 #include <vector>
 
 namespace physvib::arguments_test {
@@ -154,6 +157,197 @@ TEST(Arguments, OfImpactsCountEachForItselfAlone) {
         EXPECT_NE(plain, impact(x, y, 0.75, material));
     }
     EXPECT_NE(impact(x, y, 0.5, "steel plate"), impact(x, y, 0.5, "wooden board"));
+}
+
+/// The call was refused, in one line that begins so.
+void expectRefused(physvib_int64 code, const std::string& expected, int wanted = PHYSVIB_ERROR_ARGUMENT) {
+    const std::string said = physvib_error();
+    EXPECT_EQ(code, wanted) << expected;
+    EXPECT_EQ(said.substr(0, expected.size()), expected);
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+}
+
+const double nan = std::nan("");
+const std::string noEvent = "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, ",
+                  noStructure = "structure: expected one, found NULL";
+
+TEST(Arguments, OfFilesOutOfRangeAreNamedAndNothingIsWritten) {
+    const auto path = (std::filesystem::temp_directory_path() / std::to_string(::getpid())).string();
+    const char* const out = path.c_str();
+    auto layout = test::begun(physvib_layout_init), phone = layout;
+    ASSERT_EQ(physvib_layout_preset("phone4", &phone), PHYSVIB_OK);
+    const std::string pair = "layout: expected a name and a place for it, found NULL",
+                      text = "layout: expected a text and a place for it, found NULL",
+                      file = "layout: expected a path and a place for it, found NULL",
+                      triple = "layout: expected a path, a name and a layout, found NULL";
+    expectRefused(physvib_layout_preset(nullptr, &layout), pair);
+    expectRefused(physvib_layout_preset("phone4", nullptr), pair);
+    expectRefused(physvib_layout_preset("phone0", &layout), "layout: expected phone1 to ");
+    expectRefused(physvib_layout_load(nullptr, &layout), file);
+    expectRefused(physvib_layout_load(out, nullptr), file);
+    expectRefused(physvib_layout_parse("{}", nullptr), text);
+    expectRefused(physvib_layout_save(nullptr, "a", &phone), triple);
+    expectRefused(physvib_layout_save(out, nullptr, &phone), triple);
+    expectRefused(physvib_layout_save(out, "a", nullptr), triple);
+    expectRefused(physvib_layout_save(out, "a", &layout), "layout: expected 1 to 64 enchanters");
+    expectRefused(physvib_layout_save(out, "a\nb", &phone),
+                  "layout: name: expected text without control characters");
+    expectRefused(physvib_layout_load((path + "\nb").c_str(), &layout),
+                  path + "\\x0ab: ", PHYSVIB_ERROR_FILE);
+    for (const char* name : {static_cast<const char*>(nullptr), ""}) {
+        expectRefused(physvib_part(name), "part: expected a name");
+        expectRefused(physvib_sound(name), "sound: expected a name");
+    }
+    const physvib_event hit = tone(0, 0.1, 0.1);
+    auto place = hit;
+    double width = 7.0;
+    for (const auto& [from, to, capacity] : {std::tuple<const char*, physvib_event*, int>{nullptr, &place, 1},
+                                             {"", nullptr, 1},
+                                             {"", &place, -1}}) {
+        expectRefused(physvib_events_load(from, to, capacity),
+                      "events: expected a path and a place for them");
+        expectRefused(physvib_events_parse(from, to, capacity),
+                      "events: expected a text and a place for them");
+    }
+    const std::string field = "events: expected a list and places for its field, found NULL",
+                      list = "events: expected a path and at least one event";
+    expectRefused(physvib_events_load_field(out, &width, nullptr), field);
+    expectRefused(physvib_events_parse_field(nullptr, &width, &width), field);
+    expectRefused(physvib_events_save(nullptr, &hit, 1), list);
+    expectRefused(physvib_events_save(out, nullptr, 1), list);
+    expectRefused(physvib_events_save(out, &hit, 0), list);
+    expectRefused(physvib_events_save_field(out, &hit, 1, 0.0, 1.0),
+                  "field: expected 0.001 to 1e6 m, or 0 and 0");
+    const std::array late{tone(2, 0.1, 0.1), tone(1, 0.1, 0.1)};
+    expectRefused(physvib_events_save(out, late.data(), 2), "events: expected in the order of their times");
+    struct Change {
+        std::string expected;
+        void (*change)(physvib_event&);
+    };
+    for (const auto& [expected, change] :
+         {Change{noEvent, [](physvib_event& e) { e.amplitude = nan; }},
+          {noEvent, [](physvib_event& e) { e.time_ns = -1; }},
+          {"kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE", [](physvib_event& e) { e.kind = 3; }},
+          {"part: expected 0, or a number of physvib_part()", [](physvib_event& e) { e.part = -1; }}}) {
+        physvib_event changed = hit;
+        change(changed);
+        expectRefused(physvib_events_save(out, &changed, 1), expected);
+    }
+    const std::array samples{0.0F, 0.0F, 0.0F, std::nanf("")};
+    expectRefused(physvib_wav_save(nullptr, samples.data(), 1, 1, rate),
+                  "sound: expected a path and samples, found NULL");
+    for (const auto& [count, frameCount, hz] : {std::tuple<int, physvib_int64, int>{0, 1, rate},
+                                                {65, 1, rate},
+                                                {1, 0, rate},
+                                                {1, physvib_int64{1} << 62, rate},
+                                                {1, 1, 4999}})
+        expectRefused(
+            physvib_wav_save(out, samples.data(), count, frameCount, hz),
+            "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and a frame or more, of less than 4 GB");
+    expectRefused(physvib_wav_save(out, samples.data(), 2, 2, rate),
+                  "sound: expected finite samples, found NaN or infinity in frame 1 of channel 1");
+    EXPECT_EQ(layout.count, 0);
+    EXPECT_EQ(width, 7.0);
+    EXPECT_EQ(test::wordsOf(place), test::wordsOf(hit));
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Arguments, OfRenderersOutOfRangeAreNamedAndChangeNothing) {
+    const physvib_event hit = tone(0, 0.1, 0.1);
+    float sample = 7.0F;
+    const auto plain = plainSettings();
+    const std::string render = "render: expected events and a place for samples";
+    expectRefused(physvib_render(nullptr, nullptr, 0, 0, nullptr), noStructure);
+    expectRefused(physvib_render(&plain, &hit, -1, 1, &sample), render);
+    expectRefused(physvib_render(&plain, nullptr, 1, 1, &sample), render);
+    expectRefused(physvib_render(&plain, &hit, 1, -1, &sample), render);
+    expectRefused(physvib_render(&plain, &hit, 1, 1, nullptr), render);
+    EXPECT_EQ(sample, 7.0F);
+    expectRefused(physvib_renderer_create(&plain, nullptr), "renderer: expected a place for it, found NULL");
+    struct Change {
+        const char* expected;
+        void (*change)(physvib_renderer_settings&);
+    };
+    for (const auto& [expected, change] :
+         {Change{"rate: expected 5000 to 192000 Hz", [](auto& s) { s.rate_hz = 4999; }},
+          {"channels: expected 0, or as many as", [](auto& s) { s.channels = 3; }},
+          {"channels: expected 0, or as many as", [](auto& s) { s.channels = 65; }},
+          {"law: expected one of PHYSVIB_LAW_...", [](auto& s) { s.law = -1; }},
+          {"law: expected one of PHYSVIB_LAW_...", [](auto& s) { s.law = PHYSVIB_LAW_TRIANGLES + 1; }},
+          {"exponent: expected more than 0, to 1000", [](auto& s) { s.exponent = 0.0; }},
+          {"exponent: expected more than 0, to 1000", [](auto& s) { s.exponent = nan; }},
+          {"field: expected 0 to 10^9 m", [](auto& s) { s.field_width_m = -1.0; }},
+          {"field: expected 0 to 10^9 m", [](auto& s) { s.field_height_m = nan; }},
+          {"layout: expected 1 to 64 enchanters", [](auto& s) { s.layout.count = 65; }}}) {
+        auto settings = plain;
+        change(settings);
+        physvib_renderer none = nullptr;
+        expectRefused(physvib_renderer_create(&settings, &none), expected);
+        EXPECT_EQ(none, nullptr);
+    }
+    for (const auto& [hz, block, steps, gap] :
+         {std::tuple{4999, 1, 1, 0.0}, {rate, 8193, 1, 0.0}, {rate, 1, 0, 0.0}, {rate, 1, 1, nan}})
+        expectRefused(physvib_play_out_ns(hz, block, steps, gap),
+                      "play-out delay: expected 5000 to 192000 Hz, ");
+    const auto refused = played([&](physvib_renderer r) {
+        physvib_event never = hit;
+        never.frequency_hz = 0.0;
+        auto larger = plain;
+        larger.channels = larger.layout.count = 5;
+        constexpr physvib_int64 late = 100'000'000'000'000'001;
+        const std::string time = "time: expected 0 to 10^17 ns", gain = "gain: expected 0 to 10000",
+                          channel = "channel: expected one of the renderer";
+        expectRefused(physvib_renderer_strike(r, nullptr), "event: expected one, found NULL");
+        expectRefused(physvib_renderer_strike(r, &never), noEvent);
+        expectRefused(physvib_renderer_set_gain(r, -1, 0, 0.0), time);
+        expectRefused(physvib_renderer_set_mute(r, late, 0, 1), time);
+        expectRefused(physvib_renderer_silence(r, -1, 1), time);
+        expectRefused(physvib_renderer_silence(r, 0, late), time);
+        expectRefused(physvib_renderer_set_gain(r, 0, -1, 0.0), channel);
+        expectRefused(physvib_renderer_set_mute(r, 0, channels, 1), channel);
+        for (const double value : {-0.1, 10001.0, nan})
+            expectRefused(physvib_renderer_set_level(r, 0, value), gain);
+        expectRefused(physvib_renderer_set_layout(r, 0, nullptr), noStructure);
+        expectRefused(physvib_renderer_set_layout(r, 0, &larger),
+                      "layout: expected at most as many enchanters as channels");
+        expectRefused(physvib_renderer_get_status(r, nullptr), noStructure);
+        expectRefused(physvib_renderer_impact(r, 0.0, 0.0, nan), "strength: expected 0 to 1");
+        expectRefused(physvib_renderer_impact_of(r, "a\nb", 0.0, 0.0, 1.0),
+                      "material: expected one that vibrates (");
+    });
+    EXPECT_EQ(refused, played([](physvib_renderer) {}));
+}
+
+TEST(Arguments, OfPadsOutOfRangeAreNamedAndChangeNothing) {
+    const physvib_event hit = tone(0, 0.1, 0.1);
+    physvib_pads pads = nullptr, none = nullptr;
+    ASSERT_EQ(physvib_pads_create(1, 1.0, 1.0, nullptr, &pads), PHYSVIB_OK);
+    physvib_motors motors{};
+    ASSERT_EQ(physvib_pads_pull(pads, 10, &motors, 1), 1);
+    const std::string field = "field: expected more than 0 m, to 10^9 m",
+                      pad = "pad: expected one of those created, from 0 on",
+                      room = "motors: expected a place for those of each pad";
+    expectRefused(physvib_pads_create(1, 1.0, 1.0, nullptr, nullptr),
+                  "pads: expected a place for them, found NULL");
+    for (const int count : {0, 65})
+        expectRefused(physvib_pads_create(count, 1.0, 1.0, nullptr, &none), "pads: expected 1 to 64");
+    expectRefused(physvib_pads_create(1, 0.0, 1.0, nullptr, &none), field);
+    expectRefused(physvib_pads_create(1, 1.0, nan, nullptr, &none), field);
+    EXPECT_EQ(none, nullptr);
+    expectRefused(physvib_pads_strike(pads, 1, &hit), pad);
+    expectRefused(physvib_pads_strike(pads, 0, nullptr), "event: expected one, found NULL");
+    expectRefused(physvib_pads_send(pads, -1, nullptr, 0, 1), pad);
+    expectRefused(physvib_pads_send(pads, 0, nullptr, physvib_int64{1} << 62, 1),
+                  "delay: expected at most 2.5 * 10^16 ns from 0");
+    expectRefused(physvib_pads_pull(pads, 10, nullptr, 1), room);
+    expectRefused(physvib_pads_pull(pads, 10, &motors, 0), room);
+    expectRefused(physvib_pads_pull(pads, -1, &motors, 1), "time: expected 0 to 10^17 ns");
+    expectRefused(physvib_pads_pull(pads, 9, &motors, 1), "time: expected none before the last pull's",
+                  PHYSVIB_ERROR_ORDER);
+    expectRefused(physvib_pads_set_level(pads, nan), "gain: expected 0 to 10000");
+    EXPECT_EQ(physvib_pads_pull(pads, 10, &motors, 1), 1) << "as if nothing had been";
+    EXPECT_EQ(motors.low + motors.high, 0.0);
+    EXPECT_EQ(physvib_pads_free(pads), PHYSVIB_OK);
 }
 
 /// What a world gives of a ball that falls on a floor, by motions alone.

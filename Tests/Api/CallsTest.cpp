@@ -190,6 +190,31 @@ TEST(Calls, WhatRollsOverGrainsIsFelt) {
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
 }
 
+TEST(Calls, ImpactsThatFindNoRoomInAStepAreCountedAndAreTheWeakest) {
+    const physvib_world world = worldOfABall();
+    const physvib_body ball = test::feltBall();
+    constexpr int balls = 6000;
+    EXPECT_EQ(physvib_world_drops(world), 0);
+    for (int i = 1; i <= balls; ++i) ASSERT_EQ(physvib_world_set_body(world, i, &ball), PHYSVIB_OK) << i;
+    ASSERT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    for (int i = 1; i <= balls; ++i) {
+        physvib_contact contact = touching(1.0 + i);
+        contact.b = i;
+        ASSERT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+    }
+    ASSERT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    std::vector<physvib_event> events(balls, test::sized<physvib_event>());
+    const physvib_int64 felt = physvib_world_take(world, events.data(), balls, 1),
+                        drops = physvib_world_drops(world);
+    EXPECT_GT(drops, 0);
+    EXPECT_EQ(felt + drops, balls);
+    auto counts = test::begun(physvib_world_counts_init);
+    EXPECT_EQ(physvib_world_get_counts(world, &counts), PHYSVIB_OK);
+    EXPECT_EQ(counts.dropped, drops);
+    for (physvib_int64 i = 0; i < felt; ++i) EXPECT_GT(events[static_cast<std::size_t>(i)].fixture, drops);
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
 TEST(Calls, WhatDoesNotFitWaits) {
     const physvib_world world = worldOfABall();
     for (int i = 0; i < 3; ++i) {

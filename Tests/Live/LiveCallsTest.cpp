@@ -52,6 +52,46 @@ TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_ERROR_HANDLE);
 }
 
+TEST(LiveCalls, SettingsOutOfRangeAreNamedAndNothingIsOpened) {
+    static const double nan = std::numeric_limits<double>::quiet_NaN();
+    using Settings = physvib_live_settings;
+    int room = 0;
+    const auto unchanged = reinterpret_cast<physvib_live>(&room);
+    physvib_live live = unchanged;
+    struct Row {
+        const char* expected;
+        void (*change)(Settings&);
+    };
+    for (const auto& [expected, change] :
+         {Row{"rate: expected 0, or 5000 to 192000 Hz", [](Settings& s) { s.rate_hz = 4999; }},
+          {"block: expected 0 to 8192 frames", [](Settings& s) { s.block_frames = -1; }},
+          {"block: expected 0 to 8192 frames", [](Settings& s) { s.block_frames = 8193; }},
+          {"steps: expected 20 to 1000 per second", [](Settings& s) { s.steps_per_s = 19; }},
+          {"steps: expected 20 to 1000 per second", [](Settings& s) { s.steps_per_s = 1001; }},
+          {"longest gap: expected 0 to 1 s", [](Settings& s) { s.longest_gap_s = 1.1; }},
+          {"longest gap: expected 0 to 1 s", [](Settings& s) { s.longest_gap_s = nan; }},
+          {"first output: expected 0 to 65535", [](Settings& s) { s.first_output = -1; }},
+          {"first output: expected 0 to 65535", [](Settings& s) { s.first_output = 65536; }},
+          {"sound output: expected -1, or 0 to 65534", [](Settings& s) { s.sound_output = -2; }},
+          {"sound output: expected -1, or 0 to 65534", [](Settings& s) { s.sound_output = 65535; }},
+          {"level: expected -90 to 0 dB", [](Settings& s) { s.level_db = 0.1; }},
+          {"level: expected -90 to 0 dB", [](Settings& s) { s.sound_db = nan; }},
+          {"save: expected a path of at most 1023 bytes",
+           [](Settings& s) { std::memset(s.save, 'a', sizeof s.save); }},
+          {"structure: expected one that its _init has filled", [](Settings& s) { s.size = 0; }}}) {
+        auto settings = test::begun(physvib_live_settings_init);
+        change(settings);
+        EXPECT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_ERROR_ARGUMENT);
+        EXPECT_STREQ(physvib_live_error(), expected);
+    }
+    for (const auto& [device, place] :
+         {std::pair<const char*, physvib_live*>{nullptr, &live}, {"None", nullptr}}) {
+        EXPECT_EQ(physvib_live_open(device, nullptr, nullptr, place), PHYSVIB_ERROR_ARGUMENT);
+        EXPECT_STREQ(physvib_live_error(), "live: expected a device and a place for it, found NULL");
+    }
+    EXPECT_EQ(live, unchanged);
+}
+
 TEST(LiveCalls, AnythingButZeroSilencesAlsoByAWrongName) {
     const physvib_live live = opened();
     for (const int odd : {1, -1, 2, 256, 65'536, std::numeric_limits<int>::min()}) {

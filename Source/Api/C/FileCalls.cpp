@@ -167,7 +167,7 @@ int physvib_layout_save(const char* path, const char* name, const physvib_layout
             return fail(PHYSVIB_ERROR_ARGUMENT, error);
         const std::string text = layoutJson(describeLayout(name, geometry));
         // refuses to write a file that could not be loaded
-        if (const auto reread = readLayout(text, name); !reread)
+        if (const auto reread = readLayout(text, "layout"); !reread)
             return fail(PHYSVIB_ERROR_ARGUMENT, reread.error);
         return codeFromFileError(writeFile(path, text));
     });
@@ -229,7 +229,8 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
         if (channels < 1 || channels > limits::maxActuators || !isSampleRate(rateHz) || frames < 1 ||
             !fitsWav(channels, frames))
             return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
+                        "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and a frame or "
+                        "more, of less than 4 GB");
         const std::span all{samples, static_cast<std::size_t>(channels * frames)};
         if (const auto nonFinite = std::ranges::find_if_not(all, [](float x) { return std::isfinite(x); });
             nonFinite != all.end())

@@ -36,7 +36,7 @@ int unknownMaterialError(const Materials& candidates, std::string_view name) {
     if (!listsAll) names.resize(maxNames);
     return argumentError("material: expected one that vibrates (" +
                          (names.empty() ? "there is none" : nameList(names, listsAll ? " or " : ", ")) +
-                         (listsAll ? "" : " and so on") + "), found \"" + std::string{name} + "\"");
+                         (listsAll ? "" : " and so on") + "), found " + inQuotes(name));
 }
 
 void applyMaterial(const Material& material, physvib_body& body) {

@@ -49,7 +49,7 @@ export const eventsText = (compiled, events, { fieldWidth = 0, fieldHeight = 0 }
 export const wav = (compiled, channels, rate) => apart(compiled, 'sound', module => {
     const count = channels.length, frames = channels[0]?.length ?? 0;
     if (!(count >= 1 && count <= 64 && frames >= 1 && frames * count * 4 < 0xffffff00 && rate >= 5000 && rate <= 192000)) {
-        throw new PhysVibError(-2, 'sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB');
+        throw new PhysVibError(-2, 'sound: expected 1 to 64 channels, 5000 to 192000 Hz, and a frame or more, of less than 4 GB');
     }
     module.run('js_wav_head', count, rate, frames);
     const head = textOf(module), file = new Uint8Array(head.length + 4 * count * frames), view = new DataView(file.buffer, head.length);
