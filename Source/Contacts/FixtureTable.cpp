@@ -25,15 +25,10 @@ std::int32_t FixtureTable::findOrAdd(std::uint64_t fixture, const BodyFacts& bod
     const std::int32_t slot = freeSlots_.back();
     freeSlots_.pop_back();
     at(slot).fixture = fixture;
-    storeBody(slot, body);
+    updateBody(slot, body);
     at(slot).id = nextUnnamedId_--;
     slots_.set(fixture, slot);
     return slot;
-}
-
-void FixtureTable::updateBody(std::int32_t slot, const BodyFacts& body) {
-    if (at(slot).hasHapticValues() && at(slot).isDynamic() != body.isDynamic) areStaticMassesStale_ = true;
-    storeBody(slot, body);
 }
 
 std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre,
@@ -64,11 +59,11 @@ void FixtureTable::release(std::int32_t slot) {
     slots_.erase(at(slot).fixture);
     storeTraits(slot, false, false);
     at(slot) = {};
-    storeBody(slot, {});
+    updateBody(slot, {});
     freeSlots_.push_back(slot);
 }
 
-void FixtureTable::storeBody(std::int32_t slot, const BodyFacts& body) noexcept {
+void FixtureTable::updateBody(std::int32_t slot, const BodyFacts& body) noexcept {
     at(slot).body = body;
     mobility_[static_cast<std::size_t>(slot)] = {at(slot).movableMassKg(), at(slot).gravityScale()};
 }
@@ -91,11 +86,11 @@ void FixtureTable::dropId(std::int32_t slot) {
     const FixtureEntry& entry = at(slot);
     if (!entry.hasHapticValues()) return;
     slotOfId_.erase(keyOf(entry.id));
-    if (!entry.isDynamic()) areStaticMassesStale_ = true;
+    if (entry.values.staticMassKg > 0.0) areStaticMassesStale_ = true;
 }
 
 void FixtureTable::addStaticMass(const FixtureEntry& entry) {
-    if (!entry.isUsed() || entry.isDynamic() || entry.values.staticMassKg <= 0.0) return;
+    if (!entry.isUsed() || entry.values.staticMassKg <= 0.0) return;
     const std::int32_t i = staticBodyOf_.find(entry.body.body);
     if (i == IntegerMap::none) {
         staticBodyOf_.set(entry.body.body, static_cast<std::int32_t>(staticBodies_.size()));
@@ -116,7 +111,7 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
     double largest = 0.0;
     for (const StaticBody& candidate : staticBodies_) {
         if (candidate.massKg <= largest) continue;
-        // the engine may have freed it since its last contact
+        // the engine may have freed it, or made it stand, since its last contact
         if (const BodyFacts now = bodies.facts(candidate.body); now.isEnabled && !now.isDynamic)
             largest = candidate.massKg;
     }

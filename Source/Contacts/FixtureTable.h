@@ -43,7 +43,8 @@ public:
 
     /// The slot of a fixture, a new one if necessary; `body` replaces what is stored of its body.
     std::int32_t findOrAdd(std::uint64_t fixture, const BodyFacts& body);
-    void updateBody(std::int32_t slot, const BodyFacts& body); ///< updates a registered fixture
+    /// Replaces what is stored of a registered fixture's body.
+    void updateBody(std::int32_t slot, const BodyFacts& body) noexcept;
 
     /// Assigns values to a registered fixture, or replaces them. `id`: the caller's (>= 0), or `none`: its
     /// present one, else the next of 0, 1, 2... Returns the id; `none`, and nothing is changed, if another
@@ -87,7 +88,6 @@ public:
 private:
     FixtureEntry& at(std::int32_t slot) noexcept { return entries_[static_cast<std::size_t>(slot)]; }
     void dropId(std::int32_t slot);
-    void storeBody(std::int32_t slot, const BodyFacts& body) noexcept;
     void storeTraits(std::int32_t slot, bool isSource, bool isRough) noexcept;
     void addStaticMass(const FixtureEntry& entry);
 
@@ -103,7 +103,7 @@ private:
     std::int32_t nextId_ = 0;
     std::int32_t nextUnnamedId_ = -2;
 
-    struct StaticBody {
+    struct StaticBody { // has a static mass; whether it stands is asked in each step, as no contact tells it
         std::uint64_t body;
         double massKg; // the largest of its fixtures
     };

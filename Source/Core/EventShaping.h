@@ -266,7 +266,7 @@ public:
                                [this](CollisionEvent& event) { event = level_(event, shaping_.method); });
     }
     /// All from `first` on, in place. Where each hit has the fixed amplitude, its meanCompensation() follows
-    /// it. A vector; allocates.
+    /// it; events that no world produced get none, as when they are played live. A vector; allocates.
     template <class Events>
     void shape(Events& events, std::size_t first = 0) {
         const bool compensatesMeans = shaping_.method.fixesAmplitude && !shaping_.method.holdsLevel;
@@ -275,7 +275,8 @@ public:
         Events shapedEvents;
         for (std::size_t k = 0; k < events.size(); ++k) {
             shapedEvents.push_back(events[k]);
-            if (const CollisionEvent off = meanCompensation(events[k]); k >= first && isMeanCompensation(off))
+            if (const CollisionEvent off = meanCompensation(events[k]);
+                k >= first && events[k].source.fixture >= 0 && isMeanCompensation(off))
                 shapedEvents.push_back(off);
         }
         events.swap(shapedEvents);

@@ -2,6 +2,7 @@
 // Counts in words: `--explain` promises these lines.
 #include "Contacts/ContactCounts.h"
 #include "Api/Godot/Explanation.h"
+#include "Core/PhantomPanner.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <array>
@@ -108,6 +109,29 @@ TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     counts.minX = counts.minY = -1.23456e-100;
     counts.maxX = counts.maxY = -1.23456e-101;
     EXPECT_LT(explain(counts).size(), 512u) << "as physvib.h promises";
+}
+
+// What lies a little outside is played by the actuators at the edge; a row plays whatever height.
+TEST(ContactCounts, NameAFieldThatLeavesSomeOut) {
+    const auto reason = [](const char* name, double toX, double toY) {
+        ActuatorLayout layout;
+        EXPECT_TRUE(layoutPreset(name, layout));
+        const PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 1.0};
+        OutputFacts output;
+        output.panner = &panner;
+        ContactCounts counts = tenContacts();
+        addEvent(counts, 0.2, 0.5);
+        addEvent(counts, toX, toY);
+        return outputReason(counts, output);
+    };
+    EXPECT_EQ(reason("phone4", 0.9, 0.5), "");
+    EXPECT_EQ(reason("phone4", 1.5, 0.5), "") << "a phantom at the edge";
+    EXPECT_EQ(reason("phone2", 0.9, 4.0), "") << "its row has no height";
+    for (const auto& [toX, toY] : {std::pair{2.4, 0.5}, {-1.4, 0.5}, {0.9, 2.4}})
+        expectSays(reason("phone4", toX, toY),
+                   "Events lie outside the renderer's field of 1 x 1 m; they span");
+    expectSays(reason("phone4", 2.4, 0.5), "x 0.2 to 2.4 m, y 0.5 to 0.5 m");
+    expectSays(reason("phone2", 2.4, 0.5), "Events lie outside");
 }
 
 TEST(ContactCounts, OfTwoPeriodsAreSumsAndMaximaAndWhatHoldsNow) {

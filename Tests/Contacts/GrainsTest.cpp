@@ -4,6 +4,7 @@
 #include "Contacts/LastingContacts.h"
 #include "Measure/Spectrum.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -162,9 +163,9 @@ protected:
                        .slipMetresPerSecond = metresPerSecond,
                        .onA = {at, metresPerSecond}});
     }
-    std::vector<Impact> endStep() {
+    std::vector<Impact> endStep(std::int64_t ns = 10'000'000) {
         span.startNs = span.endNs;
-        span.endNs += 10'000'000;
+        span.endNs += ns;
         std::vector<Impact> impacts;
         lasting.collect(span, impacts);
         lasting.endStep();
@@ -221,6 +222,72 @@ TEST_F(LastingStream, WhatJumpsIsNotFollowedAndWhatIsNoNumberNotTaken) {
     EXPECT_TRUE(step(1.0, std::numeric_limits<double>::quiet_NaN()).empty());
     metres = 0.0;
     EXPECT_TRUE(step(1.0, std::numeric_limits<double>::infinity()).empty());
+}
+
+// Longer than longestStepSeconds nobody knows the way; from the step after it on, all is as at first.
+TEST_F(LastingStream, AStepThatIsTooLongForgetsTheWay) {
+    std::array<std::vector<std::size_t>, 2> counts;
+    for (auto& each : counts) {
+        for (int i = 0; i < 4; ++i) each.push_back(step(1.0, 1.0).size());
+        EXPECT_EQ(each[0], 0U);
+        EXPECT_GT(each[1], 2U);
+        touch(0, 1.0, 1.0, metres += 0.2);
+        EXPECT_TRUE(endStep(200'000'000).empty());
+    }
+    EXPECT_EQ(counts[1][0], 0U) << "its load is not known";
+}
+
+/// Takes runs of grains, as EventMaker does.
+struct RunTaker {
+    std::vector<std::int64_t> timesNs;
+    std::vector<double> newtonSeconds, x;
+    std::size_t calls = 0;
+    void add(const Impact&) { ADD_FAILURE() << "one alone"; }
+    bool prepare(std::int32_t, std::int32_t, GrainRuns& runs) {
+        runs.perNewtonSecond = runs.divisor = runs.gain = runs.pairGain = runs.relativeAmplitude = 1.0;
+        runs.origin = {};
+        runs.cosine = 1.0F, runs.sine = 0.0F;
+        return true;
+    }
+    std::int32_t idOf(std::int32_t other) { return other; }
+    void addGrains(const GrainRuns& runs) {
+        ++calls;
+        for (std::size_t i = 0; i < runs.count; ++i) {
+            timesNs.push_back(runs.timeNs[i]);
+            newtonSeconds.push_back(runs.newtonSeconds[i]);
+            x.push_back(runs.x[i]);
+        }
+    }
+};
+
+// A step of 0.1 s holds more than a run does: the run goes on in the next.
+TEST_F(LastingStream, MoreGrainsThanARunHoldsAreTheSameGrains) {
+    for (const double speed : {3.9, -3.9, 2.58}) { // 193 and about 128 grains a step
+        LastingContacts oneByOne{table}, inRuns{table};
+        for (int i = 0; i < 6; ++i) {
+            metres += 0.099 * speed;
+            const LastingPoint point{.a = groundSlot,
+                                     .b = ballSlot,
+                                     .normalNewtonSeconds = 0.1,
+                                     .slipMetresPerSecond = speed,
+                                     .point = {1.0F, 0.0F},
+                                     .velocity = {static_cast<float>(speed), 0.0F},
+                                     .onA = {metres, speed}};
+            oneByOne.touch(point), inRuns.touch(point);
+            span.startNs = span.endNs, span.endNs += 99'000'000;
+            std::vector<Impact> impacts;
+            RunTaker runs;
+            oneByOne.collect(span, impacts), inRuns.collectInto(span, runs);
+            oneByOne.endStep(), inRuns.endStep();
+            ASSERT_EQ(runs.timesNs.size(), impacts.size()) << i;
+            for (std::size_t k = 0; k < impacts.size(); ++k) {
+                ASSERT_EQ(runs.timesNs[k], impacts[k].timeNs) << k;
+                ASSERT_EQ(runs.newtonSeconds[k], impacts[k].newtonSeconds) << k;
+                ASSERT_EQ(runs.x[k], static_cast<double>(impacts[k].point.x)) << k;
+            }
+            if (i > 1 && std::abs(speed) > 3.0) EXPECT_EQ(runs.calls, 2U) << impacts.size();
+        }
+    }
 }
 
 TEST_F(LastingStream, ManyTogetherStayBelowTheirBound) {

@@ -184,6 +184,15 @@ TEST(PadMotors, WhatMovesGoesFromOneGripToTheOther) {
     EXPECT_LT(at(commands, 950 * ms).low, at(commands, 950 * ms).high);
 }
 
+TEST(PadMotors, AToneThatGoesOnIsAsWeakAsItIsByThen) {
+    CollisionEvent later = hit(0.1, 60.0, 0.9, 0.5, 10.0);
+    later.course.toneAgeNs = 150 * ms;
+    const auto felt = commandsOf({}, {later}),
+               weak = commandsOf({}, {hit(0.1, 60.0, 0.9 * std::exp(-1.5), 0.5, 10.0)});
+    for (std::int64_t ns = 0; ns < 1000 * ms; ns += 10 * ms)
+        EXPECT_NEAR(at(felt, ns).low, at(weak, ns).low, 0.011);
+}
+
 TEST(PadMotors, AThousandHitsOfOneMaterialAreAsMuchAsTheirEnergy) {
     std::vector<CollisionEvent> many(200, hit(0.1, 50.0, 0.8 / std::sqrt(200.0)));
     const auto summed = commandsOf({}, many), one = commandsOf({}, {hit(0.1, 50.0, 0.8)});

@@ -132,6 +132,27 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
     rig.expectTheLogIsWhole();
 }
 
+TEST(AudioOutput, AfterALentSessionTheOwnOneGoesOnAtTheRateThatTheDeviceHasByThen) {
+    OpenRig rig;
+    rig.play(1.5, 64);
+    Session first{shakeTheBoxSetup(0.02)}, second{shakeTheBoxSetup(0.02)};
+    const std::int64_t before = rig.session.timeline().presentNs();
+    for (const auto& [lent, rate] : {std::pair{&first, 96000}, {&second, 32000}}) {
+        ASSERT_TRUE(rig.output.playInstead(lent));
+        rig.interface.play(64);
+        rig.interface.rate = rate;
+        EXPECT_NE(rig.output.maintain(), "");
+        EXPECT_EQ(lent->timeline().sampleRateHz(), rate);
+        EXPECT_EQ(rig.session.timeline().sampleRateHz(), 48000) << "it stands still";
+    }
+    ASSERT_TRUE(rig.output.playInstead(nullptr));
+    EXPECT_EQ(rig.session.timeline().sampleRateHz(), 32000);
+    EXPECT_NEAR(static_cast<double>(rig.session.timeline().presentNs() - before), 0.0, 1e9 / 32000);
+    rig.play(1.5, 64);
+    EXPECT_GT(rig.session.timeline().presentNs(), before + 1'400'000'000);
+    rig.expectTheLogIsWhole();
+}
+
 TEST(AudioOutput, SumsUpWhatLeavesForTheHands) {
     OpenRig rig{0.5f};
     rig.play(0.1, 64);

@@ -198,6 +198,40 @@ TEST(DeviceGuard, OpenedAnewItKnowsWhatItWouldHaveKnown) {
     EXPECT_NEAR(two.load, one.load, 0.05f * one.load);
 }
 
+// With all of its channels in use, a new output gets that of an output that has had least: what others have
+// had is not forgotten, and the new one is not turned down for it.
+TEST(DeviceGuard, OfManyOutputsTheLeastLoadedIsForgottenForANewOne) {
+    const PlayedTime time;
+    constexpr int all = limits::maxActuators, idle = 40;
+    const auto hadBy = [](int output) { return GuardMemory::storedFor("A:many", output).sums.load; };
+    const auto play = [](DeviceGuard& guard, std::vector<std::pair<int, float>> actuators) {
+        std::vector<std::vector<float>> samples;
+        for (const auto& actuator : actuators) samples.emplace_back(9600, actuator.second);
+        std::array<float*, limits::maxActuators> at{};
+        for (std::size_t k = 0; k < actuators.size(); ++k)
+            at[static_cast<std::size_t>(actuators[k].first)] = samples[k].data();
+        guard.process(at.data(), 9600);
+        return samples.back().back();
+    };
+    {
+        DeviceGuard guard;
+        ChannelSet outputs;
+        for (int k = 0; k <= all; ++k) outputs.insert(k);
+        guard.begin("A:many", outputs, 48000);
+        std::vector<std::pair<int, float>> loud;
+        for (int j = 0; j < all; ++j) {
+            guard.setChannel(j, j);
+            if (j != idle) loud.emplace_back(j, 0.2f);
+        }
+        play(guard, loud);
+        play(guard, {{1, 0.2f}}); // all others have stopped
+        guard.setChannel(0, all);
+        EXPECT_EQ(play(guard, {{0, 0.01f}}), 0.01f) << "it has had nothing";
+    }
+    for (const int output : {0, 1, 39, 41, 63}) EXPECT_GT(hadBy(output), 1e-4f) << output;
+    EXPECT_LT(hadBy(all), 1e-4f);
+}
+
 // The search of GuardAttack, over openings.
 TEST(DeviceGuard, AnAttackOverOpeningsFindsNoneThatPasses) {
     const PlayedTime time;

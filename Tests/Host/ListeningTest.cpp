@@ -159,6 +159,31 @@ TEST(Listening, NoneOfManyStopsIsLost) {
     EXPECT_LT(peakOf(ended), 1e-6f);
 }
 
+// After a pause of the device what is late is dropped for the ears, too, and what comes later is heard.
+TEST(Listening, WhatIsDroppedForTheHandsIsDropped) {
+    const auto at = [](std::int64_t timeNs, std::int32_t fixture) {
+        CollisionEvent e{.timeNs = timeNs, .frequencyHz = 200.0, .amplitude = 0.5, .durationNs = 10'000'000};
+        e.source.fixture = fixture;
+        return e;
+    };
+    for (const bool includesWorlds : {false, true}) {
+        ContactAudio heard{{}};
+        heard.prepare(48000);
+        for (const auto& e : {at(10'000'000, -1), at(30'000'000, 0), at(50'000'000, -1)}) heard.mirror(e);
+        heard.discard({30'000'000, includesWorlds});
+        std::vector<float> samples(3600);
+        float* out = samples.data();
+        heard.render(&out, 3600);
+        const auto peakIn = [&](int fromMs) { // the limiter delays by some of the 10 ms between them
+            return peakOf(
+                std::vector<float>{samples.begin() + 48 * fromMs, samples.begin() + 48 * (fromMs + 20)});
+        };
+        EXPECT_EQ(peakIn(10), 0.0f);
+        EXPECT_EQ(peakIn(30) > 0.4f, !includesWorlds) << "it is due just then";
+        EXPECT_GT(peakIn(50), 0.4f);
+    }
+}
+
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
     EXPECT_EQ(rig.open({.noise = {3}, .noiseDb = -40.0}),
@@ -277,6 +302,8 @@ TEST(Listening, BeginsAndEndsWhileItPlays) {
     EXPECT_NEAR(rmsDb(rig.play(6.0)[6], 0), -30.0, 0.5);
     ASSERT_EQ(rig.output.setListening({}), "");
     EXPECT_EQ(peakOf(rig.play(0.5)[6]), 0.0f);
+    ASSERT_EQ(rig.output.setListening({.noise = {6}, .noiseDb = -30.0}), "");
+    EXPECT_LT(peakOf(rig.play(0.02)[6]), 0.01f) << "it fades in each time";
 }
 
 } // namespace physvib::listening_test

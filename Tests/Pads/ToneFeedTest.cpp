@@ -34,6 +34,21 @@ TEST(SwitchTones, ThePublicDescriptionsExamplesAreWritten) {
     EXPECT_EQ(sideOf(beyond, 1), (std::vector<int>{0x04, 0x00, 0x7F, 0x40}));
 }
 
+// In thousandths of full scale, as Linux' driver of these controllers has the steps of a tone's level.
+TEST(SwitchTones, LevelsAreTheNearestSteps) {
+    const auto stepOf = [](double amplitude) {
+        return sideOf(switchTones({320.0, 0.0, 320.0, amplitude}, {}, 0), 0)[1] / 2;
+    };
+    int step = 0;
+    for (const int thousandths :
+         {10, 12, 14, 17, 20, 24, 28, 33, 40, 47, 56, 67, 80, 95, 112, 117, 123, 128, 134, 140})
+        EXPECT_EQ(stepOf(1e-3 * thousandths), ++step) << thousandths;
+    EXPECT_EQ(stepOf(0.225), 31);
+    EXPECT_EQ(stepOf(0.235), 33);
+    EXPECT_EQ(stepOf(0.0084), 0);
+    EXPECT_EQ(stepOf(0.0086), 1) << "the weakest that there is";
+}
+
 TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
     const auto fit = [](std::vector<ToneFeed::Partial> partials) {
         return ToneFeed::fitTones(std::move(partials));
@@ -79,6 +94,22 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     feed.onControl({.timeNs = now + 10 * ms}); // a stop
     EXPECT_EQ(sideOf(*last(200, 1.0f), 1), neutral);
     EXPECT_FALSE(last(100, 1.0f));
+}
+
+// 512 that have nearly rung out, and one more that is weaker than they were.
+TEST(ToneFeed, OfTooManyTheWeakestByNowAreLeftOut) {
+    ToneFeed full{kind, panner(1.0)}, alone{kind, panner(1.0)};
+    for (int k = 0; k < 512; ++k) full.onCollision({0, 100.0, 45.0, 0.5, 1.0, 0.5});
+    EXPECT_TRUE(full.next(0, 0, 1.0f));
+    const auto report = [](ToneFeed& feed) {
+        feed.onCollision({110 * ms, 400.0, 20.0, 0.4, 1.0, 0.5});
+        const auto sent = feed.next(110 * ms, 110 * ms, 1.0f);
+        return sent ? sideOf(*sent, 1) : std::vector<int>(4);
+    };
+    const auto crowd = report(full), one = report(alone);
+    EXPECT_EQ((std::vector{crowd[0], crowd[1]}), (std::vector{one[0], one[1]})) << "the high tone is its own";
+    EXPECT_GT(one[1] / 2, 40);
+    EXPECT_NE(crowd[3], one[3]) << "they ring on";
 }
 
 /// A device that was away (a pause, or another one) begins again, in the layout that the session has by then.

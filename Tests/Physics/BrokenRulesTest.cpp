@@ -28,6 +28,22 @@ TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
     EXPECT_LT(attachment.impactModel().handMassKg, 10.0);
 }
 
+// Its type is a matter of the engine's, which tells nobody where nothing touches.
+TEST_F(AttachedWorld, ABodyIsTheHandFromWhenItStandsUntilItCanMove) {
+    HapticFixture values = camera;
+    values.staticMassKg = 1000.0;
+    b2Body& body = *give(ball(0.0F, 0.0F, 0.0F, 0.0F), values).GetBody();
+    ImpactSettings settings;
+    settings.normalisation = 1.0;
+    attachment.configure(settings);
+    for (const b2BodyType type :
+         {b2_dynamicBody, b2_staticBody, b2_dynamicBody, b2_kinematicBody, b2_dynamicBody}) {
+        body.SetType(type);
+        run(1);
+        EXPECT_EQ(attachment.impactModel().handMassKg == 1000.0, type != b2_dynamicBody) << type;
+    }
+}
+
 TEST_F(AttachedWorld, AnIdBelowZeroAndADecayThatIsMissingAreRefusedAndNothingIsChanged) {
     b2Fixture& fixture = ball(0.0F, 0.0F, 0.0F, 0.0F);
     EXPECT_EQ(attachment.set(fixture, camera, -5).refusal, "id: expected a number from 0 on");

@@ -403,6 +403,19 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
         << "at frame " << (differs.first - again.begin()) / hostChannels;
 }
 
+// A world's hit of rubber has half a sine against its mean; a strike has none, felt or rendered.
+TEST(Messages, WithAFixedLevelOfEachHitAStrikeIsRenderedAsItWasFelt) {
+    auto setup = quietSetup();
+    ASSERT_TRUE(parseRenderingMethod("AF-FV-DRV", setup.shaping.method));
+    setup.shaping.method.fixedAmplitude = 0.9;
+    Session session{setup};
+    const auto felt =
+        play(session, {{0.1, R"({"message": "strike", "frequency_hz": 80, "decay_per_s": 34})"}}, 0.6);
+    EXPECT_GT(peakOf(felt.signal), 0.1f);
+    EXPECT_TRUE(renderedAgain(saved(setup, felt.log, 600'000'000), session.timeline().outputLatencyFrames(),
+                              0.6) == felt.signal);
+}
+
 TEST(Messages, AClipIsFeltBesideWhatSounds) {
     Session without{quietSetup()}, with{quietSetup()}, alone{quietSetup()};
     const std::string first = R"({"message": "clip", "file": "a.1", "place": "A"})",

@@ -53,6 +53,7 @@ public:
         for (int k = 0; k < 2; ++k) isActing_ = law_.update({}); // both ends of the next tile's ramp
     }
     std::size_t channels() const noexcept { return channels_; }
+    float load(std::size_t channel) const noexcept { return law_.sums(channel).load; } ///< see GuardLaw. R.
     /// Adds a channel, at rest. R.
     void addChannel() noexcept { law_.addChannel(), ++channels_; }
 

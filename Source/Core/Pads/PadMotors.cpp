@@ -38,7 +38,8 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& gripPan
     voice.startNs = std::max<std::int64_t>(0, event.timeNs - leadNs());
     voice.endNs = event.durationNs > 0 ? voice.startNs + event.durationNs : 0;
     voice.decayPerSecond = event.decayPerSecond;
-    voice.energy = event.amplitude * event.amplitude;
+    voice.energy = event.amplitude * event.amplitude *
+                   portable::exp(-2.0 * event.decayPerSecond * secondsOf(event.course.toneAgeNs));
     voice.heavyShare = 1.0 / (1.0 + portable::pow(event.frequencyHz / pad_.splitHz, 4.0));
     voice.travelNs = event.course.travelNs;
     voice.fromSide = sideOf(event, gripPanner);

@@ -125,8 +125,14 @@ public:
         guardChannel = none;
         std::size_t c = 0;
         while (c < count && channels_[c] != channel) ++c;
-        if (c == maxChannels) // all channels are used: takes one without an actuator
-            for (c = 0; std::ranges::find(guardChannels_, c) != guardChannels_.end();) ++c;
+        if (c == maxChannels) { // all channels are used: of those without an actuator, takes that of least
+                                // load
+            for (std::size_t free = 0; free < count; ++free)
+                if (std::ranges::find(guardChannels_, free) == guardChannels_.end() &&
+                    (c == none || guard_.load(free) < guard_.load(c)))
+                    c = free;
+            storedAt_[c] = {};
+        }
         if (c == count) guard_.addChannel();
         channels_[c] = channel;
         guardChannel = c;

@@ -190,6 +190,8 @@ public:
             std::generate_n(noise, frames, [this] { return noise_.next(); });
             noiseRamp_.apply(&noise, 1, frames);
             addTo(ListeningSource::noise, &noise, 1, out, outputs, first, frames);
+        } else {
+            noiseRamp_.jumpTo(0.0f); // it has no outputs; once it has, it fades in
         }
         if (session.rendered().contactAudioChannels() > 0) {
             float* const* const sounds = signals + session.channels();

@@ -121,7 +121,9 @@ std::optional<PadReport> ToneFeed::next(std::int64_t nowNs, std::int64_t session
     });
     if (voices_.size() > maxVoices) {
         std::ranges::nth_element(voices_, voices_.begin() + maxVoices, std::ranges::greater{},
-                                 [](const Voice& voice) { return std::abs(voice.event.amplitude); });
+                                 [&](const Voice& voice) {
+                                     return meanEnergy(voice.event, std::max(sessionNs, voice.event.timeNs));
+                                 });
         voices_.resize(maxVoices);
     }
     const TonePair left = computeTones(0, sessionNs, static_cast<double>(level)),
