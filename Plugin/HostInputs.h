@@ -63,9 +63,9 @@ public:
     static constexpr double minStrikeSeconds = 0.004; ///< rounded up to whole periods
 
     struct Note {
-        int channel = 0, number = 0; ///< 1 to 16; 0 to 127
-        double velocity = 0.0;       ///< 0 to 1
-        std::int64_t onsetFrame = 0; ///< in session time
+        int channel = 0, master = 0, number = 0; ///< 1 to 16; 1 or 16, in no zone 1; 0 to 127
+        double velocity = 0.0;                   ///< 0 to 1
+        std::int64_t onsetFrame = 0;             ///< in session time
         NoteExpression expression{};
         double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1; of the note, and of MPE's master channel
 
@@ -105,7 +105,7 @@ public:
         pedal_.fill(false);
     }
 
-    /// While the pedal is down, it sustains the notes of its channel; channel 1 (MPE's master) sustains all.
+    /// While the pedal is down, it sustains the notes of its channel, and those whose master it is of.
     void setPedal(int channel, bool isDown) noexcept { pedal_[static_cast<std::size_t>(channel)] = isDown; }
 
     /// Makes the strikes that begin before `endFrame` of the session. `soundOf(const Note&)` returns a
@@ -131,7 +131,8 @@ private:
         bool isDown = false, isOn = false;
     };
     bool isHeld(const Voice& voice) const noexcept {
-        return voice.isDown || pedal_[static_cast<std::size_t>(voice.note.channel)] || pedal_[1];
+        const auto isPressed = [this](int channel) { return pedal_[static_cast<std::size_t>(channel)]; };
+        return voice.isDown || isPressed(voice.note.channel) || isPressed(voice.note.master);
     }
     static std::int64_t strikeNs(double frequencyHz) noexcept {
         return std::llround(std::max(1.0, std::ceil(minStrikeSeconds * frequencyHz)) * 1e9 / frequencyHz);
@@ -149,6 +150,11 @@ public:
 
     void setBend(int channel, float bend) noexcept { bend_[index(channel)] = bend; }
     void setSlide(int channel, float slide) noexcept { slide_[index(channel)] = slide; }
+    /// As a reset of all controllers does; zones stay.
+    void reset(int channel) noexcept {
+        bend_[index(channel)] = slide_[index(channel)] = 0.0f;
+        selectedParameter_[index(channel)] = noParameter;
+    }
     double bend(int channel) const noexcept { return double{bend_[index(channel)]}; }
     double masterBend(int channel) const noexcept { return double{bend_[index(findMaster(channel))]}; }
     double slide(int channel) const noexcept {
@@ -162,10 +168,12 @@ public:
 
     /// Registered parameter 6 of channel 1 or 16 sets the members of its zone, and shrinks the other zone.
     void handleController(int channel, int number, int value) noexcept {
-        constexpr int dataEntry = 6, parameterLow = 100, parameterHigh = 101, zoneConfiguration = 6;
+        constexpr int dataEntry = 6, otherLow = 98, otherHigh = 99, parameterLow = 100, parameterHigh = 101,
+                      zoneConfiguration = 6;
         int& parameter = selectedParameter_[index(channel)];
-        if (number == parameterHigh) parameter = value * 128;
+        if (number == parameterHigh) parameter = value * 128 + parameter % 128; // either may come first
         if (number == parameterLow) parameter = parameter / 128 * 128 + value;
+        if (number == otherLow || number == otherHigh) parameter = noParameter;
         if (number != dataEntry || parameter != zoneConfiguration || (channel != 1 && channel != 16)) return;
         int &zone = channel == 1 ? lowerMembers_ : upperMembers_,
             &otherZone = channel == 1 ? upperMembers_ : lowerMembers_;
@@ -174,6 +182,7 @@ public:
     }
 
 private:
+    static constexpr int noParameter = 16383; // of the registered ones
     static std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
     std::array<float, 17> bend_{}, slide_{};  // by channel; entry 0 stays 0
     std::array<int, 17> selectedParameter_{}; // the selected registered parameter

@@ -355,6 +355,9 @@ void PluginEditor::stateChanged() {
     state_ = plugin_.state();
     const auto select = [](juce::ComboBox& box, const std::string& name) {
         box.setText(fromUtf8(name.empty() ? "(no name)" : name), juce::dontSendNotification);
+        // what bears its name may be another: it acts when it is chosen again
+        for (juce::PopupMenu::MenuItemIterator items{*box.getRootMenu()}; items.next();)
+            items.getItem().action = items.getItem().itemID == box.getSelectedId() ? box.onChange : nullptr;
     };
     select(scene_, displayName(state_.scene.name));
     select(layout_, state_.layout.name);

@@ -88,6 +88,7 @@ Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginSta
         lowered += (lowered.empty() ? "" : "; ") + std::string{what};
     };
     setParameter(state, Parameter::level, levelDb);
+    setParameter(state, Parameter::bypass, parameterValue(now, Parameter::bypass)); // SILENCE is the user's
     for (const auto& [which, defaultDb] :
          {std::pair{Parameter::strikeLevel, presetStrikeDb(state)}, {Parameter::music, 0.0}}) {
         const double maxDb = std::max(parameterValue(now, which), defaultDb);
@@ -173,7 +174,6 @@ void saveTheme(Theme theme) {
 }
 
 void PluginEditor::fillPresets() {
-    const auto shown = scene_.getText();
     scene_.clear(juce::dontSendNotification);
     scene_.addSectionHeading("Instruments");
     const auto& presets = presetNames();
@@ -187,7 +187,6 @@ void PluginEditor::fillPresets() {
     if (!presets_.empty()) scene_.addSectionHeading("Your presets");
     for (int id = firstUserPreset; const auto& file : presets_)
         scene_.addItem(file.getFileNameWithoutExtension(), id++);
-    scene_.setText(shown, juce::dontSendNotification);
 }
 
 juce::PopupMenu PluginEditor::makeFilesMenu() {
@@ -244,6 +243,7 @@ void PluginEditor::savePresetAs(const juce::File& file) {
     const std::string error = savePreset(plugin_.state(), target);
     report(error.empty() ? target.getFileName() + " is saved" : fromUtf8(error));
     fillPresets();
+    stateChanged();
 }
 
 void PluginEditor::exportPlayedAs(const juce::File& file) {

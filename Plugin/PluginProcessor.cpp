@@ -396,6 +396,8 @@ void PluginProcessor::setParameters(const PluginState& state, TouchedParameters 
     for (std::size_t i = 0; i < parameterCount; ++i)
         if (which[i] && parameters_[i]->getValue() != normals[i])
             parameters_[i]->setValueNotifyingHost(normals[i]);
+    tailSeconds_ = tailSeconds(state, noteKnobs()); // now, as a host may ask before the timer's next call
+    reportToHost();
 }
 
 } // namespace physvib

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64, allSoundOff = 120, resetControllers = 121;
-constexpr int allNotesOff = 123; // releases held notes; struck ones ring out, and the world goes on
+constexpr int allNotesOff = 123; // as the modes above it, releases held notes; struck ones ring out
 constexpr float peakFallDbPerSecond = 20.0f;
 
 } // namespace
@@ -316,8 +316,8 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame,
     if (event.frequencyHz <= 0.0) return;
     const double loudness = midi.velocityAmplitude(velocity, now);
     if (midi.isHeld(note, now))
-        return heldNotes_.start(
-            {channel, note, loudness, session->timeline().framesRendered() + frame, expression});
+        return heldNotes_.start({channel, std::max(1, expression_.findMaster(channel)), note, loudness,
+                                 session->timeline().framesRendered() + frame, expression});
     event.amplitude = gainFromLevelDb(value(Parameter::strikeLevel)) * loudness * expression.gain;
     session->callback().strike(strikeAtPlace(event, channel, expression), frame);
 }
@@ -421,9 +421,9 @@ void PluginProcessor::handleController(int channel, int controller, int value, i
     expression_.handleController(channel, controller, value);
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) heldNotes_.setPedal(channel, value >= 64);
-    if (controller == allNotesOff) heldNotes_.stopAll();
+    if (controller >= allNotesOff) heldNotes_.stopAll();
     if (controller == resetControllers) {
-        expression_.setBend(channel, 0.0f), expression_.setSlide(channel, 0.0f);
+        expression_.reset(channel);
         heldNotes_.setPedal(channel, false);
         applyPressure(channel, -1, 0.0);
     }

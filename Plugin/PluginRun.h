@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -83,7 +84,7 @@ public:
     std::atomic<int> number{0};          ///< from 1, set by R when the run begins to play; 0 until then
     std::uint64_t loggedEventCount = 0;  ///< events that were moved to the log; guarded like the log
     std::atomic<bool> isReleased{false}; ///< true once R no longer uses the run
-    bool hasWorldFailed = false; ///< its world failed and is not stepped again; for the stepping thread
+    std::string worldError;              ///< why its world stands still until its end; guarded like the log
     std::vector<std::vector<float>> samples; ///< samples of the last render(), [channel][frame]
 
 private:

@@ -179,13 +179,12 @@ void PluginRuns::tick() {
 
 // An exception (at worst: out of memory) stops this world alone; the host goes on playing.
 void PluginRuns::stepWorld(PluginRun& run) {
-    if (run.hasWorldFailed) return;
     try {
         // so that release() waits for one step of a slow world, not for all that are due
         run.session.advance([this](auto) { return !isStopping_; });
     } catch (const std::exception& error) {
-        run.hasWorldFailed = true;
-        errorText_ = std::string{"the world stands still: "} + error.what();
+        run.session.world().setSlowness(0); // or the render call would step it
+        run.worldError = std::string{"the world stands still: "} + error.what();
     }
 }
 
@@ -230,7 +229,7 @@ void PluginRuns::prepareSpare(std::unique_lock<std::mutex>& lock) {
 std::unique_ptr<PluginRun> PluginRuns::reuseOrBuild(std::vector<std::unique_ptr<PluginRun>>& ended,
                                                     std::shared_ptr<const RunSpec> spec) {
     const auto found = std::ranges::find_if(ended, [&](const auto& run) {
-        return run->generation() == spec->generation && !run->hasWorldFailed;
+        return run->generation() == spec->generation && run->worldError.empty();
     });
     if (found == ended.end()) {
         ++builtRuns_;
@@ -289,6 +288,8 @@ std::vector<RunEvent> PluginRuns::drainLog() {
 
 std::string PluginRuns::errorText() const {
     const std::lock_guard lock{mutex_};
+    for (const auto& run : runs_)
+        if (!run->worldError.empty() && !run->isReleased) return run->worldError;
     return errorText_;
 }
 

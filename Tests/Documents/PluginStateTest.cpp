@@ -5,6 +5,7 @@
 #include "Scene/SceneFile.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace physvib::plugin_state_test {
 
@@ -156,6 +157,48 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_NE(refusal(text, "\"limiter\"", "\"limit\"").find("unknown field \"limit\""), std::string::npos);
     EXPECT_NE(refusal(text, "\"bodies\"", "\"bodys\"").find("f: scene: "), std::string::npos);
     EXPECT_NE(refusal(text, "{", "").find("f: line 2"), std::string::npos);
+}
+
+// But for those of the scene, which has tests of its own, and the window's size: whole pixels, or the
+// default.
+TEST(PluginState, WhateverAValueIsReplacedByIsRefusedOrComesBack) {
+    using nlohmann::json;
+    const json root = json::parse(pluginStateJson(sampleState("drop")));
+    const json flat = root.flatten();
+    int refused = 0, taken = 0;
+    for (const auto& [place, value] : flat.items()) {
+        if (place.starts_with("/scene/") || place.starts_with("/editor_px/")) continue;
+        for (const json& other : {json(-1e300), json(1e300), json(-1), json(0.5), json("x"), json(true),
+                                  json(nullptr), json::array(), json::object()}) {
+            json changed = root;
+            changed[json::json_pointer{place}] = other;
+            const auto read = readPluginState(changed.dump(), "f");
+            ++(read ? taken : refused);
+            if (read)
+                EXPECT_EQ(json::parse(pluginStateJson(read.value)), changed) << place << ' ' << other;
+            else
+                EXPECT_TRUE(read.error.starts_with("f: ")) << read.error;
+        }
+    }
+    std::printf("a state's values: %d others refused, %d taken\n", refused, taken);
+    EXPECT_GT(taken, 50);
+    EXPECT_GT(refused, 500);
+}
+
+TEST(PluginState, ItsListsHaveBounds) {
+    for (const int more : {0, 1}) {
+        auto notes = sampleState(), controllers = notes, parameters = notes;
+        notes.notes.assign(static_cast<std::size_t>(128 + more), strike(60, 1, 0.1, 1.0));
+        controllers.controllers.assign(static_cast<std::size_t>(120 + more), {1, "tilt"});
+        for (int i = 2; i < 1000 + more; ++i)
+            parameters.parameters.emplace_back("p" + std::to_string(i), 0.5);
+        const std::array<std::pair<PluginState, std::string>, 3> rows{
+            {{notes, "f: notes: expected at most 128 items, found 129"},
+             {controllers, "f: controllers: expected at most 120 items, found 121"},
+             {parameters, "f: parameters: expected at most 1000 parameters"}}};
+        for (const auto& [state, error] : rows)
+            EXPECT_EQ(readPluginState(pluginStateJson(state), "f").error, more > 0 ? error : "");
+    }
 }
 
 TEST(PluginState, AStateOfVersionOneStaysReadable) { // hosts keep such states for years

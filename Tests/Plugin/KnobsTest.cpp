@@ -213,6 +213,10 @@ TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
     editor->refresh();
     EXPECT_TRUE(shows(*editor, "Release")) << "as soon as notes are held";
     EXPECT_FALSE(shows(*editor, "Decay"));
+    host.plugin->choosePreset(presetPlace("Drum kit"));
+    host.set(Parameter::hold, valueFromText(rowOf(Parameter::hold), "on"));
+    editor->refresh();
+    EXPECT_TRUE(shows(*editor, "Release") && shows(*editor, "Decay")) << "what has a rule strikes";
     host.plugin->choosePreset(presetPlace("marbles"));
     editor->refresh();
     for (const char* const name : {"Gravity", "Tilt", "Material", "Timing"})

@@ -279,6 +279,37 @@ TEST_F(PresetList, ShowsWhatPlays) {
     }
 }
 
+// A preset of one's own, and a layout, may bear the name of another, which is then shown.
+TEST_F(PresetList, WhatIsShownCanBeChosenAgain) {
+    const auto choose = [](juce::ComboBox& box, const char* words) { // as its menu does
+        const auto item = itemOf(*box.getRootMenu(), words);
+        box.setSelectedId(item.itemID, juce::sendNotificationSync);
+        if (item.action) item.action();
+    };
+    auto& layouts = *below<juce::ComboBox>(*editor, [](auto& one) { return one.getTitle() == "Layout"; });
+    choose(*list, "Bass");
+    const auto bass = host.plugin->state();
+    auto mine = bass;
+    mine.voice.decayPerSecond *= 2.0;
+    std::swap(mine.layout.geometry.places[0], mine.layout.geometry.places[3]);
+    host.plugin->open(mine);
+    host.set(Parameter::strikeLevel, -20.0);
+    editor->savePresetAs(presetFolder().getChildFile("Mine.json"));
+    EXPECT_EQ(list->getText(), "Bass");
+    for (int i = 0; i < 2; ++i) {
+        choose(*list, "Mine");
+        EXPECT_EQ(host.plugin->state().voice, mine.voice);
+        choose(*list, "Bass");
+        EXPECT_EQ(host.plugin->state().voice, bass.voice);
+        EXPECT_EQ(host.plugin->state().parameters, bass.parameters);
+    }
+    choose(*list, "Mine");
+    choose(layouts, mine.layout.name.c_str());
+    EXPECT_TRUE(isSame(host.plugin->state().layout.geometry, bass.layout.geometry));
+    host.plugin->stepHistory(PluginProcessor::Direction::undo);
+    EXPECT_TRUE(isSame(host.plugin->state().layout.geometry, mine.layout.geometry)) << "once each";
+}
+
 TEST_F(PresetList, NothingIsReplacedThatNobodyWasAskedAbout) {
     const auto file = [](const char* name) { return presetFolder().getChildFile(name); };
     const auto mine = file("Mine.json").loadFileAsString();
@@ -341,6 +372,7 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     EXPECT_EQ(files[0].getFileNameWithoutExtension(), "Mine");
     TestHost other;
     other.plugin->open(newPluginState());
+    other.set(Parameter::bypass, 1.0);
     const auto now = other.plugin->state();
     const auto opened = openFile(files[0].getFullPathName().toStdString(), now);
     ASSERT_TRUE(opened) << opened.error;
@@ -353,6 +385,7 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     EXPECT_NEAR(other.plugin->parameter(Parameter::level).value(), -12.0, 1e-5);
     EXPECT_NEAR(other.plugin->parameter(Parameter::music).value(), 0.0, 1e-5);
     EXPECT_NE(other.plugin->state().editorWidth, 1500);
+    EXPECT_EQ(other.plugin->parameter(Parameter::bypass).value(), 1.0) << "nothing but its button lifts it";
     auto unknown = now;
     unknown.parameters.emplace_back("volume", 1.0);
     for (const auto& text :

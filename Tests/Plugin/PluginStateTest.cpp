@@ -5,6 +5,7 @@
 #include "Scene/SceneFile.h"
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <future>
 
 namespace physvib::plugin_state_test {
@@ -223,6 +224,70 @@ TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
     }
     std::printf("presets: %d of %d ways to one give the same state\n", same, count * count);
     EXPECT_EQ(same, count * count);
+}
+
+// To the other ends of the parameters' ranges, with notes and a controller, while it plays.
+TEST(PluginChunk, NothingIsLeftOfTheStateBefore) {
+    std::vector<std::function<void(PluginState&)>> changes{
+        [](PluginState& s) { applyBuiltInPreset(s, presetPlace("marbles"), 4); },
+        [](PluginState& s) { applyBuiltInPreset(s, presetPlace("Drum kit"), 4); },
+        [](PluginState& s) { s.seed = 7; },
+        [](PluginState& s) { s.stepsPerSecond = 500; },
+        [](PluginState& s) { applyLayoutPreset(s, "ring3"); },
+        [](PluginState& s) { s.strips[1] = {-7.5, true, true, true, 12.5, -6.0, 1}; },
+        [](PluginState& s) {
+            s.equalised[2] = {{205.0, 12.0}, {160.0, 260.0}};
+        },
+        [](PluginState& s) { s.limiterEnabled = false; },
+        [](PluginState& s) { s.transport = TransportMode::inTempo; },
+        [](PluginState& s) { s.isDirect = true; },
+        [](PluginState& s) { s.voice = presetNamed("MPE pad").voice; },
+        [](PluginState& s) { s.notes = {{.note = 60, .kind = NoteKind::spawn, .material = 3}}; },
+        [](PluginState& s) {
+            s.controllers = {{7, "level"}};
+        },
+        [](PluginState& s) { s.editorWidth = s.editorHeight = 1500; }};
+    for (const auto& row : allParameters())
+        changes.emplace_back([&row](PluginState& s) {
+            setParameter(s, row.parameter, row.initial < row.maximum ? row.maximum : row.minimum);
+        });
+    const auto play = [](TestHost& host) { // the note when what was owed has rung out
+        juce::MidiBuffer midi = oneNote(60);
+        midi.addEvent(juce::MidiMessage::controllerEvent(1, 7, 20), 100);
+        midi.addEvent(juce::MidiMessage::noteOff(1, 60), 400);
+        host.played(48000);
+        Samples signal;
+        append(signal, host.block(480, midi));
+        host.play(9600, signal);
+        return signal;
+    };
+    for (const char* const name : {"Keys", "shake-the-box"}) {
+        const auto state = presetNamed(name);
+        const auto chunk = pluginStateJson(state);
+        TestHost fresh;
+        restore(*fresh.plugin, chunk);
+        fresh.prepare(48000, 480);
+        const auto saved = chunkOf(*fresh.plugin);
+        const auto expected = play(fresh);
+        EXPECT_GT(peakOf(expected), 0.01f);
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            SCOPED_TRACE(name + std::string{", change "} + std::to_string(i));
+            auto changed = state;
+            changes[i](changed);
+            TestHost host;
+            restore(*host.plugin, pluginStateJson(changed));
+            ASSERT_EQ(host.plugin->errorText(), "");
+            EXPECT_FALSE(chunkOf(*host.plugin) == saved);
+            host.prepare(48000, 480);
+            play(host);
+            restore(*host.plugin, chunk);
+            EXPECT_TRUE(chunkOf(*host.plugin) == saved);
+            EXPECT_EQ(host.plugin->getCurrentProgram(), fresh.plugin->getCurrentProgram());
+            EXPECT_EQ(host.plugin->getLatencySamples(), fresh.plugin->getLatencySamples());
+            EXPECT_EQ(host.plugin->getTailLengthSeconds(), fresh.plugin->getTailLengthSeconds());
+            EXPECT_TRUE(play(host) == expected);
+        }
+    }
 }
 
 TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {

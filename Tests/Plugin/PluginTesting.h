@@ -20,7 +20,7 @@ inline int presetPlace(std::string_view name) {
     return static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin());
 }
 inline PluginState presetNamed(std::string_view name, int outputs = 4) {
-    PluginState state;
+    PluginState state = newPluginState(outputs); // whose layout a world keeps or arranges anew
     applyBuiltInPreset(state, presetPlace(name), outputs);
     return state;
 }

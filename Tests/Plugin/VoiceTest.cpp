@@ -108,7 +108,9 @@ TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
 TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     auto state = heldVoice();
     state.voice.releaseSeconds = 0.05;
-    for (const auto& end : {Message::controllerEvent(1, 64, 0), Message::allNotesOff(1)}) {
+    std::vector<Message> ends{Message::controllerEvent(1, 64, 0)};
+    for (int mode = 123; mode < 128; ++mode) ends.push_back(Message::controllerEvent(1, mode, 0));
+    for (const auto& end : ends) {
         SCOPED_TRACE(end.getDescription());
         const auto signal = playedBy(
             state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, end}},
@@ -198,6 +200,54 @@ TEST(Voice, TwoMpeZonesNeverShareAChannelAndTheOlderGivesWay) {
                 configure(newer, second);
                 configure(newer, 0);
             }
+}
+
+// As JUCE writes it, the low half of the number comes first.
+TEST(Voice, AZoneIsConfiguredByItsParameterAloneInEitherOrder) {
+    ChannelExpression zones;
+    const auto say = [&zones](std::initializer_list<std::pair<int, int>> controllers, int channel = 1) {
+        for (const auto& [number, value] : controllers) zones.handleController(channel, number, value);
+    };
+    const auto members = [&zones](int master) {
+        int count = 0;
+        for (int channel = 1; channel <= 16; ++channel) count += zones.findMaster(channel) == master;
+        return count;
+    };
+    juce::MPEZoneLayout layout;
+    layout.setLowerZone(5);
+    layout.setUpperZone(4);
+    for (const auto event : juce::MPEMessages::setZoneLayout(layout))
+        if (const auto message = event.getMessage(); message.isController())
+            say({{message.getControllerNumber(), message.getControllerValue()}}, message.getChannel());
+    EXPECT_EQ(members(1), 5);
+    EXPECT_EQ(members(16), 4);
+    say({{101, 0}, {100, 6}, {6, 7}});
+    EXPECT_EQ(members(1), 7);
+    say({{101, 0}, {100, 6}, {99, 0}, {98, 6}, {6, 3}});
+    EXPECT_EQ(members(1), 7) << "a parameter that is not registered";
+    say({{101, 0}, {100, 6}});
+    zones.reset(1);
+    say({{6, 3}});
+    EXPECT_EQ(members(1), 7) << "none is selected after a reset";
+    say({{101, 1}, {100, 6}, {6, 3}});
+    EXPECT_EQ(members(1), 7) << "another";
+}
+
+TEST(Voice, AMastersPedalHoldsTheNotesOfItsZone) {
+    auto state = heldVoice();
+    state.voice.releaseSeconds = 0.05;
+    const auto held = [&state](int pedal, int channel) {
+        std::vector<TimedMessage> messages = zoneOf(5); // channels 2 to 6; 15 to 12
+        for (const auto& [number, value] : {std::pair{101, 0}, {100, 6}, {6, 4}})
+            messages.push_back({0, Message::controllerEvent(16, number, value)});
+        messages.insert(messages.end(), {{0, Message::controllerEvent(pedal, 64, 127)},
+                                         {0, on(45, 127, channel)},
+                                         {100, off(45, channel)}});
+        return peakBetween(playedBy(state, messages, 30000), 24000, 30000) > 0.5f;
+    };
+    for (const int channel : {1, 2, 6, 9}) EXPECT_TRUE(held(1, channel) && !held(16, channel)) << channel;
+    for (const int channel : {12, 15, 16}) EXPECT_TRUE(held(16, channel)) << channel;
+    for (const int channel : {12, 15}) EXPECT_FALSE(held(1, channel)) << channel;
 }
 
 TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
