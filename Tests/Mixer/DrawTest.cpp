@@ -96,6 +96,43 @@ TEST_F(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     EXPECT_TRUE(drawn().bodies.empty());
 }
 
+TEST_F(Drawing, EveryKeyCountsHoweverSoonTheNextOneComes) {
+    drawBall();
+    pane.setTool(DrawTool::select);
+    pane.select({"ball 1"});
+    const double start = body("ball 1")->positionMetres.x;
+    std::vector<double> moved;
+    for (int k = 0; k < 3; ++k) {
+        view.world().keyPressed(KeyPress{KeyPress::rightKey}); // before the window is told of the last
+        moved.push_back(body("ball 1")->positionMetres.x - start);
+    }
+    EXPECT_GT(moved[0], 0.0);
+    EXPECT_NEAR(moved[1], 2.0 * moved[0], 1e-4);
+    EXPECT_NEAR(moved[2], 3.0 * moved[0], 1e-4);
+}
+
+TEST_F(Drawing, EachStrokeOfTheEraserIsOneStepOfUndo) {
+    const auto erase = [&](double from, std::initializer_list<double> over) {
+        const Vector start = share(from, 0.5);
+        pane.mouseDown(mouse(start, start));
+        for (const double x : over) pane.mouseDrag(mouse(share(x, 0.5), start));
+        pane.mouseUp(mouse(start, start));
+        settle();
+    };
+    for (const double x : {0.2, 0.4, 0.6, 0.8}) pane.addAt(DrawTool::ball, share(x, 0.5));
+    settle();
+    const auto before = drawn().bodies.size();
+    pane.setTool(DrawTool::eraser);
+    erase(0.2, {0.4});
+    ASSERT_EQ(drawn().bodies.size(), before - 2);
+    erase(0.1, {0.6, 0.8}); // begins where nothing is
+    ASSERT_EQ(drawn().bodies.size(), before - 4);
+    undo();
+    EXPECT_EQ(drawn().bodies.size(), before - 2);
+    undo();
+    EXPECT_EQ(drawn().bodies.size(), before);
+}
+
 TEST_F(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     const auto before = drawn().bodies.size();
     pane.setRainCount(10);
@@ -257,6 +294,19 @@ TEST_F(Drawing, AMaterialIsRenamedByADoubleClickAndEditedByItsButton) {
     EXPECT_TRUE(view.tabs().find<MaterialsTab>()->isShowing() ||
                 view.tabs().find<MaterialsTab>()->isVisible());
     EXPECT_NE(view.openCard(), nullptr) << "of a recording";
+}
+
+TEST_F(Drawing, AMaterialIsRenamedAlthoughOneWasMeasuredMeanwhile) {
+    drawBall();
+    auto& swatch = the(view, "Material " + utf8(drawn().materials[0].name));
+    swatch.mouseDoubleClick(mouseAt(swatch, {4.0f, 4.0f}));
+    ASSERT_NE(view.question(), nullptr);
+    ASSERT_EQ(model.world().edit("Recording", SoundAction{1, 123.0, 4.0}), "");
+    model.dispatchPendingMessages();
+    view.question()->setValue("Name", "mine");
+    view.question()->answer("Change");
+    EXPECT_TRUE(runUntil([&] { return view.openCard() == nullptr; }, 1.0)) << "no card stays for ever";
+    EXPECT_EQ(drawn().materials[0].name, "mine");
 }
 
 TEST_F(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {

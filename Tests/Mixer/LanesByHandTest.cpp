@@ -299,6 +299,15 @@ TEST_F(LeftHand, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
     EXPECT_EQ(model.mix().strips[0].group, 0) << "a strip takes its group along";
 }
 
+TEST_F(LeftHand, NoOtherHasItsName) {
+    model.change("Group", [](Mix& mix) { addGroup(mix, "Right hand"); });
+    MixerView view{model};
+    auto& name = the<juce::Label>(view, "Name of Right hand");
+    name.setText("Left hand", juce::sendNotificationSync);
+    EXPECT_EQ(model.mix().groups[1].name, "Right hand") << "else its recorded moves were written to the left";
+    EXPECT_EQ(name.getText(), "Right hand");
+}
+
 TEST_F(LeftHand, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     MixerView view{model};
     model.dispatchPendingMessages();

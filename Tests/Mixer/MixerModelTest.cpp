@@ -122,6 +122,27 @@ TEST_F(PlayingModel, AHeldFaderIsOneThingToUndo) {
     EXPECT_FALSE(model.undoManager().canUndo());
 }
 
+TEST_F(PlayingModel, WhatGoesOnAfterAnUndoIsAStepOfItsName) {
+    auto& undo = model.undoManager();
+    const auto set = [&](bool isOfWorld, double value) { // as a message does, or a key on a point of a lane
+        if (isOfWorld) return void(model.world().edit("Sound", SoundAction{0, value, 9.0}, true));
+        model.change(
+            "Strips by message", [=](Mix& mix) { mix.strips[0].delayMs = value; }, true);
+    };
+    for (const bool isOfWorld : {false, true}) {
+        const juce::String name = isOfWorld ? "Sound" : "Strips by message";
+        set(isOfWorld, 101.0), set(isOfWorld, 102.0);
+        model.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
+        undo.undo();
+        set(isOfWorld, 103.0), set(isOfWorld, 104.0);
+        EXPECT_EQ(undo.getUndoDescription(), name);
+        undo.undo();
+        EXPECT_EQ(undo.getRedoDescription(), name);
+        EXPECT_EQ(isOfWorld ? model.world().scene().materials[0].frequencyHz : model.mix().strips[0].delayMs,
+                  102.0);
+    }
+}
+
 TEST_F(PlayingModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
     BodyDescription ball;
     ball.name = "?";

@@ -66,6 +66,23 @@ TEST_F(ShownMixer, WhatGoesWithAHiddenComponentIsNotHiddenAsWell) {
     view.setScreen(nullptr);
 }
 
+TEST_F(ShownMixer, NoKeyReachesWhatAScreenHides) {
+    model.change("Mute", [](Mix& mix) { mix.strips[0].isMuted = true; });
+    juce::Component screen;
+    view.setScreen(&screen);
+    view.keyPressed(KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
+    for (const int key : {int{KeyPress::spaceKey}, int{KeyPress::F2Key}, int{'B'}})
+        view.keyPressed(KeyPress{key});
+    EXPECT_TRUE(model.mix().strips[0].isMuted) << "nobody sees what is undone";
+    EXPECT_EQ(model.session().world().slowness(), 1);
+    EXPECT_EQ(view.mode(), Mode::engineer);
+    EXPECT_EQ(view.world().drawing().tool(), DrawTool::hand);
+    EXPECT_FALSE(model.isSilent());
+    view.keyPressed(KeyPress{KeyPress::escapeKey});
+    EXPECT_TRUE(model.isSilent());
+    view.setScreen(nullptr);
+}
+
 TEST_F(ShownMixer, EveryControlIsNamedAndReachedByTheKeyboard) {
     std::size_t controls = 0;
     model.setSlowness(0); // what is disabled cannot be reached
@@ -513,6 +530,22 @@ TEST_F(ShownMixer, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     model.dispatchPendingMessages();
     const auto& next = the(view, "Ceiling of E in g");
     EXPECT_EQ(next.findColour(juce::Label::textColourId), shade(view, Shade::text)) << "as its neighbours";
+}
+
+TEST_F(ShownMixer, AnUndoDuringADragDetachesNoOtherActuator) {
+    model.detach(0);
+    show();
+    auto& world = view.world().view();
+    const auto at = [&world](juce::Point<float> place) { return mouseAt(world, place); };
+    world.mouseDown(at(world.badgeAt(1).getCentre()));
+    ASSERT_TRUE(world.isDragging()) << "C";
+    model.undoManager().undo();
+    show();
+    for (const auto outside = at({-50.0f, -50.0f});
+         const auto event : {&WorldView::mouseDrag, &WorldView::mouseUp})
+        (world.*event)(outside);
+    ASSERT_EQ(model.mix().count(), 4);
+    EXPECT_EQ(labelOf(model.mix(), 1), "B");
 }
 
 TEST_F(ShownMixer, ADragPushesByItsStrengthWhateverItPulls) {

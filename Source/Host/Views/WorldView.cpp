@@ -78,6 +78,7 @@ void WorldView::show(const Scene& scene) {
 
 void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted,
                      std::vector<bool> withoutOutput) {
+    if (layout.actuators != layout_.actuators) grip_.actuator = -1; // the index may now denote another one
     layout_ = layout;
     panner_ = panner;
     muted_ = std::move(muted);

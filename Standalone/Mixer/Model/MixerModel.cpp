@@ -175,8 +175,7 @@ MixerModel::~MixerModel() {
 }
 
 void MixerModel::edit(const juce::String& name, const Mix& newMix, bool continuesEdit, bool restoresPoses) {
-    auto& undo = history_->undo;
-    if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
+    history_->beginStep(name, continuesEdit);
     if (const Scene& drawn = world_.drawing().drawn();
         newMix.scene != mix_.scene && (restoresPoses || drawn != *mix_.scene)) {
         auto base = std::make_shared<const Scene>(restoresPoses ? sceneNow(drawn, world_.posesNow()) : drawn);
@@ -187,7 +186,7 @@ void MixerModel::edit(const juce::String& name, const Mix& newMix, bool continue
     limitNewStrips(mix_.strips, adjustedMix.strips);
     const auto withoutHeadphone = assignNewStrips(device_.choice(), adjustedMix.strips, mix_.strips.size());
     const auto withoutOutput = removeSharedOutputs(adjustedMix.strips);
-    undo.perform(new MixEdit{*history_, mix_, std::move(adjustedMix)});
+    history_->undo.perform(new MixEdit{*history_, mix_, std::move(adjustedMix)});
     reportNoOutput(*this, withoutOutput);
     reportNoHeadphoneOutput(*this, withoutHeadphone);
 }

@@ -110,10 +110,9 @@ std::string MixerWorld::edit(const juce::String& name, std::vector<Action> actio
             spawn->body.name = drawing_.unusedName("added");
     if (actions.empty()) return {};
     if (auto error = drawing_.check(actions); !error.empty()) return error;
-    auto& undo = history_.undo;
-    if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
+    history_.beginStep(name, continuesEdit);
     editError_.clear();
-    undo.perform(new Edit{history_, SceneEdit{std::move(actions)}});
+    history_.undo.perform(new Edit{history_, SceneEdit{std::move(actions)}});
     return std::exchange(editError_, {});
 }
 

@@ -54,6 +54,13 @@ struct MixerHistory {
     std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawnScenes;
     juce::UndoManager undo{1000, 30};
 
+    /// Begins a step of that name, unless it has begun and the edit continues it.
+    void beginStep(const juce::String& name, bool continuesEdit) {
+        if (!continuesEdit || undo.getNumActionsInCurrentTransaction() == 0 ||
+            undo.getCurrentTransactionName() != name)
+            undo.beginNewTransaction(name);
+    }
+
     bool isSame(const std::shared_ptr<const Scene>& a, const std::shared_ptr<const Scene>& b) const {
         return newestScene(a) == newestScene(b);
     }

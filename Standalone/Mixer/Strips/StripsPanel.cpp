@@ -327,8 +327,9 @@ void GroupView::change(const juce::String& name, Change change, bool continuesEd
 
 void GroupView::rename() {
     const auto name = name_.getText().trim();
-    const bool isAcceptable = name.isNotEmpty() && name.getNumBytesAsUTF8() <= limits::maxNameBytes;
-    if (isAcceptable && name != utf8(group().name))
+    const auto& groups = model_.mix().groups;
+    const bool isFree = std::ranges::find(groups, name.toStdString(), &StripGroup::name) == groups.end();
+    if (isFree && name.isNotEmpty() && name.getNumBytesAsUTF8() <= limits::maxNameBytes)
         change("Name", [&](StripGroup& g) { g.name = name.toStdString(); });
     else
         name_.setText(utf8(group().name), dontNotify);

@@ -484,7 +484,8 @@ void askMaterial(juce::Component& opener, MixerModel& model, int material, bool 
     }
     const auto name = utf8(source.name);
     askForValues(
-        opener, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
+        *opener.getParentComponent(), // a swatch itself is replaced when any material changes
+        isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
         {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[source.colour], {}, colours, {}, dots}},
         [&model, material, isCopy, onDone = std::move(onDone)](const juce::StringArray& values) {
             constexpr double startHz = 165.0, startDecay = 22.0; // for a copy of a silent material

@@ -416,8 +416,9 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
         if (!open->keyPressed(key) && key == KeyPress::escapeKey) model_.setSilent(true);
         return true;
     }
-    // without a focused component, keys go to the screen before the world
-    if (screen_ != nullptr && screen_->keyPressed(key)) return true;
+    // no key reaches the world behind a screen
+    if (screen_ != nullptr)
+        return screen_->keyPressed(key) || (key == KeyPress::escapeKey && (model_.setSilent(true), true));
     if (key == KeyPress::escapeKey && world_.isDragging()) return world_.cancelDrag(), true;
     if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
     if (key == KeyPress::F2Key) return bar_.onMode(), true;

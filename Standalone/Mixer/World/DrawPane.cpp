@@ -160,7 +160,7 @@ void DrawPane::mouseDown(const juce::MouseEvent& e) {
         return repaint();
     }
     isDrawing_ = true;
-    if (tool_ == DrawTool::eraser) return eraseAt(e);
+    if (tool_ == DrawTool::eraser) return model_.undoManager().beginNewTransaction(), eraseAt(e);
     if (tool_ == DrawTool::select) beginGrip(e);
     stroke_ = {tool_ == DrawTool::select ? view_.metresAt(e.position) : pointerMetres_};
     repaint();
@@ -338,9 +338,9 @@ void DrawPane::addAtCentre() {
 
 void DrawPane::eraseAt(const juce::MouseEvent& e) {
     if (const auto joint = jointAt(e.position); !joint.empty())
-        return edit("Erase", {UnjoinAction{joint}}, e.getDistanceFromDragStart() > 2);
+        return edit("Erase", {UnjoinAction{joint}}, true);
     for (const auto& name : view_.bodiesAt(e.position))
-        if (drawing().find(name) != nullptr) return eraseBodies({name}, e.getDistanceFromDragStart() > 2);
+        if (drawing().find(name) != nullptr) return eraseBodies({name}, true);
 }
 
 void DrawPane::setRainPattern(const RainPattern& pattern) {
@@ -542,6 +542,7 @@ bool DrawPane::handleToolKey(const juce::KeyPress& key) {
 bool DrawPane::handleKey(const juce::KeyPress& key) {
     using juce::KeyPress;
     const auto command = juce::ModifierKeys::commandModifier;
+    model_.dispatchPendingMessages(); // of a key just before: bodies are where it has moved them
     if (handleToolKey(key)) return true;
     if (key == KeyPress{'a', command, 0}) return selectAll(), true;
     if (tool_ == DrawTool::hand) return false;
