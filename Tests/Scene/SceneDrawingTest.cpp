@@ -288,6 +288,34 @@ TEST(SceneDrawing, AHingeKeepsItsLimitsWhileABodyIsChanged) {
     EXPECT_NEAR(saved.pose(1).angleRadians, -0.1, 0.02);
 }
 
+TEST(SceneDrawing, ASuspendedCarStandsAsHighWhereverTheSliderOfItsMotorStops) {
+    for (const auto& travel : {std::optional<Interval>{}, std::optional{Interval{-0.3, 0.3}}}) {
+        Drawn drawn{blank()};
+        ASSERT_EQ(drawn.add(makeBox({1.0, 0.9}, {2.0, 1.1}).value, "car"), "");
+        for (const auto& [wheel, x] : {std::pair{"rear", 1.1}, {"front", 1.9}}) {
+            ASSERT_EQ(drawn.add(makeBall({x, 0.5}, {x + 0.2, 0.5}).value, wheel), "");
+            const WheelJoint axle{{x, 0.5}, {0.0, 1.0}, 3.0, 0.7, travel};
+            ASSERT_EQ(drawn.edit({JoinAction{{std::string{wheel} + " axle", "car", wheel, axle}}}), "");
+        }
+        const CurrentPose now = [&](const std::string& body) {
+            std::optional<BodyPose> last; // of that name: it was changed to it
+            const auto cast = allBodies(drawn.world.scene());
+            for (std::size_t i = 0; i < cast.size(); ++i)
+                if (cast[i].name == body) last = drawn.world.pose(i);
+            return last;
+        };
+        drawn.steps(500);
+        const double height = now("car")->yMetres;
+        EXPECT_LT(height, 0.95) << "pressed down by its weight";
+        for (const double torque : {1.0, 2.0, 3.0}) {
+            const auto motor = motorActions(drawn.drawing, "rear axle", {0.0, torque}, now);
+            ASSERT_EQ(drawn.edit(motor.value), "");
+            drawn.steps(500);
+            EXPECT_NEAR(now("car")->yMetres, height, 0.005) << torque;
+        }
+    }
+}
+
 TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
     const Vector left{1.2, 1.95}, middle{1.6, 1.95}, right{2.0, 1.95}, above{1.6, 2.2}, below{1.65, 1.5};
     const std::vector<Joint> joints{RevoluteJoint{left, Interval{-0.1, 0.3}},

@@ -83,7 +83,8 @@ struct MotorDrive {
 MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 
 /// Actions that replace a hinge or wheel by one with another drive. If its anchor has moved, or its bodies
-/// within its limits, they start at their present places, at rest. Any thread.
+/// within its limits, they start at their present places, at rest; a sprung wheel where its spring rests. Any
+/// thread.
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
                                          const MotorDrive& drive, const CurrentPose& findPose);
 

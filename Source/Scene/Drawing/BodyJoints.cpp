@@ -139,11 +139,25 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
     std::vector<Action> actions{UnjoinAction{joint}};
     constexpr double tolerance = 1e-6;
     if (!std::ranges::equal(frameOf(*drawn), frameOf(*changed),
-                            [](double a, double b) { return std::abs(a - b) <= tolerance; }))
+                            [](double a, double b) { return std::abs(a - b) <= tolerance; })) {
+        auto* const bodyB = findNamed(presentScene.bodies, changed->bodyB);
+        auto* const wheel = std::get_if<WheelJoint>(&changed->joint);
+        if (wheel && wheel->suspensionHz > 0.0 && bodyB->type == BodyType::dynamicBody) {
+            // a new spring rests where it begins: from where it was pressed to, it would sink as far again
+            const auto& start = std::get<WheelJoint>(drawn->joint);
+            const Vector rest = Motion{placeOf(*drawing.find(changed->bodyA)),
+                                       placeOf(*findNamed(presentScene.bodies, changed->bodyA))}(
+                             start.anchorMetres),
+                         pressed = std::exchange(wheel->anchorMetres, rest);
+            bodyB->positionMetres.x += rest.x - pressed.x;
+            bodyB->positionMetres.y += rest.y - pressed.y;
+            wheel->travelMetres = start.travelMetres;
+        }
         for (const BodyDescription& body : presentScene.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == changed->bodyA || body.name == changed->bodyB))
                 actions.push_back(atRest(body));
+    }
     actions.push_back(JoinAction{std::move(*changed)});
     return actions;
 }
