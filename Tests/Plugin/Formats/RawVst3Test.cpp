@@ -500,6 +500,43 @@ TEST(RawVst3, FloodsAndNonsenseAreFiniteHangNowhereAndTheNextNoteIsRight) {
     }
 }
 
+void tell(RawVst3& host, vst::NoteExpressionTypeID kind, int id, double value) {
+    host.note(57, 0);
+    host.event().type = vst::Event::kNoteExpressionValueEvent;
+    host.event().noteExpressionValue = {kind, id, value};
+}
+
+// VST3's scales: a quarter of the volume's is 0 dB; the middle of the brightness is the note's own.
+TEST(RawVst3, VolumeAndBrightnessOfANoteAreItsLevelAndItsHeight) {
+    auto state = emptyBox();
+    state.limiterEnabled = false;
+    state.voice = {.pitch = NotePitch::note, .placement = NotePlacement::middle, .isHeld = true};
+    state.parameters = {{"level", 0.0}, {"strike_level", -20.0}};
+    ModuleWith host{state};
+    host.start(512);
+    host.note(57, 0), host.event().noteOn.noteId = 7, host.event().noteOn.velocity = 1.0f;
+    peaksAfter(host, [] {});
+    const auto middle = peaksAfter(host, [] {});
+    const auto expectAfter = [&](vst::NoteExpressionTypeID kind, int id, double value, float above,
+                                 float below) {
+        peaksAfter(host, [&] { tell(host, kind, id, value); });
+        const auto now = peaksAfter(host, [] {});
+        for (const std::size_t c : {0u, 1u, 2u, 3u})
+            EXPECT_NEAR(now[c], (c < 2 ? above : below) * middle[c], 0.01f * middle[c])
+                << kind << ' ' << id << ' ' << value << ' ' << c;
+    };
+    EXPECT_NEAR(middle[0] + middle[1] + middle[2] + middle[3], 0.1f, 1e-3f);
+    for (const auto& [value, gain] : {std::pair{0.5, 2.0f}, {1.0, 4.0f}, {0.0, 0.0f}, {0.25, 1.0f}}) {
+        expectAfter(vst::kVolumeTypeID, 7, value, gain, gain);
+        expectAfter(vst::kVolumeTypeID, 8, 0.75, gain, gain);
+    }
+    expectAfter(vst::kBrightnessTypeID, 7, 1.0, 2.0f, 0.0f);
+    expectAfter(vst::kBrightnessTypeID, 8, 0.5, 2.0f, 0.0f);
+    expectAfter(vst::kBrightnessTypeID, 7, 0.0, 0.0f, 2.0f);
+    expectAfter(vst::kBrightnessTypeID, 7, 0.5, 1.0f, 1.0f);
+    host.stop();
+}
+
 TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
     RawVst3 host{oneBus, "PhysVib"};
     EXPECT_EQ(host.expressions,
@@ -517,14 +554,9 @@ TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
     const auto middle = peaksAfter(host, [&] { strike(7, 0); });
     EXPECT_NEAR(middle[0], middle[1], 1e-3f);
     EXPECT_GT(middle[0], 0.01f);
-    const auto pan = [&](int id, double to, int frame) {
-        host.note(57, frame);
-        host.event().type = vst::Event::kNoteExpressionValueEvent;
-        host.event().noteExpressionValue = {vst::kPanTypeID, id, to};
-    };
-    pan(7, 0.0, 0), host.process();
+    tell(host, vst::kPanTypeID, 7, 0.0), host.process();
     for (int b = 0; b < 20; ++b) host.process();
-    const auto left = peaksAfter(host, [&] { pan(8, 1.0, 0); });
+    const auto left = peaksAfter(host, [&] { tell(host, vst::kPanTypeID, 8, 1.0); });
     std::printf("VST3, a note's pan: left %.3f, right %.3f; before %.3f, %.3f\n",
                 static_cast<double>(left[0]), static_cast<double>(left[1]), static_cast<double>(middle[0]),
                 static_cast<double>(middle[1]));
