@@ -211,7 +211,7 @@ TEST_F(Study, LevelsAreOfTheOneSessionThatSetsThem) {
     const auto session = [](const std::string& name, const std::string& moved, const std::string& training) {
         return R"({ "name": ")" + name + R"(", "task": "adjust", )" + training +
                R"("alternatives": [{ "name": "AV-FV-DRV" }, { "name": "AV-FF-DRF" }], "adjustment": { "alternative": ")" +
-               moved + R"(" } })";
+               moved + R"(", "most_db": 10 } })";
     };
     const auto protocol = [&](const std::string& name, const std::string& sessions) {
         write(name + ".json",
