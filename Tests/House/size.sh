@@ -18,9 +18,9 @@ cpp() { find "$@" -type f \( -name '*.h' -o -name '*.cpp' \); }
 lines() { cpp "$@" | xargs cat | wc -l; }
 bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 
-say "products: lines of C++" "$(lines $products)" 117063
+say "products: lines of C++" "$(lines $products)" 117061
 say "products: files of C++" "$(cpp $products | wc -l)" 643
-say "products: bytes without white space" "$(bytes $products)" 4321922
+say "products: bytes without white space" "$(bytes $products)" 4321915
 say "tests: lines of C++" "$(lines Tests)" 82591
 say "tests: files of C++" "$(cpp Tests | wc -l)" 433
 if [ -n "$bin" ]; then

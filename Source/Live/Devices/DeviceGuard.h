@@ -125,8 +125,7 @@ public:
         guardChannel = none;
         std::size_t c = 0;
         while (c < count && channels_[c] != channel) ++c;
-        if (c == maxChannels) { // all channels are used: of those without an actuator, takes that of least
-                                // load
+        if (c == maxChannels) { // all are used: takes that of least load among those without an actuator
             for (std::size_t free = 0; free < count; ++free)
                 if (std::ranges::find(guardChannels_, free) == guardChannels_.end() &&
                     (c == none || guard_.load(free) < guard_.load(c)))

@@ -83,8 +83,7 @@ struct MotorDrive {
 MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 
 /// Actions that replace a hinge or wheel by one with another drive. If its anchor has moved, or its bodies
-/// within its limits, they start at their present places, at rest; a sprung wheel where its spring rests. Any
-/// thread.
+/// within its limits, they start where they are, at rest; a sprung wheel where its spring rests. Any thread.
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
                                          const MotorDrive& drive, const CurrentPose& findPose);
 

@@ -62,8 +62,8 @@ void printBoardInfo(const BoardLinkStatus& status) {
 
 constexpr std::int64_t nsPerMs = 1'000'000;
 
-/// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale. False: ended
-/// early.
+/// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale. Returns whether
+/// it came to its end.
 bool playChannelsInTurn(BoardLink& link) {
     const std::int64_t start =
         BoardLink::nowNs() + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + 50 * nsPerMs;
