@@ -87,7 +87,7 @@ steps=$(sed -n 's/^        \([a-z0-9-]*\)) .*;;$/\1/p' "$0")
 [ $# -eq 0 ] || steps="$*"
 
 # shellcheck disable=SC2086 # a list of words
-ensure_build_packages $physvib_test_packages && build release all || exit 1
+ensure_build_packages $physvib_test_packages && build release all physvib-by-hand || exit 1
 mkdir -p build/nightly
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT
