@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Draws the pictures of README and Docs anew, with the programs of a release build; needs no display.
+# Draws the pictures of README and Docs anew, with the programs of a release build and of its target physvib-by-hand; needs no display.
 # Docs/pictures.txt keeps for each render which call it shows and the checksum of its event list: Tests/Docs/pictures.py finds those that are older than what they show.
 # usage: Docs/pictures.sh [BIN_FOLDER (build/release/bin)] [renders]   (renders: those alone, in a minute)
 set -eu
