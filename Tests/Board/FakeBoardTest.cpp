@@ -85,6 +85,39 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
     EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
 }
 
+TEST(BoardLinkWithAFakeBoard, AChannelThatIsMutedHasNoGain) {
+    FakeBoard board{ours(), 0};
+    BesideDevice played{board};
+    for (const float mute : {0.0f, 1.0f, 0.0f}) {
+        EXPECT_TRUE(played.session->submit(
+            {RenderControl{.kind = RenderControl::Kind::mute, .channel = 0, .value = mute, .panner = {}}}));
+        const int gain = mute > 0.0f ? 0 : limits::board::amplitudeUnit / 2;
+        EXPECT_TRUE(test::comesTrue([&] { return played.goOn(), board.gain() == gain; })) << mute;
+    }
+}
+
+// They are due in a minute, so none ends meanwhile.
+TEST(BoardLinkWithAFakeBoard, NoMoreSegmentsAreSentThanItHasRoomFor) {
+    FakeBoard board{ours(), 0};
+    BoardLink link{board.port()};
+    std::atomic<bool> isDueNow{false};
+    std::atomic<int> sent{0}, refusals{0}; // refusals: since the last that was sent
+    link.setFeed([&, connections = std::uint64_t{0}]() mutable {
+        if (link.status().connections != connections) connections = link.status().connections, sent = 0;
+        const std::int64_t now = BoardLink::nowNs(), later = now + 60'000 * ms;
+        if (!link.canSendSegment(isDueNow ? now : later)) return void(++refusals);
+        const auto frame = static_cast<std::int64_t>(link.frameAt(later));
+        link.sendSegment({.frame = static_cast<std::uint32_t>(frame), .frames = 320}, false);
+        ++sent, refusals = 0;
+    });
+    for (const int room : {limits::board::maxSegments - 2, limits::board::maxSegments}) {
+        EXPECT_TRUE(test::comesTrue([&] { return sent > 0 && refusals > 100; }));
+        EXPECT_EQ(sent, room);
+        isDueNow = true, refusals = 0; // what has to be sent now may take the places that were kept free
+    }
+    link.setFeed({});
+}
+
 /// From A to B to D in a second, on a session beside a fake device, until the board has been told to its end.
 BoardLinkStatus playPath(FakeBoard& board) {
     BesideDevice played{board};

@@ -230,6 +230,18 @@ double strongestUntil(PadMotors& motors, std::int64_t ns) {
     return strongest;
 }
 
+TEST(PadMotors, AHitOutlastsWhatEndsOrMovesBesideIt) {
+    for (const bool moves : {false, true}) {
+        CollisionEvent weak = hit(0.1, 60.0, 0.02, 0.5, 8.0);
+        (moves ? weak.course.travelNs : weak.durationNs) = 50 * ms;
+        PadMotors motors{PadModel{}};
+        motors.strike(weak, grips());
+        motors.strike(hit(0.1, 60.0, 1.0, 0.5, 8.0), grips()); // of the same decay
+        strongestUntil(motors, 300 * ms);
+        EXPECT_GT(strongestUntil(motors, 500 * ms), 0.3) << moves;
+    }
+}
+
 /// A stop is at the moment at which it is felt; so is an event, although its command leaves earlier.
 TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
     for (const double lead : {0.0, 0.03, 0.1})

@@ -198,6 +198,25 @@ TEST(DeviceGuard, OpenedAnewItKnowsWhatItWouldHaveKnown) {
     EXPECT_NEAR(two.load, one.load, 0.05f * one.load);
 }
 
+// Two sessions on one output, which both began when it had had nothing.
+TEST(DeviceGuard, WhoEndsLastForgetsNothingOfWhatTheOtherHad) {
+    const PlayedTime time;
+    const auto hadBy = [](const std::string& name) { return GuardMemory::storedFor(name, 2).sums.load; };
+    std::vector<float> loud(4800, 0.2f), alone = loud, quiet(4800, 0.01f);
+    playAnew("A:one", alone);
+    const float had = hadBy("A:one");
+    {
+        DeviceGuard last;
+        last.begin("A:two", {0, 2}, 48000);
+        last.setChannel(0, 1);
+        std::array<float*, limits::maxActuators> at{quiet.data()};
+        last.process(at.data(), 4800);
+        playAnew("A:two", loud);
+        EXPECT_EQ(hadBy("A:two"), had);
+    }
+    EXPECT_EQ(hadBy("A:two"), had);
+}
+
 // With all of its channels in use, a new output gets that of an output that has had least: what others have
 // had is not forgotten, and the new one is not turned down for it.
 TEST(DeviceGuard, OfManyOutputsTheLeastLoadedIsForgottenForANewOne) {

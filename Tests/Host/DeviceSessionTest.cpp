@@ -6,6 +6,7 @@
 #include "Live/Devices/DeviceMeters.h"
 #include "Session/FakeHost.h"
 #include <gtest/gtest.h>
+#include <numeric>
 #include <thread>
 
 namespace physvib::device_session_test {
@@ -254,6 +255,21 @@ TEST(DeviceWatch, ADeviceThatWasOpenedAgainHasItsTwoSeconds) {
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_TRUE(look.after(1s, 0));
+}
+
+TEST(SignalTap, IsReadAsItWasPushedWhereverItWraps) {
+    std::vector<float> signal(1000), read;
+    std::iota(signal.begin(), signal.end(), 0.0f);
+    SignalTap tap{1, 10};
+    for (std::size_t frames = 1; read.size() + frames <= signal.size(); frames = frames % 7 + 1) {
+        const float* const channel = signal.data() + read.size();
+        tap.push(&channel, static_cast<int>(frames));
+        tap.read(
+            [&](const float* const* part, int count) { read.insert(read.end(), part[0], part[0] + count); });
+    }
+    EXPECT_EQ(tap.framesLost(), 0U);
+    EXPECT_GT(read.size(), 990U);
+    EXPECT_TRUE(std::equal(read.begin(), read.end(), signal.begin()));
 }
 
 } // namespace physvib::device_session_test

@@ -264,6 +264,11 @@ TEST_P(AnOutputMap, FadesWhatIsAssignedElsewhere) {
     player.assign({1, 2});
     player.play(0.3);
     EXPECT_EQ(player.levels, (Levels{0.0f, 1.0f, 0.5f, 0.0f}));
+    player.assign({-1, 2});
+    player.play(0.3);
+    player.assign({2, -1}); // of who plays, to who is silent
+    player.play(0.3);
+    EXPECT_EQ(player.levels, (Levels{0.0f, 0.0f, 1.0f, 0.0f}));
     EXPECT_LE(player.largestStep, 1.01f / static_cast<float>(limits::channelRampSeconds * rate));
 }
 

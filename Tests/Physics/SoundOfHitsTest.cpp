@@ -48,14 +48,16 @@ TEST_F(SoundOfHits, PairsHaveASoundOfTheirOwnInAnyOrder) {
             7, 3,
             {.frequencyHz = 77.0, .decayPerSecond = 7.0, .overtones = {{{154.0, 9.0, 0.5}}}, .gain = 2.0}),
         "");
-    b2Fixture& onIce = give(ball(0.0F, -1.74F, 0.0F, -5.0F), skate);
+    give(ball(0.0F, -1.74F, 0.0F, -5.0F), skate);
+    give(ball(-4.0F, 0.27F, 0.0F, -5.0F), camera); // on the floor in the same step, a little later
     const auto events = run(1);
-    ASSERT_EQ(events.size(), 2U);
+    ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].frequencyHz, 77.0);
     EXPECT_EQ(events[0].decayPerSecond, 7.0);
     EXPECT_DOUBLE_EQ(events[0].amplitude,
                      2.0 * events[0].source.impulseNewtonSeconds / events[0].source.massKg);
     EXPECT_EQ(events[1].frequencyHz, 154.0);
+    EXPECT_DOUBLE_EQ(events[2].amplitude, events[2].source.impulseNewtonSeconds / events[2].source.massKg);
     EXPECT_EQ(hit(skate).size(), 2U) << "the floor is of no kind: both voices";
 }
 
