@@ -379,6 +379,12 @@ TEST_F(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     EXPECT_NE(body("rain 10"), nullptr);
     undo();
     EXPECT_EQ(drawn().bodies.size(), before);
+    stroke(share(0.4, 0.4), share(0.6, 0.6));
+    EXPECT_EQ(drawn().bodies.size(), before + 1) << "one begins, after one that was undone";
+    undo();
+    const auto end = model.session().world().sceneNs() + 300'000'000;
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.session().world().sceneNs() > end; }));
+    EXPECT_EQ(drawn().bodies.size(), before) << "undone while it falls";
     model.setSlowness(0);
     setScene(model, *findBuiltInScene("drop"));
     settle();

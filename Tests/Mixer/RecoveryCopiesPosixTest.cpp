@@ -244,4 +244,13 @@ TEST_F(SettingsTest, AValueOfTagsIsNotReadAgainWhenItIsWritten) {
     EXPECT_EQ(files.settings().getValue("look"), "light");
 }
 
+TEST_F(SettingsTest, TheExposureOfAnotherDayIsNotTodays) {
+    MixerFiles files{asFile()};
+    files.setExposureToday(2.5, true);
+    const auto kept = files.settings().getValue("exposure"); // "2...-..-.. 2.5"
+    ASSERT_TRUE(kept.startsWith("2") && kept.endsWith(" 2.5")) << kept;
+    files.settings().setValue("exposure", "1" + kept.substring(1));
+    EXPECT_EQ(files.exposureToday(), 0.0);
+}
+
 } // namespace physvib::recovery_copies_posix_test

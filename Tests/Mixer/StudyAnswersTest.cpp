@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Components of studies without a screen: answers are of what was felt, and what is chosen stands there.
+#include "Host/FakeAudioDevice.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Studies/StudyScreen.h"
 #include "Mixer/Widgets/Cards.h"
 #include "MixerTesting.h"
 #include "TestPlaces.h"
@@ -37,6 +39,28 @@ TEST(StudyAnswers, RatingsSideBySideAreOfTheObjectThatWasFeltAtEachLetter) {
         experiment.acceptAnswer(answer->answer());
     }
     EXPECT_GT(orders.size(), 2u) << "in one order alone, none could be mixed up";
+}
+
+TEST(StudyAnswers, AStimulusThatCameOutWeakerOrStrongerThanPlannedIsNotComplete) {
+    for (const auto& [factor, status] : {std::pair{1.0f, PlaybackStatus::complete},
+                                         {0.8f, PlaybackStatus::wrongLevel},
+                                         {1.25f, PlaybackStatus::wrongLevel}}) {
+        FakeInterface hands;
+        MixerModel model{
+            fakeDrivers({&hands}), {"Fake:hands", 0, 0}, MixerModel::defaultMix(), {.isPaused = true}};
+        for (int k = 0; k < 50; ++k) hands.play(64);
+        StimulusPlayer player{model};
+        const auto stimulus = StimulusPlayer::prepare(
+            model, StimulusJob{.stimulus = PhantomJob{.seconds = 0.1}, .levelG = 0.5});
+        ASSERT_EQ(player.play(stimulus.value), "") << stimulus.error;
+        for (int j = 0; j < model.mix().count(); ++j)
+            (void)model.session().submit(
+                {RenderControl{.kind = RenderControl::Kind::gain,
+                               .channel = j,
+                               .value = factor * stimulus.value.gains[static_cast<std::size_t>(j)]}});
+        for (int k = 0; k < 3000 && player.isPlaying(); ++k) hands.play(64), player.update();
+        EXPECT_EQ(player.status(), status) << factor;
+    }
 }
 
 struct ChosenStudy : testing::Test, MixerInView {

@@ -75,6 +75,15 @@ TEST(Knobs, HoldPlacementBendAndMaterialReplaceThePresets) {
     const auto strike = host.struck({struckAt(60)}).at(0);
     EXPECT_NEAR(strike.frequencyHz, material.frequencyHz, 1e-3);
     EXPECT_NEAR(strike.decayPerSecond, material.decayPerSecond, 1e-3);
+    auto full = knobPreset("Keys");
+    full.scene.materials.resize(9, material);
+    for (std::size_t m = 1; m <= 8; ++m) {
+        full.scene.materials[m - 1].frequencyHz = 60.0 + static_cast<double>(m);
+        const NoteKnobs knobs{.material = static_cast<int>(m)};
+        EXPECT_EQ(MidiTable{full}.strikeOf(60, knobs, full.layout.geometry).frequencyHz,
+                  full.scene.materials[m - 1].frequencyHz)
+            << m;
+    }
     KnobHost strings{knobPreset("Strings")};
     strings.turn(Parameter::hold, "off");
     EXPECT_EQ(strings.struck({struckAt(60)}).size(), 1u);

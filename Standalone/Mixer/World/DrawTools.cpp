@@ -127,11 +127,11 @@ void Rain::start(std::vector<BodyDescription> bodies) {
 void Rain::spawnDueBodies() {
     if (pendingBodies_.empty()) return;
     const auto elapsedNs = model_.session().world().sceneNs() - startNs_;
-    const bool isUndone = model_.undoManager().getRedoDescription() == rainEditName;
+    const bool isFirst = spawnedCount_ == 0; // before it, the step to redo may be an earlier rain
+    const bool isUndone = !isFirst && model_.undoManager().getRedoDescription() == rainEditName;
     const bool isSameRun = scene_ == model_.mix().scene && runNumber_ == model_.session().world().runNumber();
     if (!isSameRun || isUndone) return pendingBodies_.clear();
     const auto dueCount = 1 + elapsedNs * pattern_.bodiesPerSecond / 1'000'000'000;
-    const bool isFirst = spawnedCount_ == 0;
     std::vector<Action> actions;
     std::string name;
     for (; spawnedCount_ < dueCount && !pendingBodies_.empty(); ++spawnedCount_) {
