@@ -518,10 +518,41 @@ TEST_F(Car, IsSavedWithItsAxleAndLimitsAsTheyAreNow) {
     const auto& wheel = std::get<WheelJoint>(now.joints[0].joint);
     const Interval hinge = *std::get<RevoluteJoint>(now.joints[1].joint).limitsRadians;
     constexpr double quarter = 0.5 * std::numbers::pi;
-    const double found[] = {wheel.anchorMetres.x, wheel.axis.x, wheel.travelMetres->lower, hinge.lower,
-                            hinge.upper},
-                 expected[] = {2.15, -1.0, -0.3, -0.5 - quarter, 1.0 - quarter};
+    const double found[] = {wheel.anchorMetres.x, wheel.axis.x, wheel.travelMetres->lower,
+                            hinge.lower,          hinge.upper,  wheel.restMetres},
+                 expected[] = {2.15, -1.0, -0.3, -0.5 - quarter, 1.0 - quarter, -0.1};
     for (std::size_t k = 0; k < std::size(found); ++k) EXPECT_NEAR(found[k], expected[k], 1e-9) << k;
+}
+
+TEST(SceneDrawing, WhatIsSavedWhileItHangsRestsWhereItWouldHaveRested) {
+    const Vector ball{1.6, 2.0}, above{1.6, 2.3}, below{1.61, 1.4}, side{1.3, 2.0};
+    const std::vector<Joint> joints{WheelJoint{ball, {0.0, 1.0}, 2.0, 0.5},
+                                    WheelJoint{ball, {0.0, 1.0}, 2.0, 0.5, Interval{-0.04, 0.04}},
+                                    DistanceJoint{above, ball, 2.0, 0.5},
+                                    DistanceJoint{below, ball, 0.0, 0.0, true}, // falls, then it is taut
+                                    WeldJoint{side, 3.0, 0.5}};
+    for (std::size_t k = 0; k < joints.size(); ++k)
+        for (const int steps : {20, 600}) {
+            SCOPED_TRACE("joint " + std::to_string(k) + ", saved after " + std::to_string(steps) + " steps");
+            Drawn drawn{blank()};
+            BodyDescription body = makeBall(ball, {1.7, 2.0}).value;
+            body.linearDampingPerSecond = 1.0;
+            ASSERT_EQ(drawn.add(body, "ball"), "");
+            ASSERT_EQ(drawn.edit({JoinAction{{"joint", "floor", "ball", joints[k]}}}), "");
+            drawn.steps(steps);
+            const Scene now = sceneNow(drawn.drawing.drawn(), [&](const std::string& name) {
+                return std::optional{drawn.world.pose(name == "ball" ? 1 : 0)};
+            });
+            const auto read = readScene(sceneJson(now), "now.json");
+            ASSERT_TRUE(read) << read.error;
+            Simulation saved{read.value, 0, 100};
+            drawn.steps(1500);
+            for (int i = 0; i < 1500; ++i) saved.step(drawn.events);
+            const BodyPose found = saved.pose(1), expected = drawn.world.pose(1);
+            EXPECT_NEAR(found.xMetres, expected.xMetres, 5e-3);
+            EXPECT_NEAR(found.yMetres, expected.yMetres, 5e-3);
+            EXPECT_NEAR(found.angleRadians, expected.angleRadians, 5e-3);
+        }
 }
 
 TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {

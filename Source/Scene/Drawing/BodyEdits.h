@@ -83,7 +83,7 @@ struct MotorDrive {
 MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 
 /// Actions that replace a hinge or wheel by one with another drive. If its anchor has moved, or its bodies
-/// within its limits, they start where they are, at rest; a sprung wheel where its spring rests. Any thread.
+/// within its limits, they start where they are, at rest. Any thread.
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
                                          const MotorDrive& drive, const CurrentPose& findPose);
 
@@ -96,7 +96,8 @@ double springHzOf(const JointDescription& spring); ///< zero for other joints
 Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std::string& joint,
                                           double springHz);
 
-/// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
+/// The drawn scene with its bodies at their present places; joints keep their points on them, and springs and
+/// ropes where they rest. Any thread.
 Scene sceneNow(const Scene& drawn, const CurrentPose& findPose);
 
 /// The scene with its field, gravity, materials and names alone. Any thread.

@@ -140,19 +140,6 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
     constexpr double tolerance = 1e-6;
     if (!std::ranges::equal(frameOf(*drawn), frameOf(*changed),
                             [](double a, double b) { return std::abs(a - b) <= tolerance; })) {
-        auto* const bodyB = findNamed(presentScene.bodies, changed->bodyB);
-        auto* const wheel = std::get_if<WheelJoint>(&changed->joint);
-        if (wheel && wheel->suspensionHz > 0.0 && bodyB->type == BodyType::dynamicBody) {
-            // a new spring rests where it begins: from where it was pressed to, it would sink as far again
-            const auto& start = std::get<WheelJoint>(drawn->joint);
-            const Vector rest = Motion{placeOf(*drawing.find(changed->bodyA)),
-                                       placeOf(*findNamed(presentScene.bodies, changed->bodyA))}(
-                             start.anchorMetres),
-                         pressed = std::exchange(wheel->anchorMetres, rest);
-            bodyB->positionMetres.x += rest.x - pressed.x;
-            bodyB->positionMetres.y += rest.y - pressed.y;
-            wheel->travelMetres = start.travelMetres;
-        }
         for (const BodyDescription& body : presentScene.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == changed->bodyA || body.name == changed->bodyB))
@@ -203,9 +190,14 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
         std::visit(
             [&](auto& kind) {
                 if constexpr (requires { kind.anchorAMetres; }) {
+                    const auto lengthMetres = [&kind] {
+                        return portable::hypot(kind.anchorBMetres.x - kind.anchorAMetres.x,
+                                               kind.anchorBMetres.y - kind.anchorAMetres.y);
+                    };
+                    kind.restMetres += lengthMetres();
                     kind.anchorAMetres = a->second(kind.anchorAMetres);
                     kind.anchorBMetres = b->second(kind.anchorBMetres);
-                    return;
+                    kind.restMetres -= lengthMetres();
                 } else {
                     const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
                     const double turnRadians = b->second.angleRadians() - a->second.angleRadians();
@@ -220,7 +212,9 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
                         if (kind.travelMetres)
                             kind.travelMetres = Interval{kind.travelMetres->lower - slidMetres,
                                                          kind.travelMetres->upper - slidMetres};
+                        if constexpr (isWheel) kind.restMetres -= slidMetres;
                     }
+                    if constexpr (requires { kind.restRadians; }) kind.restRadians -= turnRadians;
                     if constexpr (requires { kind.limitsRadians; })
                         if (kind.limitsRadians)
                             kind.limitsRadians = Interval{kind.limitsRadians->lower - turnRadians,
