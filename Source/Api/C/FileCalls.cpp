@@ -212,6 +212,8 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
     return catchExceptions([&] {
         if (path == nullptr || events == nullptr || count < 1)
             return argumentError("events: expected a path and at least one event");
+        if (count > std::int64_t{limits::maxEventRows}) // a longer list is not read again
+            return argumentError("events: expected at most " + std::to_string(limits::maxEventRows));
         const FieldSize field{width, height};
         if (!(field == FieldSize{}) && !isValidField(field))
             return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");

@@ -5,6 +5,7 @@
 #include "Api/Live/physvib-live.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/SinkTable.h"
+#include "Live/Documents/SessionFile.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -18,6 +19,9 @@ using namespace physvib::api;
 namespace {
 
 int submitControl(LiveRig& live, RenderControl control) {
+    if (live.isSaved())
+        if (const auto error = controlError(control, live.session().channels()); !error.empty())
+            return argumentError(error);
     return live.session().submit({control})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");

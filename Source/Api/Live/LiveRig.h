@@ -51,6 +51,7 @@ public:
     LiveRigStatus status() const;
     bool isOfThisProcess() const noexcept { return processId_ == currentProcessId(); }
     int stepsPerSecond() const noexcept { return rig_->settings().setup.stepsPerSecond; }
+    bool isSaved() const noexcept { return !rig_->settings().savePath.empty(); }
 
 private:
     static constexpr int updatesPerSecond = 50;

@@ -101,6 +101,9 @@ void visitFields(auto& v, FieldsOf<EventShaping>) {
     v.field("gamma", &S::truncation, kinds::range(0.0, S::maxTruncation), Need::optional.from(3));
 }
 
+/// Empty, or why no session file of `channels` outputs holds this control: its reader's line. Any thread.
+std::string controlError(const RenderControl& control, int channels);
+
 /// Parses a session; or one line about the first error, `name: takes[0].scene.bodies[1]...`. Unknown and
 /// repeated fields are errors. Any thread.
 Result<SavedSession> readSession(std::string_view text, std::string_view name);
