@@ -160,7 +160,8 @@ private:
     int channels_;
     std::filesystem::path folder_;
     std::string head_, limitError_;
-    std::size_t bytesWritten_, runInputs_ = 0; // inputs of the current scene run
+    std::size_t bytesWritten_, bodies_ = 0; // of all scene runs
+    std::size_t runInputs_ = 0;             // of the current scene run
     std::int64_t completeNs_ = 0;
     bool isRunWritten_ = false; // the first scene run of the log has been written
     WorldStall lastStall_{-1};

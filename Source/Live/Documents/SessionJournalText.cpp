@@ -126,6 +126,8 @@ std::string JournalLines::nextLines(SessionLog& log, std::int64_t sessionNs) {
     std::string text = formatLines(log, sessionNs);
     if (runInputs_ > sceneLimits::maxLiveInputs)
         limitError_ = std::to_string(sceneLimits::maxLiveInputs) + " inputs";
+    else if (bodies_ > limits::maxSessionBodies)
+        limitError_ = std::to_string(limits::maxSessionBodies) + " bodies";
     else if (bytesWritten_ + text.size() > maxJournalBytes)
         limitError_ = std::to_string(maxJournalBytes / 1'000'000) + " MB";
     else if (sessionNs > limits::maxSessionNs)
@@ -142,6 +144,7 @@ std::string JournalLines::formatLines(SessionLog& log, std::int64_t sessionNs) {
         if (!std::exchange(isRunWritten_, true)) {
             text += formatLine("take",
                                detail::runStartJson(run, previousRun_.scene ? &previousRun_ : nullptr, true));
+            bodies_ += detail::bodyCount(*run.scene);
             runInputs_ = 0;
             lastStall_ = {-1};
         }
