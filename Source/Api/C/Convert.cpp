@@ -82,6 +82,13 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     return {};
 }
 
+bool readRenderer(const physvib_renderer_settings* from, RendererSettings& to) noexcept {
+    physvib_renderer_settings copy;
+    if (!readStruct(from, copy, physvib_renderer_settings_init)) return false;
+    const std::string_view error = convert(copy, to);
+    return error.empty() || (argumentError(error), false);
+}
+
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {
     const std::size_t bytes = validSize<physvib_event>(&from);
     if (bytes == 0) return sizeError;

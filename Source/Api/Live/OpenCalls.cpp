@@ -132,7 +132,7 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
             return PHYSVIB_ERROR_ARGUMENT;
         RendererSettings checked;
         if (const auto error = settingsError(copy); !error.empty()) return argumentError(error);
-        if (!readRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!readLiveRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
         if (*copy.save != '\0')
             if (const auto error = controlError({0, RenderControl::Kind::panner, 0, 0.0f, &checked.panner},
                                                 checked.outputs());

@@ -24,8 +24,7 @@ std::string JackDevice::open(const ChannelSet& inputs, const ChannelSet& outputs
     const auto guard = stream_->client.lock();
     if (!guard) return "expected a running JACK server, found none";
     stream_->xruns = 0;
-    // JACK says no if 20 blocks pass before it calls the client; on a busy machine it calls it later, and
-    // says so when asked again
+    // a busy server that is 20 blocks late to call the client says no, but yes when asked again
     const auto isCalled = [this] { return jack_.activate(stream_->client.get()) == 0; };
     if (!isCalled() && !isCalled()) return "the JACK server refuses to call this program";
     isOpen_ = true;

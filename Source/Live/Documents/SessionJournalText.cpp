@@ -166,11 +166,7 @@ std::string JournalLines::formatLines(SessionLog& log, std::int64_t sessionNs) {
         text += formatLine("recordings", detail::recordingsJson(change, folder_));
     for (const ClipFile& clip : log.clips) text += formatLine("clip", detail::clipJson(clip, folder_));
     for (const CollisionEvent& strike : log.strikes) text += formatLine("strike", writeTable(strike));
-    log.panners.clear();
-    log.channels.clear();
-    log.recordings.clear();
-    log.clips.clear();
-    log.strikes.clear();
+    log = {std::move(log.runs), {}, {}, {}, {}, {}};
     OrderedJson last{{"seconds", kinds::Time{}.write(sessionNs)}};
     if (!log.runs.empty()) last["world_end_s"] = kinds::Time{}.write(log.runs.back().worldEndNs);
     return text + compactJson(last) + "\n";
