@@ -25,10 +25,16 @@ physvib_live opened(const physvib_live_settings* settings = nullptr) {
     return live;
 }
 
-int isSilent(physvib_live live) {
+physvib_live_status statusOf(physvib_live live) {
     auto status = test::begun(physvib_live_status_init);
     EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    return status.is_silent;
+    return status;
+}
+int isSilent(physvib_live live) { return statusOf(live).is_silent; }
+
+void awaitEvents(physvib_live live, physvib_int64 count) {
+    for (auto now = statusOf(live); now.played + now.rejected + now.dropped < count; now = statusOf(live))
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }
 
 TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
@@ -143,11 +149,7 @@ TEST(LiveCalls, WhatAFileCannotHoldIsRefusedWhereOneIsWritten) {
     endless.decay_per_s = 0.0;
     endless.duration_ns = 100'000'000'000'000'000;
     EXPECT_EQ(physvib_live_strike(live, &endless, 1), PHYSVIB_OK) << physvib_live_error();
-    auto status = test::begun(physvib_live_status_init);
-    do { // so that the file has it
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    } while (status.played + status.dropped < 1);
+    awaitEvents(live, 1); // so that the file has it
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK) << physvib_live_error();
     physvib_session session = nullptr;
     EXPECT_EQ(physvib_session_load(path.c_str(), &session), PHYSVIB_OK) << physvib_live_error();
@@ -226,11 +228,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
         sent += count;
     }
     EXPECT_EQ(sent, bodies);
-    const auto played = [](physvib_live live) {
-        auto status = test::begun(physvib_live_status_init);
-        physvib_live_get_status(live, &status);
-        return status.played;
-    };
+    const auto played = [](physvib_live live) { return statusOf(live).played; };
     for (int i = 0; i < 500 && played(lives[0]) + played(lives[1]) < bodies; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
     EXPECT_EQ(played(lives[0]), 3) << "with those of devices that are not there";
@@ -263,9 +261,7 @@ TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
               }),
               3)
         << "nothing is silenced there, and nobody told so";
-    auto status = test::begun(physvib_live_status_init);
-    EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    EXPECT_EQ(status.is_running, 1);
+    EXPECT_EQ(statusOf(live).is_running, 1);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
 }
 
@@ -334,12 +330,8 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
         ASSERT_EQ(physvib_live_strike(live, given.data(), 3), PHYSVIB_OK) << physvib_live_error();
         played += 3;
     }
-    auto status = test::begun(physvib_live_status_init);
-    do {
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    } while (status.played + status.rejected + status.dropped < played);
-    EXPECT_EQ(status.rejected, 0);
+    awaitEvents(live, played);
+    EXPECT_EQ(statusOf(live).rejected, 0);
     test::SizedEvents refused{sizeof(physvib_event) + 8, list};
     physvib_session none = nullptr;
     EXPECT_EQ(physvib_live_strike(live, refused.data(), 3), PHYSVIB_ERROR_ARGUMENT);
