@@ -5,6 +5,7 @@
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +26,9 @@ struct FieldSize {
 inline constexpr std::string_view expectedFieldText = "expected W,H in metres (0.001 to 1e6), found ";
 
 inline bool isValidField(FieldSize field) noexcept {
-    const auto isLength = [](double metres) { return metres >= 1e-3 && metres <= 1e6; };
+    const auto isLength = [](double metres) {
+        return metres >= limits::minExtentMetres && metres <= limits::maxExtentMetres;
+    };
     return isLength(field.widthMetres) && isLength(field.heightMetres);
 }
 

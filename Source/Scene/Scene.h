@@ -124,6 +124,7 @@ struct WheelJoint {
     std::optional<Interval> travelMetres;
     double motorRadiansPerSecond = 0.0;
     double maxTorqueNewtonMetres = 0.0;
+    double restMetres = 0.0; ///< where along the axis its spring rests, 0 at the start
     bool operator==(const WheelJoint&) const = default;
 };
 /// Keeps two points as far apart as they start; a frequency makes it a spring.
@@ -132,7 +133,8 @@ struct DistanceJoint {
     Vector anchorBMetres;
     double springHz = 0.0;
     double dampingRatio = 0.0;
-    bool isSlack = false; ///< a rope: limits the distance; springHz is unused
+    bool isSlack = false;    ///< a rope: limits the distance; springHz is unused
+    double restMetres = 0.0; ///< how much longer it is at rest than at the start
     bool operator==(const DistanceJoint&) const = default;
 };
 /// Fixes two bodies to each other; with a frequency by a torsion spring.
@@ -140,6 +142,7 @@ struct WeldJoint {
     Vector anchorMetres;
     double springHz = 0.0;
     double dampingRatio = 0.0;
+    double restRadians = 0.0; ///< angle of body B relative to body A at which it rests, 0 at the start
     bool operator==(const WeldJoint&) const = default;
 };
 /// Body B slides along an axis of body A without rotation. Without force it has no motor.

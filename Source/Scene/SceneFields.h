@@ -128,6 +128,7 @@ void visitFields(auto& v, FieldsOf<WheelJoint>) {
     v.field("travel_m", &WheelJoint::travelMetres, positionBounds, Need::optional);
     v.field("motor_rad_per_s", &WheelJoint::motorRadiansPerSecond, spinBounds, Need::optional);
     v.field("max_torque_nm", &WheelJoint::maxTorqueNewtonMetres, torqueBounds, Need::optional);
+    v.field("rest_m", &WheelJoint::restMetres, positionBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<DistanceJoint>) {
     v.field("anchor_a_m", &DistanceJoint::anchorAMetres, positionBounds);
@@ -136,11 +137,13 @@ void visitFields(auto& v, FieldsOf<DistanceJoint>) {
     v.field("damping_ratio", &DistanceJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio),
             Need::optional);
     v.field("slack", &DistanceJoint::isSlack, {}, Need::optional);
+    v.field("rest_m", &DistanceJoint::restMetres, positionBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<WeldJoint>) {
     v.field("anchor_m", &WeldJoint::anchorMetres, positionBounds);
     v.field("spring_hz", &WeldJoint::springHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &WeldJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
+    v.field("rest_rad", &WeldJoint::restRadians, angleBounds, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<SliderJoint>) {

@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack; restitution of a fixture
+constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack, rest; a fixture's restitution
 
 /// Chosen values of a scene's variables, {"height", "2"}; others have their defaults.
 using SceneSettings = std::vector<std::pair<std::string, std::string>>;

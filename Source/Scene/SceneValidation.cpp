@@ -90,8 +90,7 @@ std::string checkTotals(const Scene& scene) {
 
 std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
     for (std::size_t i = 0; i + (isLoop ? 0 : 1) < v.size(); ++i) {
-        const Vector& next = v[(i + 1) % v.size()];
-        if (portable::hypot(next.x - v[i].x, next.y - v[i].y) < minSizeMetres)
+        if (detail::distance(v[i], v[(i + 1) % v.size()]) < minSizeMetres)
             return "expected edges at least 0.01 m long";
     }
     return {};

@@ -216,6 +216,7 @@ TEST(Arguments, OfFilesOutOfRangeAreNamedAndNothingIsWritten) {
     expectRefused(physvib_events_save(nullptr, &hit, 1), list);
     expectRefused(physvib_events_save(out, nullptr, 1), list);
     expectRefused(physvib_events_save(out, &hit, 0), list);
+    expectRefused(physvib_events_save(out, &hit, 10'000'001), "events: expected at most 10000000");
     expectRefused(physvib_events_save_field(out, &hit, 1, 0.0, 1.0),
                   "field: expected 0.001 to 1e6 m, or 0 and 0");
     const std::array late{tone(2, 0.1, 0.1), tone(1, 0.1, 0.1)};
@@ -228,6 +229,9 @@ TEST(Arguments, OfFilesOutOfRangeAreNamedAndNothingIsWritten) {
          {Change{noEvent, [](physvib_event& e) { e.amplitude = nan; }},
           {noEvent, [](physvib_event& e) { e.time_ns = -1; }},
           {"kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE", [](physvib_event& e) { e.kind = 3; }},
+          {"impulse, mass: expected numbers", [](physvib_event& e) { e.impulse_n_s = nan; }},
+          {"impulse, mass: expected numbers", [](physvib_event& e) { e.mass_kg = HUGE_VAL; }},
+          {"impulse, mass: expected numbers, a mass from 0", [](physvib_event& e) { e.mass_kg = -1.0; }},
           {"part: expected 0, or a number of physvib_part()", [](physvib_event& e) { e.part = -1; }}}) {
         physvib_event changed = hit;
         change(changed);

@@ -25,10 +25,16 @@ physvib_live opened(const physvib_live_settings* settings = nullptr) {
     return live;
 }
 
-int isSilent(physvib_live live) {
+physvib_live_status statusOf(physvib_live live) {
     auto status = test::begun(physvib_live_status_init);
     EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    return status.is_silent;
+    return status;
+}
+int isSilent(physvib_live live) { return statusOf(live).is_silent; }
+
+void awaitEvents(physvib_live live, physvib_int64 count) {
+    for (auto now = statusOf(live); now.played + now.rejected + now.dropped < count; now = statusOf(live))
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }
 
 TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
@@ -90,6 +96,65 @@ TEST(LiveCalls, SettingsOutOfRangeAreNamedAndNothingIsOpened) {
         EXPECT_STREQ(physvib_live_error(), "live: expected a device and a place for it, found NULL");
     }
     EXPECT_EQ(live, unchanged);
+}
+
+// It would be known at the end alone, when nothing can be saved another way.
+TEST(LiveCalls, WhatAFileCannotHoldIsRefusedWhereOneIsWritten) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("held-" + std::to_string(getpid()));
+    fs::create_directory(folder);
+    const std::string path = folder / "a.json";
+    auto settings = test::begun(physvib_live_settings_init);
+    std::copy(path.begin(), path.end(), settings.save);
+    using Renderer = physvib_renderer_settings;
+    struct Row {
+        const char* expected;
+        void (*change)(Renderer&);
+    };
+    const std::array rows{
+        Row{"panning.exponent: expected 0.001 to 100, found 101", [](Renderer& r) { r.exponent = 101.0; }},
+        Row{"panning.field_m[1]: expected 0.001 to 1e+06, found 1000001",
+            [](Renderer& r) { r.field_height_m = 1'000'001.0; }},
+        Row{"panning.layout.extent_m[0]: expected 0.001 to 1e+06, found 1e-04",
+            [](Renderer& r) { r.layout.extent_width_m = 1e-4; }},
+        Row{"panning.layout.enchanters[3].x_m: expected a number from 0 to ",
+            [](Renderer& r) { r.layout.x_m[3] = 9.0; }}};
+    physvib_live live = nullptr;
+    const auto plain = test::begun(physvib_renderer_settings_init);
+    const auto open = [&](const Renderer& renderer, bool isSaved) {
+        return physvib_live_open("None:no device", &renderer, isSaved ? &settings : nullptr, &live);
+    };
+    const auto expectRefused = [](int code, const char* expected) {
+        EXPECT_EQ(code, PHYSVIB_ERROR_ARGUMENT) << expected;
+        EXPECT_EQ(std::string{physvib_live_error()}.rfind(expected, 0), 0U) << physvib_live_error();
+    };
+    for (const auto& [expected, change] : rows) {
+        Renderer changed = plain;
+        change(changed);
+        ASSERT_EQ(open(changed, false), PHYSVIB_OK) << physvib_live_error();
+        EXPECT_EQ(physvib_live_set_layout(live, &changed), PHYSVIB_OK) << physvib_live_error();
+        EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
+        expectRefused(open(changed, true), expected);
+    }
+    EXPECT_TRUE(fs::is_empty(folder));
+    ASSERT_EQ(open(plain, true), PHYSVIB_OK) << physvib_live_error();
+    for (const auto& [expected, change] : rows) {
+        Renderer changed = plain;
+        change(changed);
+        expectRefused(physvib_live_set_layout(live, &changed), expected);
+    }
+    expectRefused(physvib_live_set_gain(live, 0, 1001.0), "value: expected -1000 to 1000, found 1001");
+    EXPECT_EQ(physvib_live_set_gain(live, 0, 1000.0), PHYSVIB_OK);
+    auto endless = test::hitAt(0, 0.01);
+    endless.decay_per_s = 0.0;
+    endless.duration_ns = 100'000'000'000'000'000;
+    EXPECT_EQ(physvib_live_strike(live, &endless, 1), PHYSVIB_OK) << physvib_live_error();
+    awaitEvents(live, 1); // so that the file has it
+    EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK) << physvib_live_error();
+    physvib_session session = nullptr;
+    EXPECT_EQ(physvib_session_load(path.c_str(), &session), PHYSVIB_OK) << physvib_live_error();
+    EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
+    fs::remove_all(folder);
 }
 
 TEST(LiveCalls, AnythingButZeroSilencesAlsoByAWrongName) {
@@ -163,11 +228,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
         sent += count;
     }
     EXPECT_EQ(sent, bodies);
-    const auto played = [](physvib_live live) {
-        auto status = test::begun(physvib_live_status_init);
-        physvib_live_get_status(live, &status);
-        return status.played;
-    };
+    const auto played = [](physvib_live live) { return statusOf(live).played; };
     for (int i = 0; i < 500 && played(lives[0]) + played(lives[1]) < bodies; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
     EXPECT_EQ(played(lives[0]), 3) << "with those of devices that are not there";
@@ -200,9 +261,7 @@ TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
               }),
               3)
         << "nothing is silenced there, and nobody told so";
-    auto status = test::begun(physvib_live_status_init);
-    EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    EXPECT_EQ(status.is_running, 1);
+    EXPECT_EQ(statusOf(live).is_running, 1);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
 }
 
@@ -271,12 +330,8 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
         ASSERT_EQ(physvib_live_strike(live, given.data(), 3), PHYSVIB_OK) << physvib_live_error();
         played += 3;
     }
-    auto status = test::begun(physvib_live_status_init);
-    do {
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
-    } while (status.played + status.rejected + status.dropped < played);
-    EXPECT_EQ(status.rejected, 0);
+    awaitEvents(live, played);
+    EXPECT_EQ(statusOf(live).rejected, 0);
     test::SizedEvents refused{sizeof(physvib_event) + 8, list};
     physvib_session none = nullptr;
     EXPECT_EQ(physvib_live_strike(live, refused.data(), 3), PHYSVIB_ERROR_ARGUMENT);

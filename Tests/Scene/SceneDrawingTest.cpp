@@ -68,6 +68,17 @@ struct Drawn {
         const BodyDescription& body = *drawing.find(name);
         return {name, {body.positionMetres, body.angleRadians}};
     }
+    /// Of the last body of that name, as one that is changed has a number of its own.
+    std::optional<BodyPose> pose(const std::string& name) const {
+        std::optional<BodyPose> last;
+        const auto cast = allBodies(world.scene());
+        for (std::size_t i = 0; i < cast.size(); ++i)
+            if (cast[i].name == name) last = world.pose(i);
+        return last;
+    }
+    CurrentPose poses() const {
+        return [this](const std::string& name) { return pose(name); };
+    }
     void undo() {
         ASSERT_EQ(run(done.back(), false), "");
         undone.push_back(done.back());
@@ -265,20 +276,14 @@ TEST(SceneDrawing, AHingeKeepsItsLimitsWhileABodyIsChanged) {
     ASSERT_EQ(drawn.add(makeBox({1.2, 1.9}, {2.0, 2.0}).value, "arm"), "");
     const RevoluteJoint hinge{{1.2, 1.95}, Interval{-0.1, 0.1}};
     ASSERT_EQ(drawn.edit({JoinAction{{"hinge", "floor", "arm", hinge}}}), "");
-    const auto turn = [&] {
-        return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1).angleRadians;
-    };
+    const auto turn = [&] { return drawn.pose("arm")->angleRadians; };
     drawn.steps(100);
     EXPECT_NEAR(turn(), -0.1, 0.02) << "hangs at its limit";
     ASSERT_EQ(drawn.edit({changeAction(scaledBody(*drawn.drawing.find("arm"), 0.9, 1.0))}), "");
     drawn.steps(100);
     EXPECT_NEAR(turn(), -0.1, 0.02);
     for (const double radiansPerSecond : {1.0, 2.0}) { // as a slider is dragged
-        const auto motor =
-            motorActions(drawn.drawing, "hinge", {radiansPerSecond, 0.0}, [&](const auto& body) {
-                return std::optional{
-                    drawn.world.pose(body == "arm" ? allBodies(drawn.world.scene()).size() - 1 : 0)};
-            });
+        const auto motor = motorActions(drawn.drawing, "hinge", {radiansPerSecond, 0.0}, drawn.poses());
         ASSERT_EQ(drawn.edit(motor.value), "");
         drawn.steps(100);
         EXPECT_NEAR(turn(), -0.1, 0.02);
@@ -297,21 +302,14 @@ TEST(SceneDrawing, ASuspendedCarStandsAsHighWhereverTheSliderOfItsMotorStops) {
             const WheelJoint axle{{x, 0.5}, {0.0, 1.0}, 3.0, 0.7, travel};
             ASSERT_EQ(drawn.edit({JoinAction{{std::string{wheel} + " axle", "car", wheel, axle}}}), "");
         }
-        const CurrentPose now = [&](const std::string& body) {
-            std::optional<BodyPose> last; // of that name: it was changed to it
-            const auto cast = allBodies(drawn.world.scene());
-            for (std::size_t i = 0; i < cast.size(); ++i)
-                if (cast[i].name == body) last = drawn.world.pose(i);
-            return last;
-        };
         drawn.steps(500);
-        const double height = now("car")->yMetres;
+        const double height = drawn.pose("car")->yMetres;
         EXPECT_LT(height, 0.95) << "pressed down by its weight";
         for (const double torque : {1.0, 2.0, 3.0}) {
-            const auto motor = motorActions(drawn.drawing, "rear axle", {0.0, torque}, now);
+            const auto motor = motorActions(drawn.drawing, "rear axle", {0.0, torque}, drawn.poses());
             ASSERT_EQ(drawn.edit(motor.value), "");
             drawn.steps(500);
-            EXPECT_NEAR(now("car")->yMetres, height, 0.005) << torque;
+            EXPECT_NEAR(drawn.pose("car")->yMetres, height, 0.005) << torque;
         }
     }
 }
@@ -329,13 +327,6 @@ TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
                                     WeldJoint{left, 2.0, 0.1},
                                     SliderJoint{middle, {0.3, 1.0}, Interval{-0.1, 0.1}, 0.4, 5000.0},
                                     SliderJoint{middle, {0.0, 1.0}}}; // falls on the floor
-    const auto arm = [](const Drawn& drawn) {
-        const auto cast = allBodies(drawn.world.scene());
-        std::size_t last = 0; // of that name: it was changed to it
-        for (std::size_t i = 0; i < cast.size(); ++i)
-            if (cast[i].name == "arm") last = i;
-        return drawn.world.pose(last);
-    };
     for (std::size_t k = 0; k < joints.size(); ++k)
         for (const char* changed : {"arm", "floor"}) {
             SCOPED_TRACE("joint " + std::to_string(k) + ", changed: " + changed);
@@ -350,7 +341,7 @@ TEST(SceneDrawing, AJointGoesOnAsItWasWhileABodyIsChanged) {
             ASSERT_EQ(drawn.edit({changeAction(*drawn.drawing.find(changed))}), "");
             for (int i = 0; i < 8; ++i) {
                 drawn.steps(10), unchanged.steps(10);
-                const BodyPose now = arm(drawn), expected = arm(unchanged);
+                const BodyPose now = *drawn.pose("arm"), expected = *unchanged.pose("arm");
                 ASSERT_NEAR(now.xMetres, expected.xMetres, 1e-3);
                 ASSERT_NEAR(now.yMetres, expected.yMetres, 1e-3);
                 ASSERT_NEAR(now.angleRadians, expected.angleRadians, 1e-3);
@@ -470,10 +461,7 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     }
     EXPECT_LT(lowest, 1.5) << "it swings";
     EXPECT_LT(longest, 0.83);
-    const auto ball = [&] { return drawn.world.pose(allBodies(drawn.world.scene()).size() - 1); };
-    drawn.now = [&](const std::string& body) {
-        return std::optional{body == "ball" ? ball() : drawn.world.pose(0)};
-    };
+    drawn.now = drawn.poses();
     for (const bool isAlone : {false, true}) { // the rope goes with it, or alone
         ASSERT_EQ(drawn.edit(isAlone ? std::vector<Action>{UnjoinAction{"joint 1"}}
                                      : removeActions(drawn.drawing, {"ball"})),
@@ -481,7 +469,8 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
         drawn.steps(30);
         drawn.undo();
         drawn.steps(30);
-        EXPECT_LT(std::hypot(ball().xMetres - 1.8, ball().yMetres - 2.0), 0.83) << "it holds where it held";
+        const BodyPose ball = *drawn.pose("ball");
+        EXPECT_LT(std::hypot(ball.xMetres - 1.8, ball.yMetres - 2.0), 0.83) << "it holds where it held";
     }
 }
 
@@ -518,10 +507,38 @@ TEST_F(Car, IsSavedWithItsAxleAndLimitsAsTheyAreNow) {
     const auto& wheel = std::get<WheelJoint>(now.joints[0].joint);
     const Interval hinge = *std::get<RevoluteJoint>(now.joints[1].joint).limitsRadians;
     constexpr double quarter = 0.5 * std::numbers::pi;
-    const double found[] = {wheel.anchorMetres.x, wheel.axis.x, wheel.travelMetres->lower, hinge.lower,
-                            hinge.upper},
-                 expected[] = {2.15, -1.0, -0.3, -0.5 - quarter, 1.0 - quarter};
+    const double found[] = {wheel.anchorMetres.x, wheel.axis.x, wheel.travelMetres->lower,
+                            hinge.lower,          hinge.upper,  wheel.restMetres},
+                 expected[] = {2.15, -1.0, -0.3, -0.5 - quarter, 1.0 - quarter, -0.1};
     for (std::size_t k = 0; k < std::size(found); ++k) EXPECT_NEAR(found[k], expected[k], 1e-9) << k;
+}
+
+TEST(SceneDrawing, WhatIsSavedWhileItHangsRestsWhereItWouldHaveRested) {
+    const Vector ball{1.6, 2.0}, above{1.6, 2.3}, below{1.61, 1.4}, side{1.3, 2.0};
+    const std::vector<Joint> joints{WheelJoint{ball, {0.0, 1.0}, 2.0, 0.5},
+                                    WheelJoint{ball, {0.0, 1.0}, 2.0, 0.5, Interval{-0.04, 0.04}},
+                                    DistanceJoint{above, ball, 2.0, 0.5},
+                                    DistanceJoint{below, ball, 0.0, 0.0, true}, // falls, then it is taut
+                                    WeldJoint{side, 3.0, 0.5}};
+    for (std::size_t k = 0; k < joints.size(); ++k)
+        for (const int steps : {20, 600}) {
+            SCOPED_TRACE("joint " + std::to_string(k) + ", saved after " + std::to_string(steps) + " steps");
+            Drawn drawn{blank()};
+            BodyDescription body = makeBall(ball, {1.7, 2.0}).value;
+            body.linearDampingPerSecond = 1.0;
+            ASSERT_EQ(drawn.add(body, "ball"), "");
+            ASSERT_EQ(drawn.edit({JoinAction{{"joint", "floor", "ball", joints[k]}}}), "");
+            drawn.steps(steps);
+            const auto read = readScene(sceneJson(sceneNow(drawn.drawing.drawn(), drawn.poses())), "now");
+            ASSERT_TRUE(read) << read.error;
+            Simulation saved{read.value, 0, 100};
+            drawn.steps(1500);
+            for (int i = 0; i < 1500; ++i) saved.step(drawn.events);
+            const BodyPose found = saved.pose(1), expected = drawn.world.pose(1);
+            EXPECT_NEAR(found.xMetres, expected.xMetres, 5e-3);
+            EXPECT_NEAR(found.yMetres, expected.yMetres, 5e-3);
+            EXPECT_NEAR(found.angleRadians, expected.angleRadians, 5e-3);
+        }
 }
 
 TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {

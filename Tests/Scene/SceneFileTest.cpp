@@ -69,7 +69,8 @@ const std::string full = R"({
       "damping_ratio": 0.7,
       "travel_m": [-0.1, 0.2],
       "motor_rad_per_s": -8,
-      "max_torque_nm": 30
+      "max_torque_nm": 30,
+      "rest_m": -0.05
     },
     {
       "name": "hinge",
@@ -90,9 +91,19 @@ const std::string full = R"({
       "anchor_a_m": [2, 1],
       "anchor_b_m": [1.6, 0.8],
       "spring_hz": 3,
-      "damping_ratio": 0.5
+      "damping_ratio": 0.5,
+      "rest_m": 0.25
     },
-    { "name": "glue", "body_a": "car", "body_b": "lift", "type": "weld", "anchor_m": [3, 1], "spring_hz": 2, "damping_ratio": 0.1 }
+    {
+      "name": "glue",
+      "body_a": "car",
+      "body_b": "lift",
+      "type": "weld",
+      "anchor_m": [3, 1],
+      "spring_hz": 2,
+      "damping_ratio": 0.1,
+      "rest_rad": 0.2
+    }
   ],
   "script": [
     { "time_s": 0, "input": "gravity", "gravity_m_per_s2": [1, -9] },
@@ -175,6 +186,9 @@ TEST(SceneFile, ReadsEveryField) {
     EXPECT_EQ(std::get<PolygonShape>(scene.bodies[1].fixtures[1].shape).verticesMetres[2],
               (Vector{0.2, 0.3}));
     EXPECT_EQ(std::get<WheelJoint>(scene.joints[0].joint).travelMetres, (Interval{-0.1, 0.2}));
+    EXPECT_EQ(std::get<WheelJoint>(scene.joints[0].joint).restMetres, -0.05);
+    EXPECT_EQ(std::get<DistanceJoint>(scene.joints[2].joint).restMetres, 0.25);
+    EXPECT_EQ(std::get<WeldJoint>(scene.joints[3].joint).restRadians, 0.2);
     EXPECT_EQ(scene.script[2].times, 3);
     EXPECT_EQ(std::get<SpawnAction>(scene.script[4].action).body.name, "stone");
     EXPECT_EQ(std::get<MotorAction>(scene.script[6].action).maxTorqueNewtonMetres, 40.0);

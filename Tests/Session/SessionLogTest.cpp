@@ -256,6 +256,29 @@ TEST(SessionLog, InputsAndStallsInAJournalCountForTheirTakeAlone) {
     EXPECT_EQ(lines.limitError(), std::to_string(sceneLimits::maxLiveInputs) + " inputs");
 }
 
+// A file of more could not be read again, and replaces the journal at the end.
+TEST(SessionLog, AJournalEndsWhereItsTakesHaveMoreBodiesThanAFileMay) {
+    constexpr int bodies = 4000, takes = 250;
+    auto setup = emptyBoxSetup(0.05);
+    const BodyDescription ball{"ball", BodyType::dynamicBody, {{CircleShape{0.15}, {}}}, {2.0, 1.0}};
+    setup.scene.scriptPeriodSeconds = 0.0;
+    setup.scene.script = {{0.0, bodies, 1.0, SpawnAction{ball, {}}}};
+    const auto scene = std::make_shared<const Scene>(setup.scene);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    std::string text = lines.head();
+    SessionLog log;
+    for (int take = 0; take <= takes; ++take) {
+        log.runs.push_back({take, 0, 1, scene, {}, {}});
+        text += lines.nextLines(log, 1'000'000'000 + take);
+        EXPECT_EQ(lines.limitError(), take < takes ? "" : "1000000 bodies") << take;
+    }
+    const auto kept = readSession(text, "monday.json");
+    ASSERT_EQ(kept.error, "");
+    EXPECT_EQ(kept.value.log.runs.size(), std::size_t{takes});
+    EXPECT_EQ(kept.value.lengthNs, lines.completeNs());
+    EXPECT_EQ(readSession(sessionJson(kept.value), "monday.json").error, "");
+}
+
 // Whoever reads the log meanwhile gets the pause again, as long as it has become.
 TEST(SessionLog, APauseThatGrowsWhileItIsReadIsOnePause) {
     const auto setup = emptyBoxSetup(0.02);

@@ -153,6 +153,9 @@ inline physvib_event toPhysvibEvent(const CollisionEvent& e) noexcept {
     return to;
 }
 
+/// Counts are without sign in C++.
+inline physvib_int64 toInt64(std::uint64_t count) noexcept { return static_cast<physvib_int64>(count); }
+
 inline std::optional<double> toOptional(double value) noexcept {
     return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value};
 }
@@ -160,6 +163,9 @@ inline std::optional<double> toOptional(double value) noexcept {
 /// Converts and checks settings; returns empty, or what is wrong and what was expected.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
 std::string_view convert(const physvib_layout& from, ActuatorLayout& to) noexcept;
+
+/// Reads the caller's settings of a renderer. Sets the error and returns false if they are invalid.
+bool readRenderer(const physvib_renderer_settings* from, RendererSettings& to) noexcept;
 
 /// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
 int writeLayout(const ActuatorLayout& from, physvib_layout& to) noexcept;

@@ -2,6 +2,7 @@
 // Checks the structures of physvib.h, and converts them to and from the types of the engine (see Calls.h).
 #include "Api/C/Calls.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib::api {
 
@@ -16,6 +17,8 @@ std::string_view eventError(const physvib_event& event) noexcept {
                "decay of at least 1 per second, numbers, a time from 0 on";
     if (event.kind < PHYSVIB_HIT || event.kind > PHYSVIB_SLIDE)
         return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
+    if (!std::isfinite(event.impulse_n_s) || !std::isfinite(event.mass_kg) || event.mass_kg < 0.0)
+        return "impulse, mass: expected numbers, a mass from 0 on";
     return event.part < 0 ? "part: expected 0, or a number of physvib_part()" : std::string_view{};
 }
 
@@ -77,6 +80,13 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     // Linear was the default law before 0.2, and panned grains by energy.
     if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread);
     return {};
+}
+
+bool readRenderer(const physvib_renderer_settings* from, RendererSettings& to) noexcept {
+    physvib_renderer_settings copy;
+    if (!readStruct(from, copy, physvib_renderer_settings_init)) return false;
+    const std::string_view error = convert(copy, to);
+    return error.empty() || (argumentError(error), false);
 }
 
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {

@@ -89,14 +89,9 @@ int physvib_world_explain_output(physvib_world world, const physvib_output_facts
     physvib_output_facts callerFacts;
     if (!readStruct(facts, callerFacts, physvib_output_facts_init)) return PHYSVIB_ERROR_ARGUMENT;
     if (!(callerFacts.level >= 0.0)) return argumentError("level: expected a gain of 0 or more");
-    physvib_renderer_settings settings;
     RendererSettings renderer;
-    if (callerFacts.renderer != nullptr) {
-        if (!readStruct(callerFacts.renderer, settings, physvib_renderer_settings_init))
-            return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto error = convert(settings, renderer); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
-    }
+    if (callerFacts.renderer != nullptr && !readRenderer(callerFacts.renderer, renderer))
+        return PHYSVIB_ERROR_ARGUMENT;
     const auto nonNegative = [](physvib_int64 value) {
         return static_cast<std::uint64_t>(std::max<physvib_int64>(value, 0));
     };

@@ -127,8 +127,7 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
         return argumentError("layout: expected a name and a place for it, found NULL");
     return catchExceptions([&] {
         if (!layoutPreset(name, preset))
-            return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "layout: expected " + rangeList(layoutPresetNames, " to ", " or "));
+            return argumentError("layout: expected " + rangeList(layoutPresetNames, " to ", " or "));
         return writeLayout(preset, *layout);
     });
 }
@@ -153,7 +152,7 @@ int physvib_layout_parse(const char* text, physvib_layout* layout) {
         if (text == nullptr || layout == nullptr)
             return argumentError("layout: expected a text and a place for it, found NULL");
         const auto read = readLayout(text, "layout");
-        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        if (!read) return argumentError(read.error);
         return writeLayout(read.value.geometry, *layout);
     });
 }
@@ -163,12 +162,10 @@ int physvib_layout_save(const char* path, const char* name, const physvib_layout
         if (path == nullptr || name == nullptr || layout == nullptr)
             return argumentError("layout: expected a path, a name and a layout, found NULL");
         ActuatorLayout geometry;
-        if (const auto error = convert(*layout, geometry); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+        if (const auto error = convert(*layout, geometry); !error.empty()) return argumentError(error);
         const std::string text = layoutJson(describeLayout(name, geometry));
         // refuses to write a file that could not be loaded
-        if (const auto reread = readLayout(text, "layout"); !reread)
-            return fail(PHYSVIB_ERROR_ARGUMENT, reread.error);
+        if (const auto reread = readLayout(text, "layout"); !reread) return argumentError(reread.error);
         return codeFromFileError(writeFile(path, text));
     });
 }
@@ -188,7 +185,7 @@ physvib_int64 physvib_events_parse(const char* text, physvib_event* events, phys
         if (text == nullptr || capacity < 0 || (capacity > 0 && events == nullptr))
             return argumentError("events: expected a text and a place for them");
         const auto read = readEventsCsv(text, "events");
-        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        if (!read) return argumentError(read.error);
         return writeAndCount(events, capacity, read.value.events);
     });
 }
@@ -212,12 +209,14 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
     return catchExceptions([&] {
         if (path == nullptr || events == nullptr || count < 1)
             return argumentError("events: expected a path and at least one event");
+        if (count > std::int64_t{limits::maxEventRows})
+            return argumentError("events: expected at most " + std::to_string(limits::maxEventRows));
         const FieldSize field{width, height};
         if (!(field == FieldSize{}) && !isValidField(field))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
+            return argumentError("field: expected 0.001 to 1e6 m, or 0 and 0");
         std::vector<CollisionEvent> converted;
         if (const auto error = readSorted(events, count, converted); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+            return argumentError(error);
         return codeFromFileError(writeFile(path, eventsCsv(converted, field, {PHYSVIB_VERSION, {}})));
     });
 }
@@ -228,16 +227,14 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
             return argumentError("sound: expected a path and samples, found NULL");
         if (channels < 1 || channels > limits::maxActuators || !isSampleRate(rateHz) || frames < 1 ||
             !fitsWav(channels, frames))
-            return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and a frame or "
-                        "more, of less than 4 GB");
+            return argumentError("sound: expected 1 to 64 channels, 5000 to 192000 Hz, and a frame or "
+                                 "more, of less than 4 GB");
         const std::span all{samples, static_cast<std::size_t>(channels * frames)};
         if (const auto nonFinite = std::ranges::find_if_not(all, [](float x) { return std::isfinite(x); });
             nonFinite != all.end())
-            return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "sound: expected finite samples, found NaN or infinity in frame " +
-                            std::to_string((nonFinite - all.begin()) % frames) + " of channel " +
-                            std::to_string((nonFinite - all.begin()) / frames));
+            return argumentError("sound: expected finite samples, found NaN or infinity in frame " +
+                                 std::to_string((nonFinite - all.begin()) % frames) + " of channel " +
+                                 std::to_string((nonFinite - all.begin()) / frames));
         WavSink file{path, channels, rateHz};
         std::vector<const float*> block(static_cast<std::size_t>(channels));
         for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {
@@ -253,20 +250,16 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
 int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
                    physvib_int64 count, physvib_int64 frames, float* samples) {
     return catchExceptions([&] {
-        physvib_renderer_settings raw;
         RendererSettings checked;
-        if (!readStruct(settings, raw, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto error = convert(raw, checked); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+        if (!readRenderer(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
         if (count < 0 || (count > 0 && events == nullptr) || frames < 0 || (frames > 0 && samples == nullptr))
             return argumentError("render: expected events and a place for samples");
         std::vector<CollisionEvent> converted;
         if (const auto error = readSorted(events, count, converted); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+            return argumentError(error);
         EventListSource source{converted};
         const auto renderer = std::make_unique<HapticRenderer>();
-        if (!renderer->prepare(checked))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+        if (!renderer->prepare(checked)) return argumentError("settings: expected some that can be rendered");
         constexpr int blockFrames = 256;
         const int channels = checked.outputs();
         std::vector<float> buffer(static_cast<std::size_t>(channels * blockFrames));

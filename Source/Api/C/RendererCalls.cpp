@@ -17,13 +17,13 @@ bool isValidTimeNs(physvib_int64 ns) noexcept { return ns >= 0 && ns <= limits::
 int queueControl(physvib_renderer handle, const RenderControl& control) noexcept {
     const auto renderer = borrow(handle);
     if (!renderer) return unknownHandleError();
-    if (!isValidTimeNs(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, timeError);
+    if (!isValidTimeNs(control.timeNs)) return argumentError(timeError);
     if (control.channel < 0 || control.channel >= renderer->channels)
-        return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
+        return argumentError("channel: expected one of the renderer");
     if (!(control.value >= 0.0F && control.value <= 10000.0F))
-        return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
+        return argumentError("gain: expected 0 to 10000");
     if (control.panner != nullptr && control.panner->channels() > renderer->channels)
-        return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
+        return argumentError("layout: expected at most as many enchanters as channels");
     const std::lock_guard lock{renderer->producerMutex};
     if (!renderer->source.controls.push(control))
         return fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
@@ -32,12 +32,7 @@ int queueControl(physvib_renderer handle, const RenderControl& control) noexcept
 }
 
 RenderControl makeControl(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
-    RenderControl control;
-    control.timeNs = timeNs;
-    control.kind = kind;
-    control.channel = channel;
-    control.value = static_cast<float>(value);
-    return control;
+    return {timeNs, kind, channel, static_cast<float>(value), {}};
 }
 
 /// Marks a renderer as rendering, so that a second thread is refused. Converts to false if another thread
@@ -78,14 +73,11 @@ int physvib_renderer_create(const physvib_renderer_settings* settings, physvib_r
     return catchExceptions([&] {
         if (renderer == nullptr) return argumentError("renderer: expected a place for it, found NULL");
         *renderer = nullptr;
-        physvib_renderer_settings raw;
         RendererSettings checked;
-        if (!readStruct(settings, raw, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto error = convert(raw, checked); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
+        if (!readRenderer(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
         auto created = std::make_unique<Renderer>();
         if (!created->renderer.prepare(checked))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+            return argumentError("settings: expected some that can be rendered");
         created->rateHz = checked.sampleRateHz;
         created->channels = checked.outputs();
         created->changes.panner = checked.panner;
@@ -105,8 +97,7 @@ int physvib_renderer_strike(physvib_renderer handle, const physvib_event* event)
     if (!renderer) return unknownHandleError();
     if (event == nullptr) return argumentError("event: expected one, found NULL");
     CollisionEvent converted;
-    if (const auto error = readEvent(*event, converted); !error.empty())
-        return fail(PHYSVIB_ERROR_ARGUMENT, error);
+    if (const auto error = readEvent(*event, converted); !error.empty()) return argumentError(error);
     const std::lock_guard lock{renderer->producerMutex};
     return renderer->source.events.push(converted)
                ? PHYSVIB_OK
@@ -164,17 +155,15 @@ int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 timeNs, 
 
 int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
                                 const physvib_renderer_settings* settings) {
-    physvib_renderer_settings raw;
     RendererSettings checked;
-    if (!readStruct(settings, raw, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-    if (const auto error = convert(raw, checked); !error.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, error);
+    if (!readRenderer(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
     RenderControl control = makeControl(RenderControl::Kind::panner, timeNs, 0, 0.0);
     control.panner = &checked.panner;
     return queueControl(renderer, control);
 }
 
 int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 timeNs, physvib_int64 untilNs) {
-    if (!isValidTimeNs(untilNs)) return fail(PHYSVIB_ERROR_ARGUMENT, timeError);
+    if (!isValidTimeNs(untilNs)) return argumentError(timeError);
     RenderControl control = makeControl(RenderControl::Kind::silence, timeNs, 0, 0.0);
     control.untilNs = untilNs;
     return queueControl(renderer, control);
@@ -197,10 +186,10 @@ int physvib_renderer_get_status(physvib_renderer handle, physvib_renderer_status
     result.live_modes = current.liveModes;
     result.pending = current.pending;
     result.frames = current.framesRendered;
-    result.played = static_cast<physvib_int64>(current.played);
-    result.late = static_cast<physvib_int64>(current.late);
-    result.rejected = static_cast<physvib_int64>(current.rejected);
-    result.refused = static_cast<physvib_int64>(renderer->source.events.overflows());
+    result.played = toInt64(current.played);
+    result.late = toInt64(current.late);
+    result.rejected = toInt64(current.rejected);
+    result.refused = toInt64(renderer->source.events.overflows());
     std::memcpy(status, &result, result.size);
     return PHYSVIB_OK;
 }
@@ -210,8 +199,8 @@ physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecon
                          stepsPerSecond >= 1 && stepsPerSecond <= 1'000'000 && longestGapSeconds >= 0.0 &&
                          longestGapSeconds <= 60.0;
     if (!isValid)
-        return fail(PHYSVIB_ERROR_ARGUMENT, "play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 "
-                                            "to 10^6 steps/s, a gap of 0 to 60 s");
+        return argumentError("play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 "
+                             "to 10^6 steps/s, a gap of 0 to 60 s");
     ClockLaw law;
     law.sampleRateHz = rateHz;
     law.blockFrames = blockFrames;
@@ -221,9 +210,6 @@ physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecon
     constexpr std::int64_t nsPerSecond = 1'000'000'000;
     return (law.outputLatencyFrames() * nsPerSecond + rateHz - 1) / rateHz;
 }
-
-using namespace physvib;
-using namespace physvib::api;
 
 namespace {
 
@@ -296,7 +282,7 @@ int physvib_pads_pull(physvib_pads handle, physvib_int64 untilNs, physvib_motors
         const int count = static_cast<int>(pads.pads.size());
         if (motors == nullptr || capacity < count)
             return argumentError("motors: expected a place for those of each pad");
-        if (untilNs < 0 || untilNs > limits::maxTimeNs) return argumentError("time: expected 0 to 10^17 ns");
+        if (!isValidTimeNs(untilNs)) return argumentError(timeError);
         if (untilNs < pads.pads.front().lastPullNs())
             return fail(PHYSVIB_ERROR_ORDER,
                         "time: expected none before the last pull's (physvib_pads_stop begins again)");

@@ -39,7 +39,9 @@ bool readWorldSettings(const physvib_world_settings* from, ImpactSettings& to) {
     to.fieldRadians = static_cast<float>(copy.field_radians);
     to.fullScaleNewtonSeconds = copy.full_scale_impulse_n_s;
     to.settlingSeconds = copy.settling_s;
-    return true;
+    // checked here, because without exceptions configure() could not release the lock
+    const std::string_view error = errorOf(to);
+    return error.empty() || (argumentError(error), false);
 }
 
 HapticFixture toFixture(const physvib_body& body) {
@@ -98,9 +100,8 @@ int reportContact(physvib_world handle, const physvib_contact* contact,
         const std::string_view error = (world.feed.*report)(toContact(copy));
         const int unknownBody = world.feed.counts().unknownBody;
         if (error.starts_with("body:") && (unknownBody == copy.a || unknownBody == copy.b))
-            return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "body " + std::to_string(unknownBody) +
-                            ": expected one that was set before its contacts (set_body)");
+            return argumentError("body " + std::to_string(unknownBody) +
+                                 ": expected one that was set before its contacts (set_body)");
         return codeFromFeedError(error);
     });
 }
@@ -120,8 +121,6 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
         *world = nullptr;
         ImpactSettings checked;
         if (!readWorldSettings(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const std::string_view error = errorOf(checked); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
         const std::uintptr_t handle = worlds().add(std::make_unique<World>(checked));
         if (handle == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
         *world = reinterpret_cast<physvib_world>(handle);
@@ -137,9 +136,6 @@ int physvib_world_configure(physvib_world handle, const physvib_world_settings* 
     return withObject(handle, [&](World& world) {
         ImpactSettings checked;
         if (!readWorldSettings(settings, checked)) return PHYSVIB_ERROR_ARGUMENT;
-        // checked here, because without exceptions configure() could not release the lock
-        if (const std::string_view error = errorOf(checked); !error.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, error);
         world.feed.configure(checked);
         return PHYSVIB_OK;
     });
@@ -150,8 +146,8 @@ int physvib_world_set_body(physvib_world handle, int body, const physvib_body* v
         physvib_body copy;
         if (!readStruct(values, copy, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
         if (copy.voice < PHYSVIB_VOICE_OWN || copy.voice > PHYSVIB_VOICE_BOTH)
-            return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
-        if (copy.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
+            return argumentError("voice: expected one of PHYSVIB_VOICE_...");
+        if (copy.device < 0) return argumentError("device: expected 0 or more");
         const std::string_view error =
             world.feed.set(body, {copy.mass_kg, copy.inertia_kg_m2, copy.gravity_scale}, toFixture(copy));
         if (error.empty() && copy.device != 0)
@@ -221,7 +217,7 @@ int physvib_world_pair(physvib_world handle, int surface, int other, double freq
 int physvib_world_begin_step(physvib_world handle, double seconds, double gravity) {
     return withObject(handle, [&](World& world) {
         if (!(seconds >= 0.0 && seconds <= maxStepSeconds))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
+            return argumentError("step: expected 0 to 3600 s");
         return codeFromFeedError(
             world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
     });
@@ -268,7 +264,7 @@ physvib_int64 physvib_world_send(physvib_world handle, physvib_renderer to, phys
         const auto renderer = borrow(to);
         if (!renderer) return unknownHandleError();
         if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
-            return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
+            return argumentError("delay: expected 0 to 5 10^16 ns");
         moveReadyEvents(world, atOnce != 0);
         physvib_int64 sent = 0;
         const std::lock_guard lock{renderer->producerMutex};
@@ -282,15 +278,11 @@ physvib_int64 physvib_world_send(physvib_world handle, physvib_renderer to, phys
 }
 
 physvib_int64 physvib_world_thinned(physvib_world handle) {
-    return withObject(handle, [&](World& world) -> physvib_int64 {
-        return static_cast<physvib_int64>(world.feed.thinned());
-    });
+    return withObject(handle, [](World& world) { return toInt64(world.feed.thinned()); });
 }
 
 physvib_int64 physvib_world_drops(physvib_world handle) {
-    return withObject(handle, [&](World& world) -> physvib_int64 {
-        return static_cast<physvib_int64>(world.feed.drops());
-    });
+    return withObject(handle, [](World& world) { return toInt64(world.feed.drops()); });
 }
 
 int physvib_world_get_counts(physvib_world handle, physvib_world_counts* counts) {
@@ -299,7 +291,6 @@ int physvib_world_get_counts(physvib_world handle, physvib_world_counts* counts)
         physvib_world_counts copy;
         if (!readStruct(counts, copy, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
         const std::size_t size = counts->size; // of the caller's version
-        const auto toInt64 = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
         copy.contacts = toInt64(total.contacts);
         copy.below_threshold = toInt64(total.belowThreshold);
         copy.no_source = toInt64(total.withoutSource);

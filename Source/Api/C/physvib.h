@@ -363,7 +363,7 @@ PHYSVIB_API physvib_int64 physvib_events_parse(const char* text, physvib_event* 
 PHYSVIB_API int physvib_events_load_field(const char* path, double* width_m, double* height_m);
 /** The same from text in memory, zero-terminated. */
 PHYSVIB_API int physvib_events_parse_field(const char* text, double* width_m, double* height_m);
-/** Writes playable events, in time order. */
+/** Writes playable events, in time order, at most 10,000,000. */
 PHYSVIB_API int physvib_events_save(const char* path, const physvib_event* events, physvib_int64 count);
 /** The same, and the field that their places span: 0.001 to 1e6 m, or 0 and 0 to say none. */
 PHYSVIB_API int physvib_events_save_field(const char* path, const physvib_event* events, physvib_int64 count,

@@ -5,6 +5,7 @@
 #include "Api/Live/physvib-live.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/SinkTable.h"
+#include "Live/Documents/SessionFile.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -17,7 +18,17 @@ using namespace physvib::api;
 
 namespace {
 
+template <std::size_t Size>
+void copyText(std::string_view text, char (&to)[Size]) {
+    const std::size_t length = std::min(text.size(), Size - 1);
+    std::copy_n(text.data(), length, to);
+    to[length] = '\0';
+}
+
 int submitControl(LiveRig& live, RenderControl control) {
+    if (live.isSaved())
+        if (const auto error = controlError(control, live.session().channels()); !error.empty())
+            return argumentError(error);
     return live.session().submit({control})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
@@ -180,7 +191,7 @@ int physvib_live_set_mute(physvib_live live, int channel, int isMuted) {
 int physvib_live_set_layout(physvib_live handle, const physvib_renderer_settings* renderer) {
     return withObject(handle, [&](LiveRig& live) {
         RendererSettings checked;
-        if (!readRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!readLiveRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
         if (checked.panner.channels() > live.session().channels())
             return argumentError("layout: expected at most as many enchanters as channels");
         return submitControl(live, {0, RenderControl::Kind::panner, 0, 0.0f, &checked.panner});
@@ -223,25 +234,21 @@ int physvib_live_get_status(physvib_live handle, physvib_live_status* status) {
         result.xruns = current.output.deviceXruns;
         result.load = static_cast<double>(current.output.load);
         result.worst_load = static_cast<double>(current.output.worstLoad);
-        result.played = static_cast<physvib_int64>(current.render.played);
-        result.late = static_cast<physvib_int64>(current.render.late);
-        result.rejected = static_cast<physvib_int64>(current.render.rejected);
-        result.dropped = static_cast<physvib_int64>(live.session().pulse().dropped());
+        result.played = toInt64(current.render.played);
+        result.late = toInt64(current.render.late);
+        result.rejected = toInt64(current.render.rejected);
+        result.dropped = toInt64(live.session().pulse().dropped());
         for (const SinkState& sink : current.sinks) { // several sinks are reported as one
             if (result.board != PHYSVIB_BOARD_SOUGHT)
                 result.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
-            result.board_sent += static_cast<physvib_int64>(sink.sent);
-            result.board_lost += static_cast<physvib_int64>(sink.lost);
+            result.board_sent += toInt64(sink.sent);
+            result.board_lost += toInt64(sink.lost);
         }
-        const std::size_t length = std::min(current.problem.size(), sizeof result.trouble - 1);
-        std::copy_n(current.problem.data(), length, result.trouble);
-        result.trouble[length] = '\0';
+        copyText(current.problem, result.trouble);
         std::memcpy(status, &result, result.size);
         return PHYSVIB_OK;
     });
 }
-
-using namespace physvib::api;
 
 int physvib_live_impact(physvib_live live, double x, double y, double strength) {
     return physvib_live_impact_of(live, nullptr, x, y, strength);
@@ -258,17 +265,7 @@ int physvib_live_impact_of(physvib_live live, const char* material, double x, do
     });
 }
 
-using namespace physvib;
-using namespace physvib::api;
-
 namespace {
-
-template <std::size_t Size>
-void copyText(std::string_view text, char (&to)[Size]) {
-    const std::size_t length = std::min(text.size(), Size - 1);
-    std::copy_n(text.data(), length, to);
-    to[length] = '\0';
-}
 
 physvib_device makeDevice(std::string_view name, std::string_view about, int kind, int channels) {
     auto device = zeroed<physvib_device>();
@@ -310,9 +307,6 @@ int physvib_live_devices(physvib_device* devices, int capacity, size_t size) {
     });
 }
 
-using namespace physvib;
-using namespace physvib::api;
-
 namespace {
 
 const char* muteHolderName(const MuteRequests& requests) noexcept {
@@ -321,23 +315,14 @@ const char* muteHolderName(const MuteRequests& requests) noexcept {
     return "physvib_live_silence";
 }
 
-physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
-    settings.law = static_cast<int>(panner.requestedLaw());
-    settings.exponent = panner.exponent();
-    settings.field_width_m = panner.fieldWidthMetres();
-    settings.field_height_m = panner.fieldHeightMetres();
-    writeLayout(panner.layout(), settings.layout);
-    return settings;
-}
-
 } // namespace
 
 int physvib_live_explain(physvib_live handle, physvib_world world, char* text, size_t size) {
     return withObject(handle, [&](LiveRig& live) {
         const LiveRigStatus current = live.status();
-        const physvib_renderer_settings settings = settingsOf(live.session().panner());
+        physvib_renderer_settings settings;
+        physvib_renderer_settings_init(&settings, sizeof settings);
+        writePanner(live.session().panner(), settings);
         physvib_output_facts facts;
         physvib_output_facts_init(&facts, sizeof facts);
         facts.is_missing = live.output().isPlaying() ? 0 : 1;
@@ -346,10 +331,10 @@ int physvib_live_explain(physvib_live handle, physvib_world world, char* text, s
         const std::string dropped = droppedEventsText(live.session().pulse().dropped());
         facts.trouble = current.problem.empty() ? dropped.c_str() : current.problem.c_str();
         facts.level = static_cast<double>(live.output().level());
-        facts.muted_channels = static_cast<physvib_int64>(live.session().rendered().mutedChannels());
-        facts.late = static_cast<physvib_int64>(current.render.late);
-        facts.rejected = static_cast<physvib_int64>(current.render.rejected);
-        facts.without_part = static_cast<physvib_int64>(current.render.withoutPart);
+        facts.muted_channels = toInt64(live.session().rendered().mutedChannels());
+        facts.late = toInt64(current.render.late);
+        facts.rejected = toInt64(current.render.rejected);
+        facts.without_part = toInt64(current.render.withoutPart);
         facts.renderer = &settings;
         const int length = physvib_world_explain_output(world, &facts, text, size);
         return length < 0 ? fail(length, physvib_error()) : length;

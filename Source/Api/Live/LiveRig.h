@@ -51,6 +51,7 @@ public:
     LiveRigStatus status() const;
     bool isOfThisProcess() const noexcept { return processId_ == currentProcessId(); }
     int stepsPerSecond() const noexcept { return rig_->settings().setup.stepsPerSecond; }
+    bool isSaved() const noexcept { return !rig_->settings().savePath.empty(); }
 
 private:
     static constexpr int updatesPerSecond = 50;
@@ -97,15 +98,20 @@ auto withObject(physvib_live handle, Call call) noexcept -> decltype(call(std::d
 inline bool isValidLevelDb(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
 inline float gainFromDb(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
 
-/// Reads renderer settings; null: the defaults. Sets the error and returns false if they are invalid.
-inline bool readRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
-    physvib_renderer_settings copy;
-    if (from == nullptr)
-        physvib_renderer_settings_init(&copy, sizeof copy);
-    else if (!readStruct(from, copy, physvib_renderer_settings_init))
-        return false;
-    const std::string_view error = convert(copy, to);
-    return error.empty() || (argumentError(error), false);
+/// Writes law, exponent, field and layout; returns PHYSVIB_OK, or sets the error.
+inline int writePanner(const PhantomPanner& panner, physvib_renderer_settings& to) {
+    to.law = static_cast<int>(panner.requestedLaw()); // parts may choose another
+    to.exponent = panner.exponent();
+    to.field_width_m = panner.fieldWidthMetres();
+    to.field_height_m = panner.fieldHeightMetres();
+    return writeLayout(panner.layout(), to.layout);
+}
+
+/// readRenderer(); null: the defaults.
+inline bool readLiveRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
+    physvib_renderer_settings defaults;
+    if (from == nullptr) physvib_renderer_settings_init(&defaults, sizeof defaults);
+    return readRenderer(from == nullptr ? &defaults : from, to);
 }
 
 } // namespace physvib::api

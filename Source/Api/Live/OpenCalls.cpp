@@ -2,6 +2,7 @@
 // physvib_live_open and physvib_live_close, the list of outputs in use, and the message thread of LiveRig.
 #include "Api/Live/LiveRig.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Documents/SessionFile.h"
 #include "Live/Rig/Rig.h"
 #include <algorithm>
 #include <cstdlib>
@@ -131,7 +132,12 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
             return PHYSVIB_ERROR_ARGUMENT;
         RendererSettings checked;
         if (const auto error = settingsError(copy); !error.empty()) return argumentError(error);
-        if (!readRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!readLiveRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (*copy.save != '\0')
+            if (const auto error = controlError({0, RenderControl::Kind::panner, 0, 0.0f, &checked.panner},
+                                                checked.outputs());
+                !error.empty())
+                return argumentError(error);
         const OutputNames outputs{device};
         if (const auto error = channelCountError(outputs.sinks, checked.outputs()); !error.empty())
             return argumentError(error);

@@ -68,7 +68,7 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
             return argumentError("session: expected events and a place for it, found NULL");
         *session = nullptr;
         RendererSettings checked;
-        if (!readRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!readLiveRenderer(renderer, checked)) return PHYSVIB_ERROR_ARGUMENT;
         std::vector<CollisionEvent> converted;
         if (const auto error = readSorted(events, count, converted); !error.empty())
             return argumentError(error);
@@ -93,8 +93,7 @@ int physvib_session_save(physvib_session handle, const char* path) {
         if (path == nullptr) return argumentError("session: expected a path, found NULL");
         const std::string text = sessionJson(session, std::filesystem::path{path}.parent_path());
         // refuses to write a file that could not be loaded
-        if (const auto reread = readSession(text, path); !reread)
-            return fail(PHYSVIB_ERROR_ARGUMENT, reread.error);
+        if (const auto reread = readSession(text, path); !reread) return argumentError(reread.error);
         return codeFromError(writeFile(path, text), PHYSVIB_ERROR_FILE);
     });
 }
@@ -111,12 +110,7 @@ int physvib_session_get_renderer(physvib_session handle, physvib_renderer_settin
         result.size = renderer->size;
         result.channels = session.channels;
         result.limiter = session.limiterEnabled ? 1 : 0;
-        result.law = static_cast<int>(session.panner.requestedLaw()); // parts may choose another
-        result.exponent = session.panner.exponent();
-        result.field_width_m = session.panner.fieldWidthMetres();
-        result.field_height_m = session.panner.fieldHeightMetres();
-        if (const int code = writeLayout(session.panner.layout(), result.layout); code != PHYSVIB_OK)
-            return code;
+        if (const int code = writePanner(session.panner, result); code != PHYSVIB_OK) return code;
         std::memcpy(renderer, &result, result.size);
         return PHYSVIB_OK;
     });

@@ -35,7 +35,9 @@ typedef struct physvib_live_settings {
                              on time: 0 to 1 (0.001) */
     double level_db;      /**< of all channels: -90 to 0 (-12) */
     char save[1024];  /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
-                         events beside it; "": none ("") */
+                         events beside it; "": none (""). What a file cannot hold is refused: gains above
+                         1,000, exponents beyond 0.001 to 100, actuators outside the extent, sizes beyond
+                         0.001 to 10^6 m */
     int first_output; /**< actuator j is output first_output + j of the device, from 0 (0) */
     int sound_output; /**< this output and the next are the left and right loudspeaker or ear: each hit is
                          heard there by its place, on the frame on which it is felt; -1: none (-1) */

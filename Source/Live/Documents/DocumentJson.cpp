@@ -210,4 +210,14 @@ OrderedJson controlJson(const RenderControl& control) {
     return json;
 }
 
+std::string controlError(const RenderControl& control, int channels) {
+    try {
+        const Json json = parseStrictly(compactJson(controlJson(control)));
+        readControl(JsonField(json, {}), channels);
+        return {};
+    } catch (const JsonError& error) {
+        return error.what();
+    }
+}
+
 } // namespace physvib

@@ -124,6 +124,9 @@ OrderedJson writeCustom(const Custom<RenderingMethod>& kind, const RenderingMeth
 
 namespace detail {
 
+/// Number of bodies of a scene, including those that its script spawns.
+std::size_t bodyCount(const Scene& scene);
+
 // Readers; all throw JsonError.
 SceneRun readRunStart(const JsonField& json, const SceneRun* prior, bool isJournal);
 WorldStall readStall(const JsonField& json, const SceneRun& run); ///< an error if before the run's last

@@ -17,15 +17,6 @@ void expectTimeOrder(std::int64_t last, std::int64_t time, const JsonField& item
     if (time < last) item["time_s"].fail("expected a time that is not before that of the item above");
 }
 
-/// Number of bodies of a scene, including those that its script spawns.
-std::size_t bodyCount(const Scene& scene) {
-    std::size_t count = scene.bodies.size();
-    for (const ScriptInput& input : scene.script)
-        count +=
-            std::holds_alternative<SpawnAction>(input.action) ? static_cast<std::size_t>(input.times) : 0;
-    return count;
-}
-
 /// Calls read(item) for each item of an optional list.
 void readEach(const JsonField& json, std::string_view name, auto read) {
     if (!json.has(name)) return;
@@ -81,6 +72,14 @@ std::string relativePath(const std::filesystem::path& folder, const std::string&
 }
 
 } // namespace
+
+std::size_t bodyCount(const Scene& scene) {
+    std::size_t count = scene.bodies.size();
+    for (const ScriptInput& input : scene.script)
+        count +=
+            std::holds_alternative<SpawnAction>(input.action) ? static_cast<std::size_t>(input.times) : 0;
+    return count;
+}
 
 SceneRun readRunStart(const JsonField& json, const SceneRun* prior, bool isJournal) {
     SceneRun run;

@@ -101,6 +101,9 @@ void visitFields(auto& v, FieldsOf<EventShaping>) {
     v.field("gamma", &S::truncation, kinds::range(0.0, S::maxTruncation), Need::optional.from(3));
 }
 
+/// Empty, or why no session file of `channels` outputs holds this control: its reader's line. Any thread.
+std::string controlError(const RenderControl& control, int channels);
+
 /// Parses a session; or one line about the first error, `name: takes[0].scene.bodies[1]...`. Unknown and
 /// repeated fields are errors. Any thread.
 Result<SavedSession> readSession(std::string_view text, std::string_view name);
@@ -157,7 +160,8 @@ private:
     int channels_;
     std::filesystem::path folder_;
     std::string head_, limitError_;
-    std::size_t bytesWritten_, runInputs_ = 0; // inputs of the current scene run
+    std::size_t bytesWritten_, bodies_ = 0; // of all scene runs
+    std::size_t runInputs_ = 0;             // of the current scene run
     std::int64_t completeNs_ = 0;
     bool isRunWritten_ = false; // the first scene run of the log has been written
     WorldStall lastStall_{-1};

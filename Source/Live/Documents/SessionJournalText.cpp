@@ -126,6 +126,8 @@ std::string JournalLines::nextLines(SessionLog& log, std::int64_t sessionNs) {
     std::string text = formatLines(log, sessionNs);
     if (runInputs_ > sceneLimits::maxLiveInputs)
         limitError_ = std::to_string(sceneLimits::maxLiveInputs) + " inputs";
+    else if (bodies_ > limits::maxSessionBodies)
+        limitError_ = std::to_string(limits::maxSessionBodies) + " bodies";
     else if (bytesWritten_ + text.size() > maxJournalBytes)
         limitError_ = std::to_string(maxJournalBytes / 1'000'000) + " MB";
     else if (sessionNs > limits::maxSessionNs)
@@ -142,6 +144,7 @@ std::string JournalLines::formatLines(SessionLog& log, std::int64_t sessionNs) {
         if (!std::exchange(isRunWritten_, true)) {
             text += formatLine("take",
                                detail::runStartJson(run, previousRun_.scene ? &previousRun_ : nullptr, true));
+            bodies_ += detail::bodyCount(*run.scene);
             runInputs_ = 0;
             lastStall_ = {-1};
         }
@@ -163,11 +166,7 @@ std::string JournalLines::formatLines(SessionLog& log, std::int64_t sessionNs) {
         text += formatLine("recordings", detail::recordingsJson(change, folder_));
     for (const ClipFile& clip : log.clips) text += formatLine("clip", detail::clipJson(clip, folder_));
     for (const CollisionEvent& strike : log.strikes) text += formatLine("strike", writeTable(strike));
-    log.panners.clear();
-    log.channels.clear();
-    log.recordings.clear();
-    log.clips.clear();
-    log.strikes.clear();
+    log = {std::move(log.runs), {}, {}, {}, {}, {}};
     OrderedJson last{{"seconds", kinds::Time{}.write(sessionNs)}};
     if (!log.runs.empty()) last["world_end_s"] = kinds::Time{}.write(log.runs.back().worldEndNs);
     return text + compactJson(last) + "\n";

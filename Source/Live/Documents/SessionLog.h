@@ -58,8 +58,10 @@ struct Time {
     std::int64_t operator()(const auto& json) const {
         return std::llround(json.numberUpTo(static_cast<double>(limits::maxSessionNs) / 1e9) * 1e9);
     }
-    /// The double that is nearest to the decimal number.
-    double write(std::int64_t ns) const { return static_cast<double>(ns) / 1e9; }
+    /// The double that is nearest to the decimal number. A tone longer than any session ends with it.
+    double write(std::int64_t ns) const {
+        return static_cast<double>(std::min(ns, limits::maxSessionNs)) / 1e9;
+    }
 };
 } // namespace kinds
 

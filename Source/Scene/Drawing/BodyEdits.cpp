@@ -3,7 +3,6 @@
 // and body types; and new empty scenes.
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
-#include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <limits>
 #include <set>

@@ -2,10 +2,10 @@
 // Editor operations on bodies (size, mass, place, joints, copies), as the actions of one edit; new scenes;
 // bodies from drawn points; and the transform of points that move with a body.
 #pragma once
-#include "Core/PortableMath.h"
 #include "Io/Result.h"
 #include "Scene/Drawing/SceneDrawing.h"
 #include "Scene/Scene.h"
+#include "Scene/World/BodyMass.h"
 #include <map>
 #include <string>
 #include <vector>
@@ -83,7 +83,7 @@ struct MotorDrive {
 MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 
 /// Actions that replace a hinge or wheel by one with another drive. If its anchor has moved, or its bodies
-/// within its limits, they start where they are, at rest; a sprung wheel where its spring rests. Any thread.
+/// within its limits, they start where they are, at rest. Any thread.
 Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std::string& joint,
                                          const MotorDrive& drive, const CurrentPose& findPose);
 
@@ -96,7 +96,7 @@ double springHzOf(const JointDescription& spring); ///< zero for other joints
 Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std::string& joint,
                                           double springHz);
 
-/// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
+/// The drawn scene with its bodies at their present places; joints keep their points and rest. Any thread.
 Scene sceneNow(const Scene& drawn, const CurrentPose& findPose);
 
 /// The scene with its field, gravity, materials and names alone. Any thread.
@@ -135,11 +135,6 @@ Vector snapToGrid(const Vector& place, double gridMetres);
 } // namespace physvib
 
 namespace physvib::detail {
-
-inline Vector rotated(const Vector& v, double angleRadians) {
-    const double c = portable::cos(angleRadians), s = portable::sin(angleRadians);
-    return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
 
 /// Transform of points that move with a body from one place to another. Any thread.
 class Motion {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Editor operations on joints: creates them, changes motors and springs, and adjusts joints to moved bodies.
-#include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
-#include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <array>
 #include <map>
@@ -11,14 +9,14 @@
 namespace physvib {
 namespace {
 
+using detail::distance;
 using detail::Motion;
 using detail::placeOf;
 
 /// True if the places differ by no more than a seed's jitter.
 bool isSamePlace(const BodyPlace& a, const BodyPlace& b) {
     constexpr double tolerance = 2.0e-3;
-    return portable::hypot(a.metres.x - b.metres.x, a.metres.y - b.metres.y) < tolerance &&
-           std::abs(a.angleRadians - b.angleRadians) < tolerance;
+    return distance(a.metres, b.metres) < tolerance && std::abs(a.angleRadians - b.angleRadians) < tolerance;
 }
 
 Action atRest(BodyDescription body) {
@@ -50,7 +48,7 @@ Result<std::vector<Action>> joinActions(const SceneDrawing& drawing, JointKind k
     }
     if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
     if (maxMassTimesLength <= 0.0) return Failure{"a joint: expected a body that moves"};
-    const double length = portable::hypot(to.x - from.x, to.y - from.y);
+    const double length = distance(from, to);
     if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
         return Failure{"a rope, spring or slider: expected two places"};
     JointDescription joint{drawing.unusedName("joint"), a.first, b.first, {}};
@@ -119,12 +117,11 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
     const auto frameOf = [](const JointDescription& description) { // where it is, and how far it may go
         std::array<double, 3> frame{};
         withMotor(description, [&](const auto& kind) {
-            std::optional<Interval> limits;
-            if constexpr (requires { kind.limitsRadians; })
-                limits = kind.limitsRadians;
+            frame = {kind.anchorMetres.x, kind.anchorMetres.y};
+            if constexpr (requires { kind.restMetres; })
+                frame[2] = kind.restMetres;
             else
-                limits = kind.travelMetres;
-            frame = {kind.anchorMetres.x, kind.anchorMetres.y, limits ? limits->lower : 0.0};
+                frame[2] = kind.limitsRadians.value_or(Interval{}).lower;
         });
         return frame;
     };
@@ -139,25 +136,11 @@ Result<std::vector<Action>> motorActions(const SceneDrawing& drawing, const std:
     std::vector<Action> actions{UnjoinAction{joint}};
     constexpr double tolerance = 1e-6;
     if (!std::ranges::equal(frameOf(*drawn), frameOf(*changed),
-                            [](double a, double b) { return std::abs(a - b) <= tolerance; })) {
-        auto* const bodyB = findNamed(presentScene.bodies, changed->bodyB);
-        auto* const wheel = std::get_if<WheelJoint>(&changed->joint);
-        if (wheel && wheel->suspensionHz > 0.0 && bodyB->type == BodyType::dynamicBody) {
-            // a new spring rests where it begins: from where it was pressed to, it would sink as far again
-            const auto& start = std::get<WheelJoint>(drawn->joint);
-            const Vector rest = Motion{placeOf(*drawing.find(changed->bodyA)),
-                                       placeOf(*findNamed(presentScene.bodies, changed->bodyA))}(
-                             start.anchorMetres),
-                         pressed = std::exchange(wheel->anchorMetres, rest);
-            bodyB->positionMetres.x += rest.x - pressed.x;
-            bodyB->positionMetres.y += rest.y - pressed.y;
-            wheel->travelMetres = start.travelMetres;
-        }
+                            [](double a, double b) { return std::abs(a - b) <= tolerance; }))
         for (const BodyDescription& body : presentScene.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == changed->bodyA || body.name == changed->bodyB))
                 actions.push_back(atRest(body));
-    }
     actions.push_back(JoinAction{std::move(*changed)});
     return actions;
 }
@@ -188,6 +171,9 @@ Result<std::vector<Action>> springActions(const SceneDrawing& drawing, const std
 
 Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
     Scene scene = drawn;
+    const auto shift = [](std::optional<Interval>& limits, double by) {
+        if (limits) limits = {limits->lower + by, limits->upper + by};
+    };
     std::map<std::string, Motion> motions;
     for (BodyDescription& body : scene.bodies) {
         const auto pose = findPose ? findPose(body.name) : std::nullopt;
@@ -203,9 +189,10 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
         std::visit(
             [&](auto& kind) {
                 if constexpr (requires { kind.anchorAMetres; }) {
+                    kind.restMetres += distance(kind.anchorAMetres, kind.anchorBMetres);
                     kind.anchorAMetres = a->second(kind.anchorAMetres);
                     kind.anchorBMetres = b->second(kind.anchorBMetres);
-                    return;
+                    kind.restMetres -= distance(kind.anchorAMetres, kind.anchorBMetres);
                 } else {
                     const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
                     const double turnRadians = b->second.angleRadians() - a->second.angleRadians();
@@ -217,14 +204,11 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
                                      slidMetres =
                                          ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) /
                                          length;
-                        if (kind.travelMetres)
-                            kind.travelMetres = Interval{kind.travelMetres->lower - slidMetres,
-                                                         kind.travelMetres->upper - slidMetres};
+                        shift(kind.travelMetres, -slidMetres);
+                        if constexpr (isWheel) kind.restMetres -= slidMetres;
                     }
-                    if constexpr (requires { kind.limitsRadians; })
-                        if (kind.limitsRadians)
-                            kind.limitsRadians = Interval{kind.limitsRadians->lower - turnRadians,
-                                                          kind.limitsRadians->upper - turnRadians};
+                    if constexpr (requires { kind.restRadians; }) kind.restRadians -= turnRadians;
+                    if constexpr (requires { kind.limitsRadians; }) shift(kind.limitsRadians, -turnRadians);
                 }
             },
             joint.joint);

@@ -2,7 +2,6 @@
 // Applies edits to a scene, and computes each action's inverse before it acts; and creates bodies from drawn
 // points (make...() of BodyEdits.h: convex hulls and simplified polylines).
 #include "Scene/Drawing/SceneDrawing.h"
-#include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneLimits.h"
@@ -150,7 +149,8 @@ namespace {
 constexpr double minWidthMetres = 2.0 * sceneLimits::minSizeMetres;
 constexpr std::size_t maxLineCorners = sceneLimits::maxChainVertices / 2;
 
-double distance(const Vector& a, const Vector& b) { return portable::hypot(b.x - a.x, b.y - a.y); }
+using detail::distance;
+
 double cross(const Vector& o, const Vector& a, const Vector& b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sums mass, centre and inertia over a body's fixtures; and computes moments, extents and insets of shapes.
 #include "Scene/World/BodyMass.h"
-#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cstddef>
 #include <limits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mass, centre and inertia of bodies; moments, widths and insets of shapes.
+// Mass, centre and inertia of bodies; moments, widths and insets of shapes; distance and rotation of points.
 #pragma once
+#include "Core/PortableMath.h"
 #include "Scene/Scene.h"
 #include <vector>
 
@@ -37,5 +38,16 @@ bool isConvexCounterClockwise(const std::vector<Vector>& vertices) noexcept;
 
 /// A convex, counter-clockwise outline moved inwards by `marginMetres`; empty if nothing is left. Any thread.
 std::vector<Vector> inset(const std::vector<Vector>& outline, double marginMetres);
+
+namespace detail {
+
+inline double distance(const Vector& a, const Vector& b) { return portable::hypot(b.x - a.x, b.y - a.y); }
+
+inline Vector rotated(const Vector& v, double angleRadians) {
+    const double c = portable::cos(angleRadians), s = portable::sin(angleRadians);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+} // namespace detail
 
 } // namespace physvib

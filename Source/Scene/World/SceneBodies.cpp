@@ -166,12 +166,18 @@ struct JointBuilder {
         def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(normalised(joint.axis)));
         setSpring(def.stiffness, def.damping, joint.suspensionHz, joint.dampingRatio);
         setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
+        // Box2D's spring rests where the anchors meet, and its limits count from there
+        const auto rest = static_cast<float>(joint.restMetres);
+        def.localAnchorA += rest * def.localAxisA;
+        def.lowerTranslation -= rest;
+        def.upperTranslation -= rest;
         setMotor(def, joint);
         return create(def);
     }
     b2Joint& operator()(const DistanceJoint& joint) const {
         b2DistanceJointDef def;
         def.Initialize(&a, &b, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
+        def.minLength = def.maxLength = def.length += static_cast<float>(joint.restMetres);
         if (!joint.isSlack) setSpring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
         // a rope may be shorter, a spring also longer; a rod keeps its length
         if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F;
@@ -181,6 +187,7 @@ struct JointBuilder {
     b2Joint& operator()(const WeldJoint& joint) const {
         b2WeldJointDef def;
         def.Initialize(&a, &b, box2dVector(joint.anchorMetres));
+        def.referenceAngle += static_cast<float>(joint.restRadians);
         if (joint.springHz > 0.0)
             b2AngularStiffness(def.stiffness, def.damping, static_cast<float>(joint.springHz),
                                static_cast<float>(joint.dampingRatio), &a, &b);

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Builds a scene's Box2D world, and executes scripted and live actions in it.
 #include "Scene/World/SceneWorld.h"
-#include "Core/PortableMath.h"
 #include "Scene/World/BodyLists.h"
+#include "Scene/World/BodyMass.h"
 #include "Scene/World/SceneBodies.h"
 #include <algorithm>
 #include <utility>
 
 namespace physvib {
 
+using detail::rotated;
+
 namespace {
 
 // Time until a removed body is destroyed: longer than impacts are delayed (ReleaseImpacts::latestNs).
 constexpr double removalDelaySeconds = 0.5;
-
-Vector rotated(const Vector& v, double angleRadians) {
-    const double c = portable::cos(angleRadians), s = portable::sin(angleRadians);
-    return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
 
 // Fills Box2D's pools, so that steps do not allocate: blocks for contacts and grips, and the broad phase's
 // buffers of moved proxies and pairs, which grow when one proxy is reported as moved many times. Destroying
