@@ -191,7 +191,8 @@ void HitFit::tryOtherStarts() {
             }
 }
 
-// A sample x that the model m covers reduces the unexplained energy by 2 x m - m^2.
+// A sample x that the model m covers reduces the unexplained energy by 2 x m - m^2. Hum tells no onset: the
+// hit would begin too late in what it explains.
 bool HitFit::moveOnset() {
     const std::size_t reach = std::min(samples_.size() / 2, onset_ + toSamples(onsetReachSeconds, rateHz_));
     double gain = 0.0, maxGain = 0.0;
@@ -199,14 +200,15 @@ bool HitFit::moveOnset() {
     for (std::size_t i = reach; i-- > 0;) {
         double model = 0.0;
         for (const Partial& p : fit_.partials())
-            model += p.value((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
+            if (p.tau >= minTau)
+                model += p.value((static_cast<double>(i) - static_cast<double>(onset_)) / rateHz_);
         gain += model * (2.0 * samples_[i] - model);
         if (gain > maxGain) {
             maxGain = gain;
             best = i;
         }
     }
-    if (best == onset_) return false;
+    if (best == onset_ || !(maxGain > 0.0)) return false;
     const double shiftSeconds = (static_cast<double>(best) - static_cast<double>(onset_)) / rateHz_;
     std::vector<Partial> moved;
     for (const Partial& p : fit_.partials()) moved.push_back(p.shifted(shiftSeconds));

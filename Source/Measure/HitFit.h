@@ -56,6 +56,8 @@ private:
 class HitFit {
 public:
     static constexpr std::size_t defaultPartials = 6;
+    /// 1/s; a partial with a slower decay was there before the impact: hum.
+    static constexpr double minTau = 0.5;
     /// `initialOnset`: an index of `samples`, which moves by at most onsetReachSeconds per partial.
     HitFit(std::vector<double> samples, std::size_t initialOnset, double rateHz,
            std::size_t maxPartials = defaultPartials);

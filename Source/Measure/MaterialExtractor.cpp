@@ -16,7 +16,6 @@ namespace physvib {
 namespace {
 
 constexpr double minSeconds = 0.01; // half a period of the lowest perceptible frequency
-constexpr double minTau = 0.5;      // a partial with a slower decay was there before the impact: hum
 
 std::string inputError(const std::vector<float>& x, double rateHz, ExtractionBand band) {
     if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz))
@@ -50,7 +49,8 @@ Result<ContactSound> extractByFit(const std::vector<float>& samples, const HitEx
     std::vector<std::size_t> bandIndices;
     for (std::size_t k = 0; k < partials.size(); ++k) {
         const double hz = partials[k].omega / (2.0 * std::numbers::pi);
-        if (hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= minTau) bandIndices.push_back(k);
+        if (hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= HitFit::minTau)
+            bandIndices.push_back(k);
     }
     if (bandIndices.empty()) return Failure{noSoundError(band)};
     std::ranges::stable_sort(bandIndices, std::greater{},

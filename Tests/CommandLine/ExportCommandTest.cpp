@@ -126,6 +126,7 @@ TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
                           "controls": [{"time_s": 3, "control": "layout", "panning": )" +
             panning(0.06) + "}]}");
     runs("render run.json --out direct.wav");
+    EXPECT_TRUE(has(read("direct.wav"), " seed=3 ")) << "of the session: it is no option of this call";
     runs("export run.json --error 0.001 --to run.hjif");
     runs("render run.hjif --seconds 6 --limiter off --out again.wav");
     EXPECT_LE(farthest(channelsOf("direct.wav"), channelsOf("again.wav")), 1e-3);

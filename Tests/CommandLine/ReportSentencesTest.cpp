@@ -321,14 +321,15 @@ TEST(ReportSentences, WhoDidNotFinishOneOfTwoSessionsHasNoThresholdInThatOne) {
 
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
     Protocol timed = findProtocol("level-steps").value;
-    timed.name = "timed-steps", timed.sessions.back().answerSeconds = 1.5;
+    timed.name = "timed-steps", timed.sessions.back().answerSeconds = 60.0; // ample
     const std::string page = pageOf(of(
         timed, 2,
         [](Row& row) {
-            if (row["trial"] == "2") row["ran_out"] = "1", row["correct"].clear();
+            if (row["correct"] == "0") row["ran_out"] = "1", row["correct"].clear();
         },
         true));
     EXPECT_TRUE(has(page, "ran out of time</td><td>these trials"));
+    EXPECT_TRUE(has(page, "not finished</td><td>threshold")) << "no wrong answer, no reversal";
     EXPECT_TRUE(hasNone(page, {"<h2>Choices", "expected trials of this kind"}));
 }
 

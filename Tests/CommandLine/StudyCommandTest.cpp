@@ -190,6 +190,7 @@ TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
                     "expected trials of the protocol \"model-or-sound\", found \"experts\""));
     const auto levels = readCsvTable(read("levels.csv"), "levels.csv").value;
     ASSERT_EQ(levels.rows.size(), 2u);
+    EXPECT_TRUE(has(read("levels.csv"), " observer=simulated\n"));
     runs("study run main.json --observer simulated");
     const auto rows = readCsvTable(read("main-P01.csv"), "main-P01.csv").value;
     for (const auto& row : rows.rows) {

@@ -123,7 +123,7 @@ TEST(HjifFile, WritesEachNumberInTheUnitOfTheFormat) {
     channel.bands = {{{{0.25, 1.5, ClipWaveform::sine, {{0.0, 4.0}, {0.5, 1.0}}, {{0.0, 120.0}}}}}};
     channel.transients = {{2.0, 0.5, 90.0}};
     const ClipChannel unknown{"B", {}, {}, {}, channel.transients};
-    const auto file = nlohmann::json::parse(hjifText({"units", 0.01, 0.02, {channel, unknown}}));
+    auto file = nlohmann::json::parse(hjifText({"units", 0.01, 0.02, {channel, unknown}}));
     const double ticks = file["timescale"];
     const std::string device = "reference_devices/0/", wave = "channels/0/bands/0/effects/0/",
                       transient = "channels/0/bands/1/effects/0/";
@@ -150,6 +150,8 @@ TEST(HjifFile, WritesEachNumberInTheUnitOfTheFormat) {
             << at;
     EXPECT_EQ(file["perceptions"][0]["reference_devices"][1].size(), 2u)
         << "number and name: no more is known";
+    file["perceptions"][0]["channels"][1].erase("gain");
+    EXPECT_EQ(read(file.dump()).channels[1].transients, channel.transients) << "not by the other's gain";
 }
 
 TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {

@@ -192,10 +192,10 @@ TEST(PhoneFiles, ReadApplesDefaultsAndLastCommas) {
               (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as a phone does
     EXPECT_EQ(
         readAhap(
-            R"({"Version": "a,]", "Pattern": [{"Event": {"EventType": "HapticTransient"}, "a\",}": 1}]})",
+            R"({"Version": "a,]", "Pattern": [{"Event": {"EventType": "HapticTransient"}, "a\",}": 1,}]})",
             "f")
-            .error,
-        "");
+            .value.omissions,
+        R"(left out: a",} (1))");
 }
 
 TEST(PhoneFiles, TellWhatIsLeftOutInOneLine) {

@@ -293,11 +293,12 @@ TEST(RenderPicture, BodiesThatAreNotThereAreNotDrawn) {
 }
 
 TEST(RenderPicture, EveryFixtureOfABodyIsDrawnWhateverItsShape) {
-    const auto pixelsOf = [](Shape shape, double offset) {
+    const auto pixelsOf = [](Shape shape, double offset, double angle = 0.0, double ownAngle = 0.0) {
         Render render(1, 0);
         auto& body = render.scene.bodies[1];
         body.type = BodyType::staticBody;
-        body.fixtures.push_back({std::move(shape), {offset, 0.0}, 0.0, 0});
+        body.angleRadians = angle;
+        body.fixtures.push_back({std::move(shape), {offset, 0.0}, ownAngle, 0});
         render.scene.bodies.erase(render.scene.bodies.begin());
         return find(drawPicture(render.input), palette::material(0).withMultipliedBrightness(0.6f),
                     worldPanel);
@@ -311,6 +312,8 @@ TEST(RenderPicture, EveryFixtureOfABodyIsDrawnWhateverItsShape) {
     EXPECT_GT(chain.count, 300);
     EXPECT_LT(chain.count, near.count);
     EXPECT_LT(chain.y, near.y); // 0.5 m up
+    EXPECT_LT(pixelsOf(wedge, 0.0, 1.57).y, near.y - 50.0) << "turned to the left: up";
+    EXPECT_LT(pixelsOf(wedge, 0.0, 0.0, 1.57).y, near.y - 50.0);
 }
 
 TEST(RenderPicture, EmptyInputIsAPictureToo) {

@@ -376,6 +376,7 @@ TEST(Experiment, APlayThatWasLostIsOwedAndCountsForNothing) {
     EXPECT_EQ(progress.plays(), 1);
     EXPECT_EQ(progress.revokedPlays(), 1);
     progress.addPlay(0);
+    EXPECT_FALSE(progress.canAnswer()) << "the time of the lost play is lost, too";
     progress.addSeconds(0, 1.0);
     EXPECT_TRUE(progress.canAnswer());
     EXPECT_FALSE(progress.canPlay(0));
