@@ -168,24 +168,14 @@ void PluginRuns::tick() {
     sendStripsToRuns();
     for (auto& run : runs_) {
         if (run->isReleased.load(std::memory_order_acquire)) continue;
-        stepWorld(*run);
+        // so that release() waits for one step of a slow world, not for all that are due
+        run->session.world().tryTo([&] { run->session.advance([this](auto) { return !isStopping_; }); });
         logPlayed(*run);
     }
     if (!hasWork()) return;
     if (isManuallyStepped_) return tryToPrepareSpare(lock);
     lock.unlock();
     workCondition_.notify_one();
-}
-
-// An exception (at worst: out of memory) stops this world alone; the host goes on playing.
-void PluginRuns::stepWorld(PluginRun& run) {
-    try {
-        // so that release() waits for one step of a slow world, not for all that are due
-        run.session.advance([this](auto) { return !isStopping_; });
-    } catch (const std::exception& error) {
-        run.session.world().setSlowness(0); // or the render call would step it
-        run.worldError = std::string{"the world stands still: "} + error.what();
-    }
 }
 
 void PluginRuns::runBuilder() {
@@ -228,9 +218,8 @@ void PluginRuns::prepareSpare(std::unique_lock<std::mutex>& lock) {
 
 std::unique_ptr<PluginRun> PluginRuns::reuseOrBuild(std::vector<std::unique_ptr<PluginRun>>& ended,
                                                     std::shared_ptr<const RunSpec> spec) {
-    const auto found = std::ranges::find_if(ended, [&](const auto& run) {
-        return run->generation() == spec->generation && run->worldError.empty();
-    });
+    const auto found =
+        std::ranges::find_if(ended, [&](const auto& run) { return run->generation() == spec->generation; });
     if (found == ended.end()) {
         ++builtRuns_;
         return makeRun(std::move(spec), sampleRateHz_, blockFrames_);
@@ -289,7 +278,8 @@ std::vector<RunEvent> PluginRuns::drainLog() {
 std::string PluginRuns::errorText() const {
     const std::lock_guard lock{mutex_};
     for (const auto& run : runs_)
-        if (!run->worldError.empty() && !run->isReleased) return run->worldError;
+        if (run->session.world().hasFailed() && !run->isReleased)
+            return "the world stands still: std::bad_alloc";
     return errorText_;
 }
 

@@ -196,7 +196,6 @@ private:
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
     double idleSeconds() const noexcept override { return idleSeconds_; }
     void runBuilder();
-    void stepWorld(PluginRun& run);
     void logPlayed(PluginRun& run);
     bool isDisposable(const PluginRun& run) const;
     bool isSpareNeeded() const;
