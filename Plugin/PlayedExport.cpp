@@ -95,11 +95,12 @@ Result<std::string> writeClipFiles(const PlayedExport& source, const std::string
 } // namespace
 
 void PlayedEvents::add(std::uint64_t prepareCount, std::span<const RunEvent> events) {
-    for (const auto& [run, played, index] : events) {
+    for (const auto& [run, played, index, generation] : events) {
         if (prepareCount == prepareCount_ && run < run_) continue; // late events of an earlier run
         if (prepareCount != prepareCount_ || run > run_) events_.clear();
         prepareCount_ = prepareCount;
         run_ = run;
+        generation_ = generation;
         totalEvents_ = index + 1;
         events_.push_back(played.event);
     }

@@ -164,8 +164,11 @@ public:
 
     /// Events played since the last call; they are stored for export as well. M.
     std::vector<RunEvent> drainEvents();
-    /// Those that drainEvents() returned. M.
-    const PlayedEvents& playedEvents() const noexcept { return playedEvents_; }
+    /// Those that drainEvents() returned, if they were played with the present settings. M.
+    const PlayedEvents& playedEvents() {
+        playedEvents_.keepOnly(runs_.generation());
+        return playedEvents_;
+    }
 
     /// How many actuators the host has outputs for. Where buses are pairs, at most the number of actuators or
     /// four, because some hosts turn on all buses whether or not the user needs them. M.

@@ -84,6 +84,7 @@ void PluginRuns::sendStripsToRuns() {
 // Makes `run` the spare one, and publishes the latencies of its settings. Called with mutex_ locked.
 void PluginRuns::installRun(std::shared_ptr<const RunSpec> spec, std::unique_ptr<PluginRun> run) {
     spec_ = std::move(spec);
+    newestGeneration_.store(spec_->generation, std::memory_order_release);
     errorText_.clear();
     canBuild_ = true;
     if (!run) return;
@@ -99,7 +100,6 @@ void PluginRuns::installRun(std::shared_ptr<const RunSpec> spec, std::unique_ptr
     runs_.push_back(std::move(run));
     PluginRun* const unused = spareRun_.exchange(runs_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isReleased = true;
-    newestGeneration_.store(spec_->generation, std::memory_order_release);
 }
 
 // L must cover the longest time between two ticks, or the delay of beat detection if that is longer. With a
@@ -265,7 +265,7 @@ void PluginRuns::logPlayed(PluginRun& run) {
     for (PlayedEvent played; run.session.played().pop(played);) {
         if (eventLog_.size() == maxLogEvents)
             eventLog_.erase(eventLog_.begin(), eventLog_.begin() + maxLogEvents / 2);
-        eventLog_.push_back({run.number, played, run.loggedEventCount++});
+        eventLog_.push_back({run.number, played, run.loggedEventCount++, run.generation()});
     }
 }
 
