@@ -337,10 +337,11 @@ void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
     auto before = state();
     const auto changed = withPreset(index);
-    if (canKeepPlaying(before, changed)) return; // hosts repeat calls, and the world would begin again
-    if (!apply(changed)) return;
-    followsOutputs_ = true;
+    const bool keepsPlaying = canKeepPlaying(before, changed);
+    if (!keepsPlaying && !apply(changed)) return;
     setParameters(changed);
+    if (keepsPlaying && state().parameters == before.parameters) return; // hosts repeat calls
+    followsOutputs_ = true;
     recordEdit(std::move(before));
 }
 
