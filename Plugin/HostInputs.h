@@ -68,6 +68,10 @@ public:
         std::int64_t onsetFrame = 0;             ///< in session time
         NoteExpression expression{};
         double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1; of the note, and of MPE's master channel
+        bool isDown = true;                          ///< its key
+        bool isEnded = false;                        ///< whatever key and pedal do
+        bool isOn = false;                           ///< it sounds
+        std::int64_t playedNs = 0;                   ///< length of its strikes so far
 
         /// True if id (where both have one), channel and number are those of this note; -1: any.
         bool matches(int noteId, int noteChannel, int noteNumber) const noexcept {
@@ -76,33 +80,27 @@ public:
         }
     };
 
+    /// Silences all notes. The pedals stay as the player holds them, so that the next notes are sustained.
     void clear() noexcept {
-        for (Voice& voice : voices_) voice.isOn = false;
-        pedal_.fill(false);
+        for (Note& note : notes_) note.isOn = false;
     }
 
     void start(const Note& note) noexcept {
-        const auto rank = [&note](const Voice& voice) { // first the same key's, then a free one, the oldest
-            const bool isSame = voice.note.matches(note.expression.id, note.channel, note.number);
-            return !voice.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : voice.note.onsetFrame;
+        const auto rank = [&note](const Note& held) { // first the same key's, then a free one, the oldest
+            const bool isSame = held.matches(note.expression.id, note.channel, note.number);
+            return !held.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : held.onsetFrame;
         };
-        *std::ranges::min_element(voices_, {}, rank) = {note, 0, true, true};
+        Note& place = *std::ranges::min_element(notes_, {}, rank);
+        place = note;
+        place.isOn = true;
     }
 
-    /// Calls `visit(Note&)` for each sounding note; it may change the note's expression and pressure.
+    /// Calls `visit(Note&)` for each sounding note; it may release it, and change its expression and
+    /// pressure.
     template <class Visit>
     void forEachNote(Visit visit) noexcept {
-        for (Voice& voice : voices_)
-            if (voice.isOn) visit(voice.note);
-    }
-
-    void stop(int id, int channel, int number) noexcept {
-        for (Voice& voice : voices_)
-            if (voice.note.matches(id, channel, number)) voice.isDown = false;
-    }
-    void stopAll() noexcept {
-        for (Voice& voice : voices_) voice.isDown = false;
-        pedal_.fill(false);
+        for (Note& note : notes_)
+            if (note.isOn) visit(note);
     }
 
     /// While the pedal is down, it sustains the notes of its channel, and those whose master it is of.
@@ -113,32 +111,26 @@ public:
     /// `afterNs` counts from the note's onset; a duration of 0 is the last strike, which decays.
     template <class SoundOf, class Strike>
     void advance(std::int64_t endFrame, int sampleRateHz, SoundOf soundOf, Strike strike) noexcept {
-        for (Voice& voice : voices_)
-            while (voice.isOn &&
-                   voice.note.onsetFrame + voice.playedNs * sampleRateHz / 1'000'000'000 < endFrame) {
-                const NoteSound sound = soundOf(voice.note);
-                voice.isOn = isHeld(voice) && sound.frequencyHz > 0.0;
-                const std::int64_t lengthNs = voice.isOn ? strikeNs(sound.frequencyHz) : 0;
-                if (sound.frequencyHz > 0.0) strike(voice.note, sound, voice.playedNs, lengthNs);
-                voice.playedNs += lengthNs;
+        for (Note& note : notes_)
+            while (note.isOn && note.onsetFrame + note.playedNs * sampleRateHz / 1'000'000'000 < endFrame) {
+                const auto sound = soundOf(note);
+                note.isOn = isHeld(note) && sound.frequencyHz > 0.0;
+                const std::int64_t lengthNs = note.isOn ? strikeNs(sound.frequencyHz) : 0;
+                if (sound.frequencyHz > 0.0) strike(note, sound, note.playedNs, lengthNs);
+                note.playedNs += lengthNs;
             }
     }
 
 private:
-    struct Voice {
-        Note note{};
-        std::int64_t playedNs = 0;
-        bool isDown = false, isOn = false;
-    };
-    bool isHeld(const Voice& voice) const noexcept {
+    bool isHeld(const Note& note) const noexcept {
         const auto isPressed = [this](int channel) { return pedal_[static_cast<std::size_t>(channel)]; };
-        return voice.isDown || isPressed(voice.note.channel) || isPressed(voice.note.master);
+        return !note.isEnded && (note.isDown || isPressed(note.channel) || isPressed(note.master));
     }
     static std::int64_t strikeNs(double frequencyHz) noexcept {
         return std::llround(std::max(1.0, std::ceil(minStrikeSeconds * frequencyHz)) * 1e9 / frequencyHz);
     }
 
-    std::array<Voice, maxNotes> voices_{};
+    std::array<Note, maxNotes> notes_{};
     std::array<bool, 17> pedal_{}; // per MIDI channel, from 1
 };
 

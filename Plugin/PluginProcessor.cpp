@@ -272,7 +272,7 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     parameterPoints_.reset();
     channelMeters_ = {};
     expression_ = {};
-    heldNotes_.clear();
+    heldNotes_ = {};
     ++prepareCount_;
     const auto* sideChain = getBus(true, 0);
     const int musicChannels =

@@ -277,6 +277,8 @@ private:
                                  const NoteExpression& expression) const noexcept;
     void playHeldNotes(int first, int end) noexcept;
     void processSideChain(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
+    /// True if controllers but pedal and slide come without their channel (decision 93).
+    bool isOfAnyChannel() const noexcept { return wrapperType == wrapperType_VST3; }
     void handleController(int channel, int controller, int value, int frame) noexcept;
     void updateMeters(const juce::AudioBuffer<float>& buffer) noexcept;
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64, allSoundOff = 120, resetControllers = 121;
-constexpr int allNotesOff = 123; // as the modes above it, releases held notes; struck ones ring out
+constexpr int allNotesOff = 123; // as the modes above it, ends its channel's held notes; struck ones ring out
 constexpr float peakFallDbPerSecond = 20.0f;
 
 } // namespace
@@ -268,9 +268,9 @@ void PluginProcessor::handleNotes(int until, int first, int frames) noexcept {
 }
 
 void PluginProcessor::applyExpression(const NoteEvent& event) noexcept {
-    if (event.kind == NoteEvent::Kind::off) return heldNotes_.stop(event.id, event.channel, event.number);
     heldNotes_.forEachNote([&](HeldNotes::Note& held) {
         if (!held.matches(event.id, event.channel, event.number)) return;
+        held.isDown = held.isDown && event.kind != NoteEvent::Kind::off;
         if (event.kind != NoteEvent::Kind::pressure) return event.applyTo(held.expression);
         if (std::isfinite(event.value)) held.pressure = std::clamp(event.value, 0.0, 1.0);
     });
@@ -286,11 +286,15 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
     if (kind == 0xa0) applyPressure(channel, message.data[1], message.data[2] / 127.0);
     const bool isOn = kind == 0x90 && message.data[2] > 0;
     if (isOn) strike(channel, message.data[1], message.data[2], frame, expression);
-    if (!isOn && (kind == 0x80 || kind == 0x90)) heldNotes_.stop(expression.id, channel, message.data[1]);
+    if (!isOn && (kind == 0x80 || kind == 0x90))
+        applyExpression({NoteEvent::Kind::off, frame, {}, expression.id, channel, message.data[1]});
     if (kind == 0xe0)
         expression_.setBend(channel,
                             static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f);
-    if (kind == 0xb0) handleController(channel, message.data[1], message.data[2], frame);
+    if (kind != 0xb0) return;
+    const bool isAny = isOfAnyChannel() && message.data[1] > allSoundOff;
+    for (int c = isAny ? 1 : channel; c <= (isAny ? 16 : channel); ++c)
+        handleController(c, message.data[1], message.data[2], frame);
 }
 
 // Sets the pressure of that note, or (-1) of all notes of the channel and of the MPE zone that it leads.
@@ -421,7 +425,10 @@ void PluginProcessor::handleController(int channel, int controller, int value, i
     expression_.handleController(channel, controller, value);
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) heldNotes_.setPedal(channel, value >= 64);
-    if (controller >= allNotesOff) heldNotes_.stopAll();
+    if (controller >= allNotesOff)
+        heldNotes_.forEachNote([&](HeldNotes::Note& held) {
+            held.isEnded |= held.channel == channel || expression_.findMaster(held.channel) == channel;
+        });
     if (controller == resetControllers) {
         expression_.reset(channel);
         heldNotes_.setPedal(channel, false);

@@ -112,11 +112,17 @@ TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     for (int mode = 123; mode < 128; ++mode) ends.push_back(Message::controllerEvent(1, mode, 0));
     for (const auto& end : ends) {
         SCOPED_TRACE(end.getDescription());
-        const auto signal = playedBy(
-            state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, end}},
-            36000);
+        const auto signal = playedBy(state,
+                                     {{0, on(45)},
+                                      {100, Message::controllerEvent(1, 64, 127)},
+                                      {200, off(45)},
+                                      {24000, end},
+                                      {36000, on(45)},
+                                      {36100, off(45)}},
+                                     50000);
         EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
         EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
+        EXPECT_EQ(peakBetween(signal, 44000, 50000) > 0.5f, &end != ends.data()) << "the foot is still down";
     }
 }
 
@@ -231,6 +237,25 @@ TEST(Voice, AZoneIsConfiguredByItsParameterAloneInEitherOrder) {
     EXPECT_EQ(members(1), 7) << "none is selected after a reset";
     say({{101, 1}, {100, 6}, {6, 3}});
     EXPECT_EQ(members(1), 7) << "another";
+}
+
+TEST(Voice, AllNotesOffIsOfItsChannelOrOfTheZoneThatItLeads) {
+    auto state = heldVoice();
+    state.voice.releaseSeconds = 0.05;
+    const auto isHeld = [&state](std::vector<TimedMessage> messages, int off, int channel) {
+        messages.push_back({0, on(45, 127, channel)});
+        messages.push_back({4800, Message::controllerEvent(off, 123, 0)});
+        return peakBetween(playedBy(state, messages, 24000), 20000, 24000) > 0.5f;
+    };
+    for (const int channel : {1, 2, 6, 7, 16})
+        for (const int off : {1, 2, 16}) {
+            EXPECT_EQ(isHeld({}, off, channel), off != channel) << off << ' ' << channel;
+            EXPECT_EQ(isHeld(zoneOf(5), off, channel), off != channel && (off != 1 || channel > 6))
+                << off << ' ' << channel;
+        }
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_VST3);
+    EXPECT_FALSE(isHeld({}, 1, 5)) << "VST3 does not say the channel";
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_Undefined);
 }
 
 TEST(Voice, AMastersPedalHoldsTheNotesOfItsZone) {
