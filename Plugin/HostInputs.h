@@ -140,6 +140,8 @@ class ChannelExpression {
 public:
     static constexpr double masterSemitones = 2.0; ///< of a full bend of a master channel
 
+    ChannelExpression() noexcept { selectedParameter_.fill(noParameter); }
+
     void setBend(int channel, float bend) noexcept { bend_[index(channel)] = bend; }
     void setSlide(int channel, float slide) noexcept { slide_[index(channel)] = slide; }
     /// As a reset of all controllers does; zones stay.
@@ -147,10 +149,14 @@ public:
         bend_[index(channel)] = slide_[index(channel)] = 0.0f;
         selectedParameter_[index(channel)] = noParameter;
     }
-    double bend(int channel) const noexcept { return double{bend_[index(channel)]}; }
-    double masterBend(int channel) const noexcept { return double{bend_[index(findMaster(channel))]}; }
-    double slide(int channel) const noexcept {
-        return double{slide_[index(channel)]} + double{slide_[index(findMaster(channel))]};
+    double bend(int channel) const noexcept { return withMaster(bend_, channel); }
+    double slide(int channel) const noexcept { return withMaster(slide_, channel); }
+    /// Semitones by which bends move a note of the channel; `full`: by a full bend, if none was told.
+    double bendSemitones(int channel, double full) const noexcept {
+        const auto bent = [this](int of, double untold) {
+            return 2.0 * double{bend_[index(of)]} * bendRange_[rangeIndex(of)].value_or(untold);
+        };
+        return bent(channel, full) + bent(findMaster(channel), masterSemitones);
     }
     /// The master channel (1 or 16) of the zone to which the channel belongs; 0: it belongs to none.
     int findMaster(int channel) const noexcept {
@@ -158,14 +164,20 @@ public:
         return channel < 16 && channel >= 16 - upperMembers_ ? 16 : 0;
     }
 
-    /// Registered parameter 6 of channel 1 or 16 sets the members of its zone, and shrinks the other zone.
-    void handleController(int channel, int number, int value) noexcept {
-        constexpr int dataEntry = 6, otherLow = 98, otherHigh = 99, parameterLow = 100, parameterHigh = 101,
-                      zoneConfiguration = 6;
+    /// Registered parameter 6 of channel 1 or 16 sets the members of its zone, and shrinks the other zone;
+    /// parameter 0 sets semitones and cents of a full bend, of a channel or of all members of a zone, unless
+    /// the channel is only said to be the first (`isKnown`: false).
+    void handleController(int channel, int number, int value, bool isKnown = true) noexcept {
+        constexpr int dataEntry = 6, dataEntryLow = 38, otherLow = 98, otherHigh = 99, parameterLow = 100,
+                      parameterHigh = 101, bendRange = 0, zoneConfiguration = 6;
         int& parameter = selectedParameter_[index(channel)];
         if (number == parameterHigh) parameter = value * 128 + parameter % 128; // either may come first
         if (number == parameterLow) parameter = parameter / 128 * 128 + value;
         if (number == otherLow || number == otherHigh) parameter = noParameter;
+        if (auto& semitones = bendRange_[rangeIndex(channel)]; isKnown && parameter == bendRange) {
+            if (number == dataEntry) semitones = value;
+            if (number == dataEntryLow && semitones) semitones = std::floor(*semitones) + 0.01 * value;
+        }
         if (number != dataEntry || parameter != zoneConfiguration || (channel != 1 && channel != 16)) return;
         int &zone = channel == 1 ? lowerMembers_ : upperMembers_,
             &otherZone = channel == 1 ? upperMembers_ : lowerMembers_;
@@ -175,9 +187,18 @@ public:
 
 private:
     static constexpr int noParameter = 16383; // of the registered ones
+    using Values = std::array<float, 17>;     // by channel; entry 0 stays 0
     static std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    std::array<float, 17> bend_{}, slide_{};  // by channel; entry 0 stays 0
-    std::array<int, 17> selectedParameter_{}; // the selected registered parameter
+    std::size_t rangeIndex(int channel) const noexcept {
+        const int master = findMaster(channel);
+        return index(master > 0 ? 16 + master : channel);
+    }
+    double withMaster(const Values& of, int channel) const noexcept {
+        return double{of[index(channel)]} + double{of[index(findMaster(channel))]};
+    }
+    Values bend_{}, slide_{};
+    std::array<std::optional<double>, 33> bendRange_{}; // semitones of a full bend, if they were told
+    std::array<int, 17> selectedParameter_{};           // the selected registered parameter
     int lowerMembers_ = 0, upperMembers_ = 0;
 };
 

@@ -336,10 +336,9 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
                                               const NoteExpression& expression) const noexcept {
     const auto& settings = runs_.settings();
     const auto& midi = settings.midi;
-    const double bend = expression_.bend(channel), master = expression_.masterBend(channel),
-                 semitones = midi.bendSemitones(knobs());
+    const double semitones = midi.bendSemitones(knobs());
     double shift = expression.semitones;
-    if (semitones > 0.0) shift += 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
+    if (semitones > 0.0) shift += expression_.bendSemitones(channel, semitones);
     const auto shifted = [](double place, double offset, double size) {
         return std::clamp(place + offset * size, 0.0, size);
     };
@@ -347,8 +346,8 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
         strike.frequencyHz = std::clamp(strike.frequencyHz * portable::pow(2.0, shift / 12.0),
                                         limits::slowestToneHz, limits::maxFrequencyHz);
     strike.x = shifted(strike.x,
-                       value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master) +
-                           0.5 * expression.pan,
+                       value(Parameter::strikeX) * 0.01 +
+                           (semitones > 0.0 ? 0.0 : expression_.bend(channel)) + 0.5 * expression.pan,
                        midi.fieldWidthMetres());
     strike.y = shifted(strike.y,
                        value(Parameter::strikeY) * 0.01 + expression_.slide(channel) + expression.brightness,
@@ -422,7 +421,7 @@ void PluginProcessor::processSideChain(const juce::AudioBuffer<float>& buffer, i
 
 void PluginProcessor::handleController(int channel, int controller, int value, int frame) noexcept {
     if (controller == slideController) expression_.setSlide(channel, static_cast<float>(value - 64) / 128.0f);
-    expression_.handleController(channel, controller, value);
+    expression_.handleController(channel, controller, value, !isOfAnyChannel());
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) heldNotes_.setPedal(channel, value >= 64);
     if (controller >= allNotesOff)
