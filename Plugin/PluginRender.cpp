@@ -70,20 +70,20 @@ void PluginProcessor::applyPoints(int until) noexcept {
 int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                                 const juce::MidiBuffer& midi, int first) noexcept {
     const int frames = buffer.getNumSamples();
-    const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
     const auto frameOf = [&](const juce::MidiMessageMetadata& m) {
         return std::clamp(m.samplePosition, first, frames - 1);
     };
     int end = std::min(frames, first + blockFrames_);
-    const double seconds = first / sampleRateHz_.load(std::memory_order_relaxed);
-    if (runs_.begin(mode)) resetControls(), hostBeats_.begin(seconds);
-    followTempo(seconds);
+    partSeconds_ = first / sampleRateHz_.load(std::memory_order_relaxed);
+    beginRun();
     for (int frame = first; frame < end;) {
         applyPoints(frame);
         if (frame == first) isMuted_ = isStopped() || value(Parameter::bypass) > 0.5, playWindowKeys(0);
         end = std::min(end, parameterPoints_.nextFrame(Parameter::bypass));
         sendControls(frame - first);
-        for (; message != midi.end() && frameOf(*message) <= frame; ++message) {
+        for (; message != midi.end() && frameOf(*message) <= frame &&
+               !needsPart(*(*message).data, frame - first);
+             ++message) {
             if ((*message).samplePosition >= frames) ++displacedMessages_;
             handleMidi(*message, frame - first);
         }
@@ -91,6 +91,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         int next = std::min(end, parameterPoints_.next());
         if (hasNextNote_) next = std::min(next, std::clamp(nextNote_.frame, first, frames - 1));
         if (message != midi.end()) next = std::min(next, frameOf(*message));
+        if (next == frame) end = frame; // what comes next needs a part
         playHeldNotes(frame - first, next - first);
         processSideChain(buffer, first, frame - first, next - first);
         sendPacedControls(frame - first, next - first); // changes that came faster than their pace allows
@@ -101,7 +102,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     if (const Session* const session = runs_.session())
         guard_.moveTo(session->timeline().nextRenderedFrame(0));
     runs_.setTiming(timing());
-    runs_.render(end - first, mode);
+    runs_.render(end - first, renderMode());
     for (int j = 0; j < runs_.channels(); ++j)
         if (const int channel = outputMap_.channels[static_cast<std::size_t>(j)];
             channel >= 0 && channel < buffer.getNumChannels())
@@ -136,12 +137,14 @@ void PluginProcessor::followTransport(int frames) noexcept {
         stopAll(0);
 }
 
-void PluginProcessor::followTempo(double seconds) noexcept {
+// Begins the run that is due, and lets its script follow the host's tempo.
+void PluginProcessor::beginRun() noexcept {
+    if (runs_.begin(renderMode())) resetControls(), hostBeats_.begin(partSeconds_);
     Session* const session = runs_.session();
     if (!session || runs_.settings().transport != TransportMode::inTempo) return;
     const auto runSeconds = static_cast<double>(session->timeline().framesRendered()) /
                             sampleRateHz_.load(std::memory_order_relaxed);
-    hostBeats_.sendIfChanged(seconds, runSeconds, [session](const HostBeats::Script& script) {
+    hostBeats_.sendIfChanged(partSeconds_, runSeconds, [session](const HostBeats::Script& script) {
         RenderInput input;
         input.group = RenderInput::script;
         input.scriptSeconds = script.seconds;
@@ -250,7 +253,7 @@ void PluginProcessor::readNextNote() noexcept {
 // Handles note events up to frame `until`. Expression at the frame of a note's onset belongs to the onset.
 void PluginProcessor::handleNotes(int until, int first, int frames) noexcept {
     const auto frame = [&] { return std::clamp(nextNote_.frame, first, frames - 1); };
-    while (hasNextNote_ && frame() <= until) {
+    while (hasNextNote_ && frame() <= until && !needsPart(nextNote_.midi[0], until - first)) {
         if (nextNote_.frame >= frames) ++displacedMessages_;
         const auto event = nextNote_;
         const int onset = frame();
@@ -281,7 +284,7 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
     if (message.numBytes < 2) return;
     const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
     if (kind == 0xd0) applyPressure(channel, -1, message.data[1] / 127.0);
-    if (kind == 0xc0) requestedProgram_ = message.data[1]; // the timer chooses it
+    if (kind == programChange) chooseProgram(message.data[1], frame);
     if (message.numBytes < 3) return;
     if (kind == 0xa0) applyPressure(channel, message.data[1], message.data[2] / 127.0);
     const bool isOn = kind == 0x90 && message.data[2] > 0;
@@ -295,6 +298,19 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
     const bool isAny = isOfAnyChannel() && message.data[1] > allSoundOff;
     for (int c = isAny ? 1 : channel; c <= (isAny ? 16 : channel); ++c)
         handleController(c, message.data[1], message.data[2], frame);
+}
+
+// The timer chooses a program; a bounce does not wait for it, unless memory is lacking.
+void PluginProcessor::chooseProgram(int program, int frame) noexcept {
+    if (!isNonRealtime()) return requestedProgram_.store(program);
+    try {
+        setCurrentProgram(program);
+        readParameters();
+        beginRun();
+        sendControls(frame);
+    } catch (const std::bad_alloc&) {
+        requestedProgram_ = program;
+    }
 }
 
 // Sets the pressure of that note, or (-1) of all notes of the channel and of the MPE zone that it leads.
