@@ -46,13 +46,6 @@ protected:
     ~NoteSource() = default;
 };
 
-/// The sound of a held note at one moment.
-struct NoteSound {
-    double frequencyHz = 0.0;
-    double amplitude = 0.0;
-    double x = 0.0, y = 0.0; ///< metres of the field
-};
-
 /// Notes that sound until their keys are released. Each is a sequence of strikes without decay, each a whole
 /// number of periods long, so that one ends where the next begins, both at the zero of a sine. So pitch,
 /// level and place can follow bend, pressure and slide every few milliseconds without a click, and log, board
@@ -107,8 +100,8 @@ public:
     void setPedal(int channel, bool isDown) noexcept { pedal_[static_cast<std::size_t>(channel)] = isDown; }
 
     /// Makes the strikes that begin before `endFrame` of the session. `soundOf(const Note&)` returns a
-    /// NoteSound. `strike(const Note&, const NoteSound&, afterNs, durationNs)` is called for each strike;
-    /// `afterNs` counts from the note's onset; a duration of 0 is the last strike, which decays.
+    /// CollisionEvent. `strike(const Note&, sound, afterNs, durationNs)` is called for each strike; `afterNs`
+    /// counts from the note's onset; a duration of 0 is the last strike, which decays.
     template <class SoundOf, class Strike>
     void advance(std::int64_t endFrame, int sampleRateHz, SoundOf soundOf, Strike strike) noexcept {
         for (Note& note : notes_)
@@ -206,8 +199,6 @@ private:
 class Transport {
 public:
     enum class Change { none, started, stopped };
-
-    void reset() noexcept { *this = {}; }
 
     /// Called before each block of `frames` frames; `frame` is the host's position. A host that never says
     /// whether it plays, plays from its first block on; if it says nothing for a block, nothing has changed

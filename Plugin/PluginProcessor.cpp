@@ -14,7 +14,7 @@ juce::String asString(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
         for (char& c : text)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';
-    return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
+    return fromUtf8(text);
 }
 
 } // namespace
@@ -267,9 +267,9 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     outputGate_.prepare(rate, limits::channelRampSeconds,
                         parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
     prepareGuard(rate);
-    transport_.reset();
+    transport_ = {};
     hostBeats_ = {};
-    parameterPoints_.reset();
+    parameterPoints_ = {};
     channelMeters_ = {};
     expression_ = {};
     heldNotes_ = {};

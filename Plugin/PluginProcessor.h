@@ -281,7 +281,7 @@ private:
     void chooseProgram(int program, int frame) noexcept;
     void applyPressure(int channel, int note, double pressure) noexcept;
     void strike(int channel, int note, int velocity, int frame, const NoteExpression& expression) noexcept;
-    NoteSound heldNoteSound(const HeldNotes::Note& note) const noexcept;
+    CollisionEvent heldNoteSound(const HeldNotes::Note& note) const noexcept;
     CollisionEvent strikeAtPlace(CollisionEvent strike, int channel,
                                  const NoteExpression& expression) const noexcept;
     void playHeldNotes(int first, int end) noexcept;

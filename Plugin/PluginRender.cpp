@@ -379,13 +379,12 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
 }
 
 // The present sound of a held note; its amplitude is that of velocity or pressure, whichever is larger.
-NoteSound PluginProcessor::heldNoteSound(const HeldNotes::Note& note) const noexcept {
+CollisionEvent PluginProcessor::heldNoteSound(const HeldNotes::Note& note) const noexcept {
     const auto& settings = runs_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
     event.amplitude = gainFromLevelDb(value(Parameter::strikeLevel)) * note.expression.gain *
                       std::max({note.velocity, note.pressure, note.masterPressure});
-    event = strikeAtPlace(event, note.channel, note.expression);
-    return {event.frequencyHz, event.amplitude, event.x, event.y};
+    return strikeAtPlace(event, note.channel, note.expression);
 }
 
 // Plays the strikes of held notes that begin in frames [first, end) of this part.
@@ -397,13 +396,8 @@ void PluginProcessor::playHeldNotes(int first, int end) noexcept {
     heldNotes_.advance(
         now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)),
         [this](const HeldNotes::Note& note) { return heldNoteSound(note); },
-        [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs,
+        [&](const HeldNotes::Note& note, CollisionEvent event, std::int64_t afterNs,
             std::int64_t durationNs) {
-            CollisionEvent event;
-            event.frequencyHz = sound.frequencyHz;
-            event.amplitude = sound.amplitude;
-            event.x = sound.x;
-            event.y = sound.y;
             event.durationNs = durationNs;
             event.decayPerSecond = durationNs > 0 ? 0.0 : release;
             session->callback().strike(event, static_cast<int>(note.onsetFrame - now), afterNs);

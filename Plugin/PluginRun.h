@@ -101,7 +101,10 @@ private:
         QueuedControls queue;
         QueuedControl next;
         bool hasNext = false;
-        void clear() noexcept;
+        void clear() noexcept {
+            do hasNext = queue.pop(next);
+            while (hasNext);
+        }
     };
     template <class Make>
     void forwardControls(PendingControls& pending, std::int64_t until, Make make) noexcept;

@@ -415,13 +415,9 @@ Stepper::Stepper()
 
 Stepper::~Stepper() {
     signalThreadShouldExit();
-    wake();
-    stopThread(-1);
-}
-
-void Stepper::wake() {
     { const std::lock_guard lock{mutex_}; } // otherwise the thread could miss the notification
     wakeCondition_.notify_all();
+    stopThread(-1);
 }
 
 void Stepper::add(StepClient& client) {

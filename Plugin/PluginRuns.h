@@ -66,7 +66,6 @@ private:
         Clock::time_point lastBlock, nextTick;
     };
     void run() override;
-    void wake();
     static void tick(Member& member, Clock::time_point now);
 
     std::mutex mutex_; // held while anybody is stepped
