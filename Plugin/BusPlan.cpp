@@ -28,13 +28,12 @@ juce::String label(int actuator) {
     return juce::String{describeLayout({}, {1.0, 1.0, actuator + 1, {}}).actuators.back().label};
 }
 
-bool isSideChain(const juce::Array<Set>& inputs) {
-    return inputs.isEmpty() || (inputs.size() == 1 && (inputs[0].isDisabled() || inputs[0] == Set::mono() ||
-                                                       inputs[0] == Set::stereo()));
-}
-
 bool isAcceptedAsOneOfMany(const Set& set) {
     return set.isDisabled() || set == Set::mono() || set == Set::stereo();
+}
+
+bool isSideChain(const juce::Array<Set>& inputs) {
+    return inputs.isEmpty() || (inputs.size() == 1 && isAcceptedAsOneOfMany(inputs[0]));
 }
 
 } // namespace
@@ -52,10 +51,9 @@ std::vector<OutputBus> newBuses(const BusPlan& plan, Processor::WrapperType form
     if (plan.kind == BusPlan::Kind::oneBus)
         return {{"Actuators", channelsInOrder(plan.channels, format), true}};
     std::vector<OutputBus> buses;
-    for (int b = 0; b < BusPlan::busCount; ++b) {
+    for (int b = 0; b < BusPlan::busCount; ++b)
         buses.push_back(
             {label(2 * b) + ", " + label(2 * b + 1), Set::stereo(), b < BusPlan::initialBusCount});
-    }
     return buses;
 }
 

@@ -3,16 +3,11 @@
 #pragma once
 #include "Host/Views/Look.h"
 #include <memory>
-#include <string_view>
 
 namespace physvib {
 
 constexpr int panelInset = 12, panelGap = 8;
 constexpr auto number = readable::numberString;
-
-inline juce::String fromUtf8(std::string_view utf8) {
-    return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
-}
 
 constexpr int openFlags = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
               saveFlags = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles |

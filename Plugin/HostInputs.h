@@ -46,13 +46,6 @@ protected:
     ~NoteSource() = default;
 };
 
-/// The sound of a held note at one moment.
-struct NoteSound {
-    double frequencyHz = 0.0;
-    double amplitude = 0.0;
-    double x = 0.0, y = 0.0; ///< metres of the field
-};
-
 /// Notes that sound until their keys are released. Each is a sequence of strikes without decay, each a whole
 /// number of periods long, so that one ends where the next begins, both at the zero of a sine. So pitch,
 /// level and place can follow bend, pressure and slide every few milliseconds without a click, and log, board
@@ -68,6 +61,10 @@ public:
         std::int64_t onsetFrame = 0;             ///< in session time
         NoteExpression expression{};
         double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1; of the note, and of MPE's master channel
+        bool isDown = true;                          ///< its key
+        bool isEnded = false;                        ///< whatever key and pedal do
+        bool isOn = false;                           ///< it sounds
+        std::int64_t playedNs = 0;                   ///< length of its strikes so far
 
         /// True if id (where both have one), channel and number are those of this note; -1: any.
         bool matches(int noteId, int noteChannel, int noteNumber) const noexcept {
@@ -76,69 +73,57 @@ public:
         }
     };
 
+    /// Silences all notes. The pedals stay as the player holds them, so that the next notes are sustained.
     void clear() noexcept {
-        for (Voice& voice : voices_) voice.isOn = false;
-        pedal_.fill(false);
+        for (Note& note : notes_) note.isOn = false;
     }
 
     void start(const Note& note) noexcept {
-        const auto rank = [&note](const Voice& voice) { // first the same key's, then a free one, the oldest
-            const bool isSame = voice.note.matches(note.expression.id, note.channel, note.number);
-            return !voice.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : voice.note.onsetFrame;
+        const auto rank = [&note](const Note& held) { // first the same key's, then a free one, the oldest
+            const bool isSame = held.matches(note.expression.id, note.channel, note.number);
+            return !held.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : held.onsetFrame;
         };
-        *std::ranges::min_element(voices_, {}, rank) = {note, 0, true, true};
+        Note& place = *std::ranges::min_element(notes_, {}, rank);
+        place = note;
+        place.isOn = true;
     }
 
-    /// Calls `visit(Note&)` for each sounding note; it may change the note's expression and pressure.
+    /// Calls `visit(Note&)` for each sounding note; it may release it, and change its expression and
+    /// pressure.
     template <class Visit>
     void forEachNote(Visit visit) noexcept {
-        for (Voice& voice : voices_)
-            if (voice.isOn) visit(voice.note);
-    }
-
-    void stop(int id, int channel, int number) noexcept {
-        for (Voice& voice : voices_)
-            if (voice.note.matches(id, channel, number)) voice.isDown = false;
-    }
-    void stopAll() noexcept {
-        for (Voice& voice : voices_) voice.isDown = false;
-        pedal_.fill(false);
+        for (Note& note : notes_)
+            if (note.isOn) visit(note);
     }
 
     /// While the pedal is down, it sustains the notes of its channel, and those whose master it is of.
     void setPedal(int channel, bool isDown) noexcept { pedal_[static_cast<std::size_t>(channel)] = isDown; }
 
     /// Makes the strikes that begin before `endFrame` of the session. `soundOf(const Note&)` returns a
-    /// NoteSound. `strike(const Note&, const NoteSound&, afterNs, durationNs)` is called for each strike;
-    /// `afterNs` counts from the note's onset; a duration of 0 is the last strike, which decays.
+    /// CollisionEvent. `strike(const Note&, sound, afterNs, durationNs)` is called for each strike; `afterNs`
+    /// counts from the note's onset; a duration of 0 is the last strike, which decays.
     template <class SoundOf, class Strike>
     void advance(std::int64_t endFrame, int sampleRateHz, SoundOf soundOf, Strike strike) noexcept {
-        for (Voice& voice : voices_)
-            while (voice.isOn &&
-                   voice.note.onsetFrame + voice.playedNs * sampleRateHz / 1'000'000'000 < endFrame) {
-                const NoteSound sound = soundOf(voice.note);
-                voice.isOn = isHeld(voice) && sound.frequencyHz > 0.0;
-                const std::int64_t lengthNs = voice.isOn ? strikeNs(sound.frequencyHz) : 0;
-                if (sound.frequencyHz > 0.0) strike(voice.note, sound, voice.playedNs, lengthNs);
-                voice.playedNs += lengthNs;
+        for (Note& note : notes_)
+            while (note.isOn && note.onsetFrame + note.playedNs * sampleRateHz / 1'000'000'000 < endFrame) {
+                const auto sound = soundOf(note);
+                note.isOn = isHeld(note) && sound.frequencyHz > 0.0;
+                const std::int64_t lengthNs = note.isOn ? strikeNs(sound.frequencyHz) : 0;
+                if (sound.frequencyHz > 0.0) strike(note, sound, note.playedNs, lengthNs);
+                note.playedNs += lengthNs;
             }
     }
 
 private:
-    struct Voice {
-        Note note{};
-        std::int64_t playedNs = 0;
-        bool isDown = false, isOn = false;
-    };
-    bool isHeld(const Voice& voice) const noexcept {
+    bool isHeld(const Note& note) const noexcept {
         const auto isPressed = [this](int channel) { return pedal_[static_cast<std::size_t>(channel)]; };
-        return voice.isDown || isPressed(voice.note.channel) || isPressed(voice.note.master);
+        return !note.isEnded && (note.isDown || isPressed(note.channel) || isPressed(note.master));
     }
     static std::int64_t strikeNs(double frequencyHz) noexcept {
         return std::llround(std::max(1.0, std::ceil(minStrikeSeconds * frequencyHz)) * 1e9 / frequencyHz);
     }
 
-    std::array<Voice, maxNotes> voices_{};
+    std::array<Note, maxNotes> notes_{};
     std::array<bool, 17> pedal_{}; // per MIDI channel, from 1
 };
 
@@ -148,6 +133,8 @@ class ChannelExpression {
 public:
     static constexpr double masterSemitones = 2.0; ///< of a full bend of a master channel
 
+    ChannelExpression() noexcept { selectedParameter_.fill(noParameter); }
+
     void setBend(int channel, float bend) noexcept { bend_[index(channel)] = bend; }
     void setSlide(int channel, float slide) noexcept { slide_[index(channel)] = slide; }
     /// As a reset of all controllers does; zones stay.
@@ -155,10 +142,14 @@ public:
         bend_[index(channel)] = slide_[index(channel)] = 0.0f;
         selectedParameter_[index(channel)] = noParameter;
     }
-    double bend(int channel) const noexcept { return double{bend_[index(channel)]}; }
-    double masterBend(int channel) const noexcept { return double{bend_[index(findMaster(channel))]}; }
-    double slide(int channel) const noexcept {
-        return double{slide_[index(channel)]} + double{slide_[index(findMaster(channel))]};
+    double bend(int channel) const noexcept { return withMaster(bend_, channel); }
+    double slide(int channel) const noexcept { return withMaster(slide_, channel); }
+    /// Semitones by which bends move a note of the channel; `full`: by a full bend, if none was told.
+    double bendSemitones(int channel, double full) const noexcept {
+        const auto bent = [this](int of, double untold) {
+            return 2.0 * double{bend_[index(of)]} * bendRange_[rangeIndex(of)].value_or(untold);
+        };
+        return bent(channel, full) + bent(findMaster(channel), masterSemitones);
     }
     /// The master channel (1 or 16) of the zone to which the channel belongs; 0: it belongs to none.
     int findMaster(int channel) const noexcept {
@@ -166,14 +157,20 @@ public:
         return channel < 16 && channel >= 16 - upperMembers_ ? 16 : 0;
     }
 
-    /// Registered parameter 6 of channel 1 or 16 sets the members of its zone, and shrinks the other zone.
-    void handleController(int channel, int number, int value) noexcept {
-        constexpr int dataEntry = 6, otherLow = 98, otherHigh = 99, parameterLow = 100, parameterHigh = 101,
-                      zoneConfiguration = 6;
+    /// Registered parameter 6 of channel 1 or 16 sets the members of its zone, and shrinks the other zone;
+    /// parameter 0 sets semitones and cents of a full bend, of a channel or of all members of a zone, unless
+    /// the channel is only said to be the first (`isKnown`: false).
+    void handleController(int channel, int number, int value, bool isKnown = true) noexcept {
+        constexpr int dataEntry = 6, dataEntryLow = 38, otherLow = 98, otherHigh = 99, parameterLow = 100,
+                      parameterHigh = 101, bendRange = 0, zoneConfiguration = 6;
         int& parameter = selectedParameter_[index(channel)];
         if (number == parameterHigh) parameter = value * 128 + parameter % 128; // either may come first
         if (number == parameterLow) parameter = parameter / 128 * 128 + value;
         if (number == otherLow || number == otherHigh) parameter = noParameter;
+        if (auto& semitones = bendRange_[rangeIndex(channel)]; isKnown && parameter == bendRange) {
+            if (number == dataEntry) semitones = value;
+            if (number == dataEntryLow && semitones) semitones = std::floor(*semitones) + 0.01 * value;
+        }
         if (number != dataEntry || parameter != zoneConfiguration || (channel != 1 && channel != 16)) return;
         int &zone = channel == 1 ? lowerMembers_ : upperMembers_,
             &otherZone = channel == 1 ? upperMembers_ : lowerMembers_;
@@ -183,9 +180,18 @@ public:
 
 private:
     static constexpr int noParameter = 16383; // of the registered ones
+    using Values = std::array<float, 17>;     // by channel; entry 0 stays 0
     static std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    std::array<float, 17> bend_{}, slide_{};  // by channel; entry 0 stays 0
-    std::array<int, 17> selectedParameter_{}; // the selected registered parameter
+    std::size_t rangeIndex(int channel) const noexcept {
+        const int master = findMaster(channel);
+        return index(master > 0 ? 16 + master : channel);
+    }
+    double withMaster(const Values& of, int channel) const noexcept {
+        return double{of[index(channel)]} + double{of[index(findMaster(channel))]};
+    }
+    Values bend_{}, slide_{};
+    std::array<std::optional<double>, 33> bendRange_{}; // semitones of a full bend, if they were told
+    std::array<int, 17> selectedParameter_{};           // the selected registered parameter
     int lowerMembers_ = 0, upperMembers_ = 0;
 };
 
@@ -193,8 +199,6 @@ private:
 class Transport {
 public:
     enum class Change { none, started, stopped };
-
-    void reset() noexcept { *this = {}; }
 
     /// Called before each block of `frames` frames; `frame` is the host's position. A host that never says
     /// whether it plays, plays from its first block on; if it says nothing for a block, nothing has changed

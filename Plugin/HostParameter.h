@@ -13,10 +13,14 @@
 
 namespace physvib {
 
+inline juce::String fromUtf8(std::string_view utf8) {
+    return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
+}
+
 class HostParameter final : public juce::RangedAudioParameter { // LV2 publishes the ranges of this kind only
 public:
     explicit HostParameter(const ParameterRow& row)
-        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name)}
+        : RangedAudioParameter{juce::ParameterID{fromUtf8(row.id), row.version}, fromUtf8(row.name)}
         // no label, which hosts would append, because texts have the unit
         , row_{row}
         , range_{makeRange(row)}
@@ -40,7 +44,7 @@ public:
     /// The short name if the long one does not fit: the names of strikes begin alike.
     juce::String getName(int maxLength) const override {
         const auto& fits = static_cast<int>(row_.name.size()) <= maxLength ? row_.name : row_.shortName;
-        return text(fits).substring(0, maxLength);
+        return fromUtf8(fits).substring(0, maxLength);
     }
     float getValue() const override { return normal_; }
     void setValue(float normal) override {
@@ -54,7 +58,7 @@ public:
     }
     const juce::NormalisableRange<float>& getNormalisableRange() const override { return range_; }
     juce::String getText(float normal, int maxLength) const override {
-        const auto words = text(valueText(row_, denormalised(row_, normal)));
+        const auto words = fromUtf8(valueText(row_, denormalised(row_, normal)));
         return maxLength > 0 ? words.substring(0, maxLength) : words;
     }
     float getValueForText(const juce::String& words) const override {
@@ -74,9 +78,6 @@ private:
             return from(minimum, maximum, to(minimum, maximum, value));
         };
         return {static_cast<float>(row.minimum), static_cast<float>(row.maximum), from, to, snap};
-    }
-    static juce::String text(std::string_view words) {
-        return juce::String::fromUTF8(words.data(), static_cast<int>(words.size()));
     }
     const ParameterRow& row_;
     const juce::NormalisableRange<float> range_;
@@ -107,13 +108,11 @@ protected:
 /// A point is a step at its frame, so that the size of the host's blocks does not matter. A host that sends a
 /// parameter's value at the first frame of a block and at the last one or one beyond means a line (VST3 lets
 /// it omit points on lines). Between points of such a block that are more than `maxStepFrames` apart, values
-/// on the line are added, at multiples of `maxStepFrames` since reset().
+/// on the line are added, at multiples of `maxStepFrames` since it was made.
 class ParameterPoints {
 public:
     static constexpr int noFrame = std::numeric_limits<int>::max();
     static constexpr int maxStepFrames = 64; ///< well below the ramps of level and law, 10 ms
-
-    void reset() noexcept { *this = {}; }
 
     /// Called before a block of `frames` frames; `source` is null if it has no points.
     void begin(PointSource* source, int frames) noexcept;

@@ -2,7 +2,8 @@
 // Exports played events as MIDI, an event list or haptic files, by the ending of the file's name.
 #include "PlayedExport.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Text/NameList.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Text/CleanText.h"
 #include "Live/Recordings/HitExport.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>
@@ -76,10 +77,8 @@ std::vector<WrittenNote> makeNotes(const PlayedExport& source) {
     return notes;
 }
 
-std::string fileName(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
-
 Result<std::string> writeClipFiles(const PlayedExport& source, const std::string& path, ClipFormat format) {
-    const HitExport hits{"what was felt", fileName(path), source.events, source.state.layout,
+    const HitExport hits{"what was felt", fileNameOf(path), source.events, source.state.layout,
                          source.state.layout.name};
     const auto gains = [&source](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
@@ -95,11 +94,12 @@ Result<std::string> writeClipFiles(const PlayedExport& source, const std::string
 } // namespace
 
 void PlayedEvents::add(std::uint64_t prepareCount, std::span<const RunEvent> events) {
-    for (const auto& [run, played, index] : events) {
+    for (const auto& [run, played, index, generation] : events) {
         if (prepareCount == prepareCount_ && run < run_) continue; // late events of an earlier run
         if (prepareCount != prepareCount_ || run > run_) events_.clear();
         prepareCount_ = prepareCount;
         run_ = run;
+        generation_ = generation;
         totalEvents_ = index + 1;
         events_.push_back(played.event);
     }
@@ -151,9 +151,7 @@ Result<std::string> exportPlayed(const PlayedExport& source, const std::string& 
         return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats "
                        "and contacts"};
     if (const auto format = findClipFormat(path)) return writeClipFiles(source, path, *format);
-    std::string ending = std::filesystem::path{path}.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    const std::string ending = lowerCase(std::filesystem::path{path}.extension().string());
     if (ending != ".mid" && ending != ".midi" && ending != ".csv")
         return Failure{path + ": expected a name that ends in " + nameList(playedEndings(), " or ")};
     const std::string bytes = ending == ".csv"

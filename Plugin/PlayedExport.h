@@ -24,10 +24,14 @@ public:
     /// How many earlier events of that run were dropped.
     std::uint64_t droppedCount() const noexcept { return totalEvents_ - events_.size(); }
     bool hasEvents() const noexcept { return !events_.empty(); }
+    /// Drops them if they were played with other settings than those.
+    void keepOnly(std::uint64_t generation) {
+        if (generation != generation_) *this = {};
+    }
 
 private:
     std::vector<CollisionEvent> events_;
-    std::uint64_t prepareCount_ = 0, totalEvents_ = 0;
+    std::uint64_t prepareCount_ = 0, totalEvents_ = 0, generation_ = 0;
     int run_ = 0;
 };
 

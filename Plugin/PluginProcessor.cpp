@@ -14,7 +14,7 @@ juce::String asString(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
         for (char& c : text)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';
-    return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
+    return fromUtf8(text);
 }
 
 } // namespace
@@ -267,12 +267,12 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     outputGate_.prepare(rate, limits::channelRampSeconds,
                         parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
     prepareGuard(rate);
-    transport_.reset();
+    transport_ = {};
     hostBeats_ = {};
-    parameterPoints_.reset();
+    parameterPoints_ = {};
     channelMeters_ = {};
     expression_ = {};
-    heldNotes_.clear();
+    heldNotes_ = {};
     ++prepareCount_;
     const auto* sideChain = getBus(true, 0);
     const int musicChannels =
@@ -337,10 +337,11 @@ void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
     auto before = state();
     const auto changed = withPreset(index);
-    if (canKeepPlaying(before, changed)) return; // hosts repeat calls, and the world would begin again
-    if (!apply(changed)) return;
-    followsOutputs_ = true;
+    const bool keepsPlaying = canKeepPlaying(before, changed);
+    if (!keepsPlaying && !apply(changed)) return;
     setParameters(changed);
+    if (keepsPlaying && state().parameters == before.parameters) return; // hosts repeat calls
+    followsOutputs_ = true;
     recordEdit(std::move(before));
 }
 

@@ -164,8 +164,11 @@ public:
 
     /// Events played since the last call; they are stored for export as well. M.
     std::vector<RunEvent> drainEvents();
-    /// Those that drainEvents() returned. M.
-    const PlayedEvents& playedEvents() const noexcept { return playedEvents_; }
+    /// Those that drainEvents() returned, if they were played with the present settings. M.
+    const PlayedEvents& playedEvents() {
+        playedEvents_.keepOnly(runs_.generation());
+        return playedEvents_;
+    }
 
     /// How many actuators the host has outputs for. Where buses are pairs, at most the number of actuators or
     /// four, because some hosts turn on all buses whether or not the user needs them. M.
@@ -222,6 +225,7 @@ private:
     static BusesProperties makeBusProperties(const BusPlan& plan);
     void addParameters();
     void prepareGuard(int rate);
+    static constexpr int programChange = 0xc0;                   // of MIDI
     static constexpr int activeTimerMs = 50, idleTimerMs = 2000; ///< while blocks are rendered, or not
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
@@ -245,13 +249,20 @@ private:
         return denormalised(rowOf(which), normalisedValues_[static_cast<std::size_t>(which)]);
     }
     NoteKnobs knobs() const noexcept;
+    RenderMode renderMode() const noexcept {
+        return isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
+    }
+    /// In a bounce a program acts at its own frame, where a part of the block begins.
+    bool needsPart(int status, int frame) const noexcept {
+        return frame > 0 && (status & 0xf0) == programChange && isNonRealtime();
+    }
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
     void applyPoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                    const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
-    void followTempo(double seconds) noexcept;
+    void beginRun() noexcept;
     void resetControls() noexcept;
     template <class Send>
     void sendIfChanged(std::initializer_list<Parameter> watched, Send submit) noexcept;
@@ -267,13 +278,16 @@ private:
     void applyExpression(const NoteEvent& event) noexcept;
     void handleMidi(const juce::MidiMessageMetadata& message, int frame,
                     const NoteExpression& expression = {}) noexcept;
+    void chooseProgram(int program, int frame) noexcept;
     void applyPressure(int channel, int note, double pressure) noexcept;
     void strike(int channel, int note, int velocity, int frame, const NoteExpression& expression) noexcept;
-    NoteSound heldNoteSound(const HeldNotes::Note& note) const noexcept;
+    CollisionEvent heldNoteSound(const HeldNotes::Note& note) const noexcept;
     CollisionEvent strikeAtPlace(CollisionEvent strike, int channel,
                                  const NoteExpression& expression) const noexcept;
     void playHeldNotes(int first, int end) noexcept;
     void processSideChain(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
+    /// True if controllers but pedal and slide come without their channel (decision 93).
+    bool isOfAnyChannel() const noexcept { return wrapperType == wrapperType_VST3; }
     void handleController(int channel, int controller, int value, int frame) noexcept;
     void updateMeters(const juce::AudioBuffer<float>& buffer) noexcept;
 
@@ -313,6 +327,7 @@ private:
     MusicInput music_;
     Transport transport_;
     HostBeats hostBeats_;
+    double partSeconds_ = 0.0; // from the block's start to the part's
     int blockFrames_ = 0;
     GainRamp outputGate_; // closed by bypass and stop()
     OutputGuard guard_;   // limits the sum of runs while one follows another

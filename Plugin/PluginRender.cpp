@@ -12,7 +12,7 @@ namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64, allSoundOff = 120, resetControllers = 121;
-constexpr int allNotesOff = 123; // as the modes above it, releases held notes; struck ones ring out
+constexpr int allNotesOff = 123; // as the modes above it, ends its channel's held notes; struck ones ring out
 constexpr float peakFallDbPerSecond = 20.0f;
 
 } // namespace
@@ -70,20 +70,20 @@ void PluginProcessor::applyPoints(int until) noexcept {
 int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                                 const juce::MidiBuffer& midi, int first) noexcept {
     const int frames = buffer.getNumSamples();
-    const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
     const auto frameOf = [&](const juce::MidiMessageMetadata& m) {
         return std::clamp(m.samplePosition, first, frames - 1);
     };
     int end = std::min(frames, first + blockFrames_);
-    const double seconds = first / sampleRateHz_.load(std::memory_order_relaxed);
-    if (runs_.begin(mode)) resetControls(), hostBeats_.begin(seconds);
-    followTempo(seconds);
+    partSeconds_ = first / sampleRateHz_.load(std::memory_order_relaxed);
+    beginRun();
     for (int frame = first; frame < end;) {
         applyPoints(frame);
         if (frame == first) isMuted_ = isStopped() || value(Parameter::bypass) > 0.5, playWindowKeys(0);
         end = std::min(end, parameterPoints_.nextFrame(Parameter::bypass));
         sendControls(frame - first);
-        for (; message != midi.end() && frameOf(*message) <= frame; ++message) {
+        for (; message != midi.end() && frameOf(*message) <= frame &&
+               !needsPart(*(*message).data, frame - first);
+             ++message) {
             if ((*message).samplePosition >= frames) ++displacedMessages_;
             handleMidi(*message, frame - first);
         }
@@ -91,6 +91,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         int next = std::min(end, parameterPoints_.next());
         if (hasNextNote_) next = std::min(next, std::clamp(nextNote_.frame, first, frames - 1));
         if (message != midi.end()) next = std::min(next, frameOf(*message));
+        if (next == frame) end = frame; // what comes next needs a part
         playHeldNotes(frame - first, next - first);
         processSideChain(buffer, first, frame - first, next - first);
         sendPacedControls(frame - first, next - first); // changes that came faster than their pace allows
@@ -101,7 +102,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     if (const Session* const session = runs_.session())
         guard_.moveTo(session->timeline().nextRenderedFrame(0));
     runs_.setTiming(timing());
-    runs_.render(end - first, mode);
+    runs_.render(end - first, renderMode());
     for (int j = 0; j < runs_.channels(); ++j)
         if (const int channel = outputMap_.channels[static_cast<std::size_t>(j)];
             channel >= 0 && channel < buffer.getNumChannels())
@@ -136,12 +137,14 @@ void PluginProcessor::followTransport(int frames) noexcept {
         stopAll(0);
 }
 
-void PluginProcessor::followTempo(double seconds) noexcept {
+// Begins the run that is due, and lets its script follow the host's tempo.
+void PluginProcessor::beginRun() noexcept {
+    if (runs_.begin(renderMode())) resetControls(), hostBeats_.begin(partSeconds_);
     Session* const session = runs_.session();
     if (!session || runs_.settings().transport != TransportMode::inTempo) return;
     const auto runSeconds = static_cast<double>(session->timeline().framesRendered()) /
                             sampleRateHz_.load(std::memory_order_relaxed);
-    hostBeats_.sendIfChanged(seconds, runSeconds, [session](const HostBeats::Script& script) {
+    hostBeats_.sendIfChanged(partSeconds_, runSeconds, [session](const HostBeats::Script& script) {
         RenderInput input;
         input.group = RenderInput::script;
         input.scriptSeconds = script.seconds;
@@ -250,7 +253,7 @@ void PluginProcessor::readNextNote() noexcept {
 // Handles note events up to frame `until`. Expression at the frame of a note's onset belongs to the onset.
 void PluginProcessor::handleNotes(int until, int first, int frames) noexcept {
     const auto frame = [&] { return std::clamp(nextNote_.frame, first, frames - 1); };
-    while (hasNextNote_ && frame() <= until) {
+    while (hasNextNote_ && frame() <= until && !needsPart(nextNote_.midi[0], until - first)) {
         if (nextNote_.frame >= frames) ++displacedMessages_;
         const auto event = nextNote_;
         const int onset = frame();
@@ -268,9 +271,9 @@ void PluginProcessor::handleNotes(int until, int first, int frames) noexcept {
 }
 
 void PluginProcessor::applyExpression(const NoteEvent& event) noexcept {
-    if (event.kind == NoteEvent::Kind::off) return heldNotes_.stop(event.id, event.channel, event.number);
     heldNotes_.forEachNote([&](HeldNotes::Note& held) {
         if (!held.matches(event.id, event.channel, event.number)) return;
+        held.isDown = held.isDown && event.kind != NoteEvent::Kind::off;
         if (event.kind != NoteEvent::Kind::pressure) return event.applyTo(held.expression);
         if (std::isfinite(event.value)) held.pressure = std::clamp(event.value, 0.0, 1.0);
     });
@@ -281,16 +284,33 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
     if (message.numBytes < 2) return;
     const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
     if (kind == 0xd0) applyPressure(channel, -1, message.data[1] / 127.0);
-    if (kind == 0xc0) requestedProgram_ = message.data[1]; // the timer chooses it
+    if (kind == programChange) chooseProgram(message.data[1], frame);
     if (message.numBytes < 3) return;
     if (kind == 0xa0) applyPressure(channel, message.data[1], message.data[2] / 127.0);
     const bool isOn = kind == 0x90 && message.data[2] > 0;
     if (isOn) strike(channel, message.data[1], message.data[2], frame, expression);
-    if (!isOn && (kind == 0x80 || kind == 0x90)) heldNotes_.stop(expression.id, channel, message.data[1]);
+    if (!isOn && (kind == 0x80 || kind == 0x90))
+        applyExpression({NoteEvent::Kind::off, frame, {}, expression.id, channel, message.data[1]});
     if (kind == 0xe0)
         expression_.setBend(channel,
                             static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f);
-    if (kind == 0xb0) handleController(channel, message.data[1], message.data[2], frame);
+    if (kind != 0xb0) return;
+    const bool isAny = isOfAnyChannel() && message.data[1] > allSoundOff;
+    for (int c = isAny ? 1 : channel; c <= (isAny ? 16 : channel); ++c)
+        handleController(c, message.data[1], message.data[2], frame);
+}
+
+// The timer chooses a program; a bounce does not wait for it, unless memory is lacking.
+void PluginProcessor::chooseProgram(int program, int frame) noexcept {
+    if (!isNonRealtime()) return requestedProgram_.store(program);
+    try {
+        setCurrentProgram(program);
+        readParameters();
+        beginRun();
+        sendControls(frame);
+    } catch (const std::bad_alloc&) {
+        requestedProgram_ = program;
+    }
 }
 
 // Sets the pressure of that note, or (-1) of all notes of the channel and of the MPE zone that it leads.
@@ -332,10 +352,9 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
                                               const NoteExpression& expression) const noexcept {
     const auto& settings = runs_.settings();
     const auto& midi = settings.midi;
-    const double bend = expression_.bend(channel), master = expression_.masterBend(channel),
-                 semitones = midi.bendSemitones(knobs());
+    const double semitones = midi.bendSemitones(knobs());
     double shift = expression.semitones;
-    if (semitones > 0.0) shift += 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
+    if (semitones > 0.0) shift += expression_.bendSemitones(channel, semitones);
     const auto shifted = [](double place, double offset, double size) {
         return std::clamp(place + offset * size, 0.0, size);
     };
@@ -343,8 +362,8 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
         strike.frequencyHz = std::clamp(strike.frequencyHz * portable::pow(2.0, shift / 12.0),
                                         limits::slowestToneHz, limits::maxFrequencyHz);
     strike.x = shifted(strike.x,
-                       value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master) +
-                           0.5 * expression.pan,
+                       value(Parameter::strikeX) * 0.01 +
+                           (semitones > 0.0 ? 0.0 : expression_.bend(channel)) + 0.5 * expression.pan,
                        midi.fieldWidthMetres());
     strike.y = shifted(strike.y,
                        value(Parameter::strikeY) * 0.01 + expression_.slide(channel) + expression.brightness,
@@ -360,13 +379,12 @@ CollisionEvent PluginProcessor::strikeAtPlace(CollisionEvent strike, int channel
 }
 
 // The present sound of a held note; its amplitude is that of velocity or pressure, whichever is larger.
-NoteSound PluginProcessor::heldNoteSound(const HeldNotes::Note& note) const noexcept {
+CollisionEvent PluginProcessor::heldNoteSound(const HeldNotes::Note& note) const noexcept {
     const auto& settings = runs_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
     event.amplitude = gainFromLevelDb(value(Parameter::strikeLevel)) * note.expression.gain *
                       std::max({note.velocity, note.pressure, note.masterPressure});
-    event = strikeAtPlace(event, note.channel, note.expression);
-    return {event.frequencyHz, event.amplitude, event.x, event.y};
+    return strikeAtPlace(event, note.channel, note.expression);
 }
 
 // Plays the strikes of held notes that begin in frames [first, end) of this part.
@@ -378,13 +396,8 @@ void PluginProcessor::playHeldNotes(int first, int end) noexcept {
     heldNotes_.advance(
         now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)),
         [this](const HeldNotes::Note& note) { return heldNoteSound(note); },
-        [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs,
+        [&](const HeldNotes::Note& note, CollisionEvent event, std::int64_t afterNs,
             std::int64_t durationNs) {
-            CollisionEvent event;
-            event.frequencyHz = sound.frequencyHz;
-            event.amplitude = sound.amplitude;
-            event.x = sound.x;
-            event.y = sound.y;
             event.durationNs = durationNs;
             event.decayPerSecond = durationNs > 0 ? 0.0 : release;
             session->callback().strike(event, static_cast<int>(note.onsetFrame - now), afterNs);
@@ -418,10 +431,13 @@ void PluginProcessor::processSideChain(const juce::AudioBuffer<float>& buffer, i
 
 void PluginProcessor::handleController(int channel, int controller, int value, int frame) noexcept {
     if (controller == slideController) expression_.setSlide(channel, static_cast<float>(value - 64) / 128.0f);
-    expression_.handleController(channel, controller, value);
+    expression_.handleController(channel, controller, value, !isOfAnyChannel());
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) heldNotes_.setPedal(channel, value >= 64);
-    if (controller >= allNotesOff) heldNotes_.stopAll();
+    if (controller >= allNotesOff)
+        heldNotes_.forEachNote([&](HeldNotes::Note& held) {
+            held.isEnded |= held.channel == channel || expression_.findMaster(held.channel) == channel;
+        });
     if (controller == resetControllers) {
         expression_.reset(channel);
         heldNotes_.setPedal(channel, false);

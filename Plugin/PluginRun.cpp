@@ -51,12 +51,6 @@ void PluginRun::rewind(StepTiming timing) {
     queuedPanners_.clear();
 }
 
-void PluginRun::PendingControls::clear() noexcept {
-    for (QueuedControl unplayed; queue.pop(unplayed);) {
-    }
-    hasNext = false;
-}
-
 bool PluginRun::queueLevel(double gain, int frame) noexcept {
     return queuedLevels_.queue.push({session.timeline().framesRendered() + frame, gain, {}});
 }

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace physvib {
@@ -81,10 +80,9 @@ public:
     bool hasFaded() const noexcept { return hasFaded_; } ///< true once that fade is complete. R
 
     Session session;
-    std::atomic<int> number{0};          ///< from 1, set by R when the run begins to play; 0 until then
-    std::uint64_t loggedEventCount = 0;  ///< events that were moved to the log; guarded like the log
-    std::atomic<bool> isReleased{false}; ///< true once R no longer uses the run
-    std::string worldError;              ///< why its world stands still until its end; guarded like the log
+    std::atomic<int> number{0};              ///< from 1, set by R when the run begins to play; 0 until then
+    std::uint64_t loggedEventCount = 0;      ///< events that were moved to the log; guarded like the log
+    std::atomic<bool> isReleased{false};     ///< true once R no longer uses the run
     std::vector<std::vector<float>> samples; ///< samples of the last render(), [channel][frame]
 
 private:
@@ -103,7 +101,10 @@ private:
         QueuedControls queue;
         QueuedControl next;
         bool hasNext = false;
-        void clear() noexcept;
+        void clear() noexcept {
+            do hasNext = queue.pop(next);
+            while (hasNext);
+        }
     };
     template <class Make>
     void forwardControls(PendingControls& pending, std::int64_t until, Make make) noexcept;

@@ -84,6 +84,7 @@ void PluginRuns::sendStripsToRuns() {
 // Makes `run` the spare one, and publishes the latencies of its settings. Called with mutex_ locked.
 void PluginRuns::installRun(std::shared_ptr<const RunSpec> spec, std::unique_ptr<PluginRun> run) {
     spec_ = std::move(spec);
+    newestGeneration_.store(spec_->generation, std::memory_order_release);
     errorText_.clear();
     canBuild_ = true;
     if (!run) return;
@@ -99,7 +100,6 @@ void PluginRuns::installRun(std::shared_ptr<const RunSpec> spec, std::unique_ptr
     runs_.push_back(std::move(run));
     PluginRun* const unused = spareRun_.exchange(runs_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isReleased = true;
-    newestGeneration_.store(spec_->generation, std::memory_order_release);
 }
 
 // L must cover the longest time between two ticks, or the delay of beat detection if that is longer. With a
@@ -168,24 +168,14 @@ void PluginRuns::tick() {
     sendStripsToRuns();
     for (auto& run : runs_) {
         if (run->isReleased.load(std::memory_order_acquire)) continue;
-        stepWorld(*run);
+        // so that release() waits for one step of a slow world, not for all that are due
+        run->session.world().tryTo([&] { run->session.advance([this](auto) { return !isStopping_; }); });
         logPlayed(*run);
     }
     if (!hasWork()) return;
     if (isManuallyStepped_) return tryToPrepareSpare(lock);
     lock.unlock();
     workCondition_.notify_one();
-}
-
-// An exception (at worst: out of memory) stops this world alone; the host goes on playing.
-void PluginRuns::stepWorld(PluginRun& run) {
-    try {
-        // so that release() waits for one step of a slow world, not for all that are due
-        run.session.advance([this](auto) { return !isStopping_; });
-    } catch (const std::exception& error) {
-        run.session.world().setSlowness(0); // or the render call would step it
-        run.worldError = std::string{"the world stands still: "} + error.what();
-    }
 }
 
 void PluginRuns::runBuilder() {
@@ -228,9 +218,8 @@ void PluginRuns::prepareSpare(std::unique_lock<std::mutex>& lock) {
 
 std::unique_ptr<PluginRun> PluginRuns::reuseOrBuild(std::vector<std::unique_ptr<PluginRun>>& ended,
                                                     std::shared_ptr<const RunSpec> spec) {
-    const auto found = std::ranges::find_if(ended, [&](const auto& run) {
-        return run->generation() == spec->generation && run->worldError.empty();
-    });
+    const auto found =
+        std::ranges::find_if(ended, [&](const auto& run) { return run->generation() == spec->generation; });
     if (found == ended.end()) {
         ++builtRuns_;
         return makeRun(std::move(spec), sampleRateHz_, blockFrames_);
@@ -276,7 +265,7 @@ void PluginRuns::logPlayed(PluginRun& run) {
     for (PlayedEvent played; run.session.played().pop(played);) {
         if (eventLog_.size() == maxLogEvents)
             eventLog_.erase(eventLog_.begin(), eventLog_.begin() + maxLogEvents / 2);
-        eventLog_.push_back({run.number, played, run.loggedEventCount++});
+        eventLog_.push_back({run.number, played, run.loggedEventCount++, run.generation()});
     }
 }
 
@@ -289,7 +278,8 @@ std::vector<RunEvent> PluginRuns::drainLog() {
 std::string PluginRuns::errorText() const {
     const std::lock_guard lock{mutex_};
     for (const auto& run : runs_)
-        if (!run->worldError.empty() && !run->isReleased) return run->worldError;
+        if (run->session.world().hasFailed() && !run->isReleased)
+            return "the world stands still: std::bad_alloc";
     return errorText_;
 }
 
@@ -425,13 +415,9 @@ Stepper::Stepper()
 
 Stepper::~Stepper() {
     signalThreadShouldExit();
-    wake();
-    stopThread(-1);
-}
-
-void Stepper::wake() {
     { const std::lock_guard lock{mutex_}; } // otherwise the thread could miss the notification
     wakeCondition_.notify_all();
+    stopThread(-1);
 }
 
 void Stepper::add(StepClient& client) {

@@ -66,7 +66,6 @@ private:
         Clock::time_point lastBlock, nextTick;
     };
     void run() override;
-    void wake();
     static void tick(Member& member, Clock::time_point now);
 
     std::mutex mutex_; // held while anybody is stepped
@@ -99,6 +98,7 @@ struct RunEvent {
     int runNumber = 0; ///< counted from 1 since prepare()
     PlayedEvent played;
     std::uint64_t indexInRun = 0; ///< its place among the events of its run, from 0
+    std::uint64_t generation = 0; ///< of that run's settings
 };
 
 /// Counts for the status line of the window, all since prepare().
@@ -181,6 +181,7 @@ public:
     RunsStatus status() noexcept { return status_.read(); } ///< one reader
     /// why no run can be built, or why a world stands still; empty if neither is so. Any thread but R
     std::string errorText() const;
+    std::uint64_t generation() const noexcept { return newestGeneration_; } ///< of the settings. Any thread
     /// how many runs were built anew instead of reused. Any thread
     std::uint64_t builtRuns() const noexcept { return builtRuns_; }
 
@@ -196,7 +197,6 @@ private:
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
     double idleSeconds() const noexcept override { return idleSeconds_; }
     void runBuilder();
-    void stepWorld(PluginRun& run);
     void logPlayed(PluginRun& run);
     bool isDisposable(const PluginRun& run) const;
     bool isSpareNeeded() const;
@@ -229,7 +229,7 @@ private:
     std::condition_variable workCondition_;
 
     std::atomic<PluginRun*> spareRun_{nullptr};
-    std::atomic<std::uint64_t> newestGeneration_{0}; // of the last settings that came into spareRun_
+    std::atomic<std::uint64_t> newestGeneration_{0}; // of the last settings
     std::atomic<bool> hasNextRun_{false}, isStopping_{false};
     std::atomic<std::int64_t> safeFrames_{0}, tightFrames_{0}, directFrames_{0}; // of the last settings
     std::atomic<StepTiming> timing_{StepTiming::safe};

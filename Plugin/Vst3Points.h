@@ -21,12 +21,8 @@ using Steinberg::int16, Steinberg::int32, Steinberg::tresult;
 /// JUCE's numbers of the parameters: a hash of the id without its highest bit.
 inline const std::array<vst::ParamID, parameterCount> vst3ParameterIds = [] {
     std::array<vst::ParamID, parameterCount> ids{};
-    for (std::size_t p = 0; p < parameterCount; ++p) {
-        const auto& id = allParameters()[p].id;
-        ids[p] = static_cast<vst::ParamID>(
-                     juce::String::fromUTF8(id.data(), static_cast<int>(id.size())).hashCode()) &
-                 0x7fffffffu;
-    }
+    for (std::size_t p = 0; p < parameterCount; ++p)
+        ids[p] = static_cast<vst::ParamID>(fromUtf8(allParameters()[p].id).hashCode()) & 0x7fffffffu;
     return ids;
 }();
 

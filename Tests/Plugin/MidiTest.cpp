@@ -341,4 +341,34 @@ TEST(Midi, AProgramChangeChoosesThatPreset) {
     EXPECT_TRUE(host.plugin->canStep(PluginProcessor::Direction::undo));
 }
 
+// Whether hosts send it as MIDI, or in a list of their own.
+TEST(Midi, AProgramChangeOfABounceActsAtItsFrameInAnyBlocks) {
+    const auto note = Message::noteOn(1, 60, juce::uint8{127}), bank = Message::controllerEvent(1, 0, 0),
+               program = Message::programChange(1, presetPlace("Bass"));
+    for (const bool isListed : {false, true})
+        for (const int block : {64, 480, 4096}) {
+            TestHost host{presetNamed("Keys"), block};
+            for (int first = 0; first < 8192; first += block) {
+                SaidOfNotes said;
+                juce::MidiBuffer midi;
+                for (const auto& [at, message] :
+                     {std::pair{699, note}, {700, bank}, {700, program}, {700, note}}) {
+                    if (at < first || at >= first + block) continue;
+                    midi.addEvent(message, at - first);
+                    said.events.push_back({.frame = at - first});
+                    std::copy_n(message.getRawData(), message.getRawDataSize(),
+                                said.events.back().midi.data());
+                }
+                if (isListed) host.plugin->setNoteSource(said), midi.clear();
+                host.block(block, midi);
+            }
+            std::vector<std::pair<std::int64_t, double>> struck; // frame in its run, decay
+            for (const auto& [run, played, index, generation] : host.plugin->runs().drainLog())
+                struck.emplace_back(FrameClock{48000}.at(played.event.timeNs).frame,
+                                    played.event.decayPerSecond);
+            EXPECT_EQ(struck, (decltype(struck){{699, 12.0}, {0, 4.0}})) << block << isListed;
+            EXPECT_EQ(host.plugin->getCurrentProgram(), presetPlace("Bass"));
+        }
+}
+
 } // namespace physvib::midi_test

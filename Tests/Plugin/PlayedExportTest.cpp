@@ -355,6 +355,12 @@ TEST_F(PresetList, EachEntryOfTheMenuOfFilesDoesWhatItSays) {
     host.played(9600);
     editor->exportPlayedAs(folder.getChildFile("felt.csv"));
     EXPECT_TRUE(said().endsWith("felt.csv: 1 events") && isOn(exportWords)) << said();
+    host.block(480, oneNote(60));
+    restore(*host.plugin, chunkOf(*host.plugin));
+    EXPECT_FALSE(isOn(exportWords)) << "nothing of this state was felt";
+    host.played(9600); // the note of before
+    editor->exportPlayedAs(folder.getChildFile("felt.csv"));
+    EXPECT_TRUE(said().startsWith("nothing was felt yet") && !isOn(exportWords)) << said();
 }
 
 TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {

@@ -207,6 +207,15 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     const auto count = host.plugin->stateVersion();
     host.plugin->setCurrentProgram(3);
     EXPECT_EQ(host.plugin->stateVersion(), count) << "hosts repeat themselves: the world does not start anew";
+    const auto& decay = host.plugin->parameter(Parameter::decay);
+    host.set(Parameter::decay, 4.0);
+    host.plugin->setCurrentProgram(3);
+    EXPECT_EQ(decay.value(), 1.0) << "with its knobs";
+    EXPECT_EQ(host.plugin->stateVersion(), count);
+    host.plugin->stepHistory(PluginProcessor::Direction::undo);
+    EXPECT_NEAR(decay.value(), 4.0, 1e-5);
+    host.plugin->stepHistory(PluginProcessor::Direction::undo);
+    EXPECT_TRUE(host.plugin->state().scene == own) << "what changed nothing is no step";
 }
 
 TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {

@@ -24,8 +24,8 @@ PluginState instrument(bool isHeld) {
 }
 
 struct Stopped {
-    explicit Stopped(bool isHeld)
-        : host{instrument(isHeld)} {
+    explicit Stopped(PluginState state)
+        : host{state} {
         host.playHead.isThere = host.playHead.isPlaying = true;
         host.prepare(rate, block);
     }
@@ -53,8 +53,10 @@ Message on(int note) { return Message::noteOn(1, note, juce::uint8{127}); }
 
 TEST(PluginStops, EndEverythingFromEveryState) {
     for (const State& state : states)
-        for (const bool isTransport : {true, false}) {
-            Stopped stopped{state.isHeld};
+        for (const std::string_view how : {"the transport stops", "all sound off", "a take begins"}) {
+            auto played = instrument(state.isHeld);
+            if (how == "a take begins") played.transport = TransportMode::restartOnPlay;
+            Stopped stopped{played};
             juce::MidiBuffer midi;
             for (int note = state.firstKey; note <= state.lastKey; ++note)
                 midi.addEvent(on(note), state.isHeld ? 0 : note);
@@ -64,11 +66,16 @@ TEST(PluginStops, EndEverythingFromEveryState) {
             }
             stopped.send(midi);
             EXPECT_GT(stopped.peakFor(stopped.latency() + 0.2), 0.01f) << state.name;
-            stopped.host.playHead.isPlaying = !isTransport;
-            stopped.send(isTransport ? juce::MidiBuffer{} : oneMessage(Message::allSoundOff(1)));
+            stopped.host.playHead.isPlaying = how != "the transport stops";
+            if (how == "a take begins") stopped.host.playHead.frame += 1'000'000;
+            stopped.send(how == "all sound off" ? oneMessage(Message::allSoundOff(1)) : juce::MidiBuffer{});
             stopped.peakFor(stopped.latency() + 0.1);
-            EXPECT_LT(stopped.peakFor(0.5), 1.0e-4f)
-                << state.name << (isTransport ? ", the transport stops" : ", all sound off");
+            EXPECT_LT(stopped.peakFor(0.5), 1.0e-4f) << state.name << ", " << how;
+            if (!state.isHeld) continue;
+            stopped.send(oneMessage(on(50)));
+            stopped.send(oneMessage(Message::noteOff(1, 50)));
+            stopped.peakFor(stopped.latency() + 0.5);
+            EXPECT_EQ(stopped.peakFor(0.2) > 0.01f, state.isByPedal) << how << ", and the foot where it was";
         }
 }
 
@@ -76,7 +83,7 @@ TEST(PluginStops, EndEverythingFromEveryState) {
 TEST(PluginStops, AreNotLostWhereTheQueueIsFull) {
     for (const auto& [before, isLast] :
          {std::pair{0, true}, {0, false}, {1, true}, {127, true}, {128, true}, {1000, true}}) {
-        Stopped stopped{false};
+        Stopped stopped{instrument(false)};
         juce::MidiBuffer flood;
         for (int i = 0; i < before; ++i) flood.addEvent(Message::allSoundOff(1), 0);
         flood.addEvent(on(60), 470);

@@ -278,40 +278,51 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
 // It has more contacts in its first step than it has taken memory for.
 TEST(Takes, AWorldWithoutMemoryStandsStillUntilTheNextTakeAndItIsSaid) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    auto state = heap(40);
-    state.transport = TransportMode::restartOnPlay;
-    TestHost host{state};
-    auto& runs = host.plugin->runs();
-    runs.useManualStepping();
-    host.prepare(48000, 480, false);
-    host.playHead.isThere = host.playHead.isPlaying = true;
-    const auto places = [&runs] {
-        std::vector<BodyPose> poses;
-        runs.readPoses(poses);
-        std::vector<double> places;
-        for (const auto& pose : poses) places.insert(places.end(), {pose.xMetres, pose.yMetres});
-        return places;
-    };
-    const auto play = [&](bool isStepped) {
-        for (int b = 0; b < 40; ++b) {
-            host.block(480);
-            if (isStepped) runs.tick();
+    for (const std::string_view stepper : {"its thread", "the render call", "a bounce"}) {
+        SCOPED_TRACE(stepper);
+        auto state = heap(40);
+        state.transport = TransportMode::restartOnPlay;
+        TestHost host{state};
+        auto& runs = host.plugin->runs();
+        runs.useManualStepping();
+        host.set(Parameter::timing, stepper == "the render call" ? 1.0 : 0.0);
+        host.prepare(48000, 480, stepper == "a bounce");
+        host.playHead.isThere = host.playHead.isPlaying = true;
+        const auto places = [&runs] {
+            std::vector<BodyPose> poses;
+            runs.readPoses(poses);
+            std::vector<double> places;
+            for (const auto& pose : poses) places.insert(places.end(), {pose.xMetres, pose.yMetres});
+            return places;
+        };
+        const auto play = [&](bool isStepped) {
+            for (int b = 0; b < 40; ++b) {
+                host.block(480);
+                if (isStepped) runs.tick();
+            }
+            return places();
+        };
+        const auto lack = [] {
+            beforeMemory = [](std::size_t) {
+                beforeMemory = nullptr;
+                return false;
+            };
+        };
+        if (stepper != "its thread") lack();
+        host.block(480);
+        if (stepper == "its thread") lack();
+        runs.tick();
+        EXPECT_TRUE(beforeMemory == nullptr);
+        const auto still = places();
+        EXPECT_EQ(play(false), still) << "the render call does not step it either";
+        EXPECT_EQ(play(true), still);
+        EXPECT_EQ(host.plugin->errorText(), "the world stands still: std::bad_alloc");
+        for (int take = 0; take < 4; ++take) { // of the same memory, too
+            host.playHead.frame += 48000;
+            EXPECT_NE(play(true), still);
+            EXPECT_EQ(host.plugin->errorText(), "") << "another moves";
         }
-        return places();
-    };
-    host.block(480);
-    beforeMemory = [](std::size_t) {
-        beforeMemory = nullptr;
-        return false;
-    };
-    runs.tick();
-    const auto still = places();
-    EXPECT_EQ(play(false), still) << "the render call does not step it either";
-    EXPECT_EQ(play(true), still);
-    EXPECT_EQ(host.plugin->errorText(), "the world stands still: std::bad_alloc");
-    host.playHead.frame += 48000;
-    EXPECT_NE(play(true), still);
-    EXPECT_EQ(host.plugin->errorText(), "") << "another moves";
+    }
 }
 
 TEST(Takes, ASessionWithoutMemoryForItsRendererIsNoSilentOne) {

@@ -112,11 +112,17 @@ TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     for (int mode = 123; mode < 128; ++mode) ends.push_back(Message::controllerEvent(1, mode, 0));
     for (const auto& end : ends) {
         SCOPED_TRACE(end.getDescription());
-        const auto signal = playedBy(
-            state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, end}},
-            36000);
+        const auto signal = playedBy(state,
+                                     {{0, on(45)},
+                                      {100, Message::controllerEvent(1, 64, 127)},
+                                      {200, off(45)},
+                                      {24000, end},
+                                      {36000, on(45)},
+                                      {36100, off(45)}},
+                                     50000);
         EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
         EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
+        EXPECT_EQ(peakBetween(signal, 44000, 50000) > 0.5f, &end != ends.data()) << "the foot is still down";
     }
 }
 
@@ -176,6 +182,18 @@ std::vector<TimedMessage> zoneOf(int members) {
             {0, Message::controllerEvent(1, 6, members)}};
 }
 
+void say(ChannelExpression& channels, std::initializer_list<std::pair<int, int>> controllers,
+         int channel = 1) {
+    for (const auto& [number, value] : controllers) channels.handleController(channel, number, value);
+}
+// As JUCE writes it, the low half of a parameter's number comes first.
+void say(ChannelExpression& channels, const juce::MPEZoneLayout& layout) {
+    for (const auto event : juce::MPEMessages::setZoneLayout(layout))
+        if (const auto message = event.getMessage(); message.isController())
+            say(channels, {{message.getControllerNumber(), message.getControllerValue()}},
+                message.getChannel());
+}
+
 // MPE 1.1: a lower zone of n has channels 2 to 1 + n, an upper one 15 down to 16 - n; where they would
 // overlap, the older shrinks, and it stays so small when the newer ends.
 TEST(Voice, TwoMpeZonesNeverShareAChannelAndTheOlderGivesWay) {
@@ -185,9 +203,7 @@ TEST(Voice, TwoMpeZonesNeverShareAChannelAndTheOlderGivesWay) {
                 ChannelExpression zones;
                 std::array<int, 17> masters{}; // 0: of no zone
                 const auto configure = [&](int master, int members) {
-                    zones.handleController(master, 101, 0);
-                    zones.handleController(master, 100, 6);
-                    zones.handleController(master, 6, members);
+                    say(zones, {{101, 0}, {100, 6}, {6, members}}, master);
                     std::ranges::replace(masters, master, 0);
                     for (int k = 1; k <= members; ++k)
                         masters[static_cast<std::size_t>(master == 1 ? 1 + k : 16 - k)] = master;
@@ -202,12 +218,8 @@ TEST(Voice, TwoMpeZonesNeverShareAChannelAndTheOlderGivesWay) {
             }
 }
 
-// As JUCE writes it, the low half of the number comes first.
 TEST(Voice, AZoneIsConfiguredByItsParameterAloneInEitherOrder) {
     ChannelExpression zones;
-    const auto say = [&zones](std::initializer_list<std::pair<int, int>> controllers, int channel = 1) {
-        for (const auto& [number, value] : controllers) zones.handleController(channel, number, value);
-    };
     const auto members = [&zones](int master) {
         int count = 0;
         for (int channel = 1; channel <= 16; ++channel) count += zones.findMaster(channel) == master;
@@ -216,21 +228,61 @@ TEST(Voice, AZoneIsConfiguredByItsParameterAloneInEitherOrder) {
     juce::MPEZoneLayout layout;
     layout.setLowerZone(5);
     layout.setUpperZone(4);
-    for (const auto event : juce::MPEMessages::setZoneLayout(layout))
-        if (const auto message = event.getMessage(); message.isController())
-            say({{message.getControllerNumber(), message.getControllerValue()}}, message.getChannel());
+    say(zones, layout);
     EXPECT_EQ(members(1), 5);
     EXPECT_EQ(members(16), 4);
-    say({{101, 0}, {100, 6}, {6, 7}});
+    say(zones, {{101, 0}, {100, 6}, {6, 7}});
     EXPECT_EQ(members(1), 7);
-    say({{101, 0}, {100, 6}, {99, 0}, {98, 6}, {6, 3}});
+    say(zones, {{101, 0}, {100, 6}, {99, 0}, {98, 6}, {6, 3}});
     EXPECT_EQ(members(1), 7) << "a parameter that is not registered";
-    say({{101, 0}, {100, 6}});
+    say(zones, {{101, 0}, {100, 6}});
     zones.reset(1);
-    say({{6, 3}});
+    say(zones, {{6, 3}});
     EXPECT_EQ(members(1), 7) << "none is selected after a reset";
-    say({{101, 1}, {100, 6}, {6, 3}});
+    say(zones, {{101, 1}, {100, 6}, {6, 3}});
     EXPECT_EQ(members(1), 7) << "another";
+}
+
+TEST(Voice, ABendRangeIsToldToAChannelOrToAllMembersOfAZone) {
+    ChannelExpression channels;
+    const auto semitones = [&channels](int channel) { // of full bends, where 12 are those of the preset
+        for (int c = 1; c <= 16; ++c) channels.setBend(c, 0.5f);
+        return channels.bendSemitones(channel, 12.0);
+    };
+    say(channels, {{6, 5}, {38, 5}}, 3);
+    say(channels, {{101, 0}, {100, 1}, {6, 5}}, 3);
+    EXPECT_EQ(semitones(3), 12.0) << "of no parameter, and of another";
+    say(channels, {{101, 0}, {100, 0}, {38, 25}}, 3);
+    EXPECT_EQ(semitones(3), 12.0) << "cents of nothing";
+    say(channels, {{6, 7}, {38, 50}}, 3);
+    channels.reset(3);
+    EXPECT_EQ(semitones(3), 7.5) << "CC 121 leaves it";
+    EXPECT_EQ(semitones(4), 12.0) << "another channel";
+    juce::MPEZoneLayout layout;
+    layout.setLowerZone(5, 24, 3);
+    say(channels, layout);
+    EXPECT_EQ(semitones(1), 3.0);
+    for (const int member : {2, 3, 6}) EXPECT_EQ(semitones(member), 24.0 + 3.0) << member;
+    EXPECT_EQ(semitones(7), 12.0);
+}
+
+TEST(Voice, AllNotesOffIsOfItsChannelOrOfTheZoneThatItLeads) {
+    auto state = heldVoice();
+    state.voice.releaseSeconds = 0.05;
+    const auto isHeld = [&state](std::vector<TimedMessage> messages, int off, int channel) {
+        messages.push_back({0, on(45, 127, channel)});
+        messages.push_back({4800, Message::controllerEvent(off, 123, 0)});
+        return peakBetween(playedBy(state, messages, 24000), 20000, 24000) > 0.5f;
+    };
+    for (const int channel : {1, 2, 6, 7, 16})
+        for (const int off : {1, 2, 16}) {
+            EXPECT_EQ(isHeld({}, off, channel), off != channel) << off << ' ' << channel;
+            EXPECT_EQ(isHeld(zoneOf(5), off, channel), off != channel && (off != 1 || channel > 6))
+                << off << ' ' << channel;
+        }
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_VST3);
+    EXPECT_FALSE(isHeld({}, 1, 5)) << "VST3 does not say the channel";
+    juce::AudioProcessor::setTypeOfNextNewPlugin(juce::AudioProcessor::wrapperType_Undefined);
 }
 
 TEST(Voice, AMastersPedalHoldsTheNotesOfItsZone) {
@@ -282,6 +334,11 @@ TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
     zone.push_back({0, Message::pitchWheel(1, 16383)});
     EXPECT_NEAR(pitch(zone, 2), 110.0 * std::exp2(2.0 / 12.0), 1.5);
     EXPECT_NEAR(pitch({{0, Message::pitchWheel(1, 16383)}}, 2), 110.0, 1.5) << "no zone";
+    zone = zoneOf(5);
+    for (const auto& [number, value] : {std::pair{100, 0}, {6, 7}}) // registered parameter 0
+        zone.push_back({0, Message::controllerEvent(1, number, value)});
+    zone.push_back({0, Message::pitchWheel(1, 16383)});
+    EXPECT_NEAR(pitch(zone, 2), 110.0 * std::exp2(7.0 / 12.0), 1.5) << "by as many as were told";
     const double bent = pitch({{0, Message::pitchWheel(2, 16383)}}, 2);
     const double back =
         pitch({{0, Message::pitchWheel(2, 16383)}, {50, Message::controllerEvent(2, 121, 0)}}, 2);

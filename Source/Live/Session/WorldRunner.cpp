@@ -71,6 +71,7 @@ void WorldRunner::prepare() {
     requestedSteps_ = 0;
     isOffline_ = false;
     hasStepped_ = !setup_.hasWorld;
+    hasFailed_ = false;
     drops_ = world_.drops();
     publishPoses();
 }
@@ -137,7 +138,7 @@ void WorldRunner::startRequestedRun() {
     const std::lock_guard lock{stateMutex_};
     if (frame < 0 && !isStateNew_) return;
     world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
-    isStateNew_ = false;
+    isStateNew_ = hasFailed_ = false;
     publishSceneTime();
     publishPoses();
 }
@@ -199,11 +200,14 @@ void WorldRunner::beginOffline(std::int64_t endNs) {
 }
 
 // Steps the world whenever the queue is empty.
-bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
+bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) noexcept {
     while (!queue_.pop(event)) {
-        const bool hasMore = !queueEvents() || world_.timeNs() < endNs;
+        bool hasMore = false;
+        tryTo([&] {
+            hasMore = !queueEvents() || world_.timeNs() < endNs;
+            if (world_.timeNs() < endNs) stepWorld(endNs);
+        });
         if (!hasMore) return queue_.pop(event);
-        if (world_.timeNs() < endNs) stepWorld(endNs);
     }
     return true;
 }

@@ -18,6 +18,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -144,9 +145,21 @@ public:
         slowness_.store(std::max(0, slowness), std::memory_order_relaxed);
     }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
-    /// Whether the world is paused and no single step is requested. Any thread.
+    /// Whether the world is paused and no single step is requested, or has failed. Any thread.
     bool isPaused() const noexcept {
-        return slowness() == 0 && requestedSteps_.load(std::memory_order_relaxed) == 0;
+        return hasFailed() || (slowness() == 0 && requestedSteps_.load(std::memory_order_relaxed) == 0);
+    }
+
+    /// True if a step had no memory: the world stands still until it starts anew. Any thread, wait-free.
+    bool hasFailed() const noexcept { return hasFailed_.load(std::memory_order_relaxed); }
+    /// Calls `step`; if it has no memory, this world alone fails. The threads that step it.
+    template <class Step>
+    void tryTo(Step step) noexcept {
+        try {
+            step();
+        } catch (const std::bad_alloc&) {
+            hasFailed_.store(true, std::memory_order_relaxed);
+        }
     }
 
     /// Requests one step of a paused world. Any thread, wait-free.
@@ -187,15 +200,17 @@ private:
     int advance(const StepWatch& keepGoing);   // world driver (D)
     bool beginBlock(RenderMode mode) noexcept; // R; false: the world has not been stepped yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
-    bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
+    bool popOrStep(CollisionEvent& event, std::int64_t endNs) noexcept;    // R, in runOffline
     template <class Render>
     void runOffline(std::int64_t endNs, Render render) { // R in a non-realtime block: steps the world to
                                                          // `endNs`, in `render` and after it
         const std::lock_guard lock{mutex_};
-        beginOffline(endNs);
+        tryTo([&] { beginOffline(endNs); });
         render();
-        while (world_.timeNs() < endNs) stepWorld(endNs);
-        queueEvents();
+        tryTo([&] {
+            while (world_.timeNs() < endNs) stepWorld(endNs);
+            queueEvents();
+        });
     }
 
     // For Scheduler, with the input mutex held:
@@ -230,6 +245,7 @@ private:
     std::atomic<std::int64_t> stalledNs_{0}, restartFrame_{-1}; // restartFrame_: -1, not requested
     std::atomic<int> slowness_{1}, requestedSteps_{0};
     std::atomic<bool> isOffline_{false}, hasStepped_{false}; // hasStepped_: D or R has stepped it
+    std::atomic<bool> hasFailed_{false};
     std::atomic<std::uint64_t> drops_{0};
 
     mutable std::mutex mutex_; // guards the following members
