@@ -32,11 +32,12 @@ public:
     void edit(const juce::String& name, const Mix& newMix, bool continuesEdit = false,
               bool restoresPoses = false);
     template <class Change>
-    void change(const juce::String& name, Change change, bool continuesEdit = false) {
+    void change(const juce::String& name, bool continuesEdit, Change change) {
         Mix newMix = mix_;
         change(newMix);
         edit(name, newMix, continuesEdit);
     }
+    void change(const juce::String& name, auto modify) { change(name, false, modify); }
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.
     std::shared_ptr<MixerHistory> history() const { return history_; }

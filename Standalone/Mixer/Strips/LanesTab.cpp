@@ -187,10 +187,9 @@ int LaneRow::nearestPoint(juce::Point<float> pixel) const {
 
 void LaneRow::edit(const GainLane& lane, bool continuesEdit) {
     if (!isValid()) return;
-    model_.change(
-        "Gain lane of " + name_,
-        [&](Mix& mix) { (isGroup() ? mix.groups[groupIndex()].lane : mix.strips[index_].lane) = lane; },
-        continuesEdit);
+    model_.change("Gain lane of " + name_, continuesEdit, [&](Mix& mix) {
+        (isGroup() ? mix.groups[groupIndex()].lane : mix.strips[index_].lane) = lane;
+    });
     describeSelectedPoint();
     repaint();
 }
