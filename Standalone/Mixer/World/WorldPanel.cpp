@@ -286,7 +286,8 @@ void WorldPanel::mouseUp(const juce::MouseEvent&) {
 void WorldPanel::cancelDrag() {
     view_.cancelDrag();
     pane_.cancelStroke();
-    if (std::exchange(isBadgeMoving_, false)) model_.undoManager().undo();
+    if (std::exchange(isBadgeMoving_, false) && model_.undoManager().getNumActionsInCurrentTransaction() > 0)
+        model_.undoManager().undo(); // unless the hand has undone it
     if (std::exchange(pointerXMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
