@@ -29,8 +29,8 @@ struct MoviePart {
 std::vector<CollisionEvent> partEvents(const SavedSession& session, const MoviePart& part,
                                        const StepWatch& keepGoing) {
     auto events = sessionEvents(session, part.endNs, keepGoing).events;
+    EventShaper{session.shaping}.shape(events); // whole: a fixed level depends on what was played before
     std::erase_if(events, [&](const CollisionEvent& e) { return e.timeNs < part.fromNs; });
-    EventShaper{session.shaping}.shape(events);
     for (CollisionEvent& event : events) event.timeNs -= part.fromNs;
     return events;
 }
