@@ -23,7 +23,7 @@ std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
 /// The panels, the still part of every picture, and the strongest impact's level, to which others compare.
 struct RenderMovie::Parts {
-    const PictureInput& input;
+    const ContactInput input;
     Letters letters;
     HitColours colours;
     Image background{width, height};
@@ -33,7 +33,7 @@ struct RenderMovie::Parts {
 
     explicit Parts(const PictureInput& picture)
         : input{picture}
-        , colours{picture} {
+        , colours{input} {
         Area page = background.bounds().reduced(margin, 0);
         header = page.removeFromTop(headerHeight + 6).withTrimmedTop(6);
         lanes =
