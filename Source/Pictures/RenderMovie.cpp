@@ -89,9 +89,12 @@ struct RenderMovie::Parts {
 
     void drawImpacts(const Canvas& canvas, const FieldMap& map, std::int64_t momentNs) const {
         Light light{world};
+        std::int64_t runStartNs = INT64_MIN;
+        for (const std::int64_t startNs : input.runStartsNs)
+            if (startNs <= momentNs) runStartNs = startNs;
         for (const CollisionEvent& event : input.events) {
             const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
-            if (age < 0.0 || age > glowSeconds) continue;
+            if (event.timeNs < runStartNs || age < 0.0 || age > glowSeconds) continue;
             const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudestDb) / rangeDb;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));

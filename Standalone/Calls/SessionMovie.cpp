@@ -102,6 +102,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const Scene fullScene = lastRun.fullScene();
     picture.scene = &fullScene;
     picture.events = events;
+    for (const SceneRun& run : session.log.runs) picture.runStartsNs.push_back(run.startNs - part.fromNs);
     picture.layout = layout.geometry;
     for (const auto& actuator : layout.actuators) picture.labels.push_back(actuator.label);
     picture.waveform = &waveform;
