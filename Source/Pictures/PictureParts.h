@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The parts of a render's picture, each drawn into a given panel, and their colours, lights and field map.
 #pragma once
+#include "Core/EventShaping.h"
 #include "Pictures/PictureCanvas.h"
 #include "Pictures/RenderPicture.h"
 #include <algorithm>
@@ -9,6 +10,16 @@
 namespace physvib::picture {
 /// True for an impact, false for a grain of rolling or sliding.
 inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
+
+/// The input with contacts alone: what compensates the mean of a hit (see EventShaper) is none.
+struct ContactInput : PictureInput {
+    std::vector<CollisionEvent> contacts{events.begin(), events.end()};
+    explicit ContactInput(const PictureInput& all)
+        : PictureInput{all} {
+        std::erase_if(contacts, isMeanCompensation);
+        events = contacts;
+    }
+};
 
 /// What the colour of a hit means: its material if the scene tells it, else the part of the body on which
 /// every hit is felt, as that part's first actuator is drawn, else its frequency.

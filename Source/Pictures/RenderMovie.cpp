@@ -23,7 +23,7 @@ std::string clockText(double seconds) { return number(seconds, 2) + " s"; }
 
 /// The panels, the still part of every picture, and the strongest impact's level, to which others compare.
 struct RenderMovie::Parts {
-    const PictureInput& input;
+    const ContactInput input;
     Letters letters;
     HitColours colours;
     Image background{width, height};
@@ -33,7 +33,7 @@ struct RenderMovie::Parts {
 
     explicit Parts(const PictureInput& picture)
         : input{picture}
-        , colours{picture} {
+        , colours{input} {
         Area page = background.bounds().reduced(margin, 0);
         header = page.removeFromTop(headerHeight + 6).withTrimmedTop(6);
         lanes =
@@ -89,9 +89,12 @@ struct RenderMovie::Parts {
 
     void drawImpacts(const Canvas& canvas, const FieldMap& map, std::int64_t momentNs) const {
         Light light{world};
+        std::int64_t runStartNs = INT64_MIN;
+        for (const std::int64_t startNs : input.runStartsNs)
+            if (startNs <= momentNs) runStartNs = startNs;
         for (const CollisionEvent& event : input.events) {
             const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
-            if (age < 0.0 || age > glowSeconds) continue;
+            if (event.timeNs < runStartNs || age < 0.0 || age > glowSeconds) continue;
             const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudestDb) / rangeDb;
             if (level <= 0.0f) continue;
             const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));

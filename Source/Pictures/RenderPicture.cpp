@@ -83,7 +83,8 @@ std::string picture::Image::png() const {
     return bytes;
 }
 
-Image drawPicture(const PictureInput& input, const Letters& letters) {
+Image drawPicture(const PictureInput& all, const Letters& letters) {
+    const ContactInput input{all};
     Image image(width, height);
     Painter graphics(image);
     graphics.fillAll(palette::ground);

@@ -23,6 +23,7 @@ struct PictureInput {
     const Scene* scene = nullptr;               ///< null: events without a world
     WorldPoses poses;                           ///< at the strongest event; without bodies: as it began
     std::span<const CollisionEvent> events;     ///< in any order
+    std::vector<std::int64_t> runStartsNs;      ///< of a session's scene runs: in a movie they end all light
     ActuatorLayout layout;                      ///< channel j of the waveforms is place j
     std::vector<std::string> labels;            ///< of the actuators; missing ones are A, B, ... or numbers
     const WaveformEnvelope* waveform = nullptr; ///< of the whole render

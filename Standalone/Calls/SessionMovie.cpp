@@ -29,8 +29,8 @@ struct MoviePart {
 std::vector<CollisionEvent> partEvents(const SavedSession& session, const MoviePart& part,
                                        const StepWatch& keepGoing) {
     auto events = sessionEvents(session, part.endNs, keepGoing).events;
+    EventShaper{session.shaping}.shape(events); // whole: a fixed level depends on what was played before
     std::erase_if(events, [&](const CollisionEvent& e) { return e.timeNs < part.fromNs; });
-    EventShaper{session.shaping}.shape(events);
     for (CollisionEvent& event : events) event.timeNs -= part.fromNs;
     return events;
 }
@@ -102,6 +102,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const Scene fullScene = lastRun.fullScene();
     picture.scene = &fullScene;
     picture.events = events;
+    for (const SceneRun& run : session.log.runs) picture.runStartsNs.push_back(run.startNs - part.fromNs);
     picture.layout = layout.geometry;
     for (const auto& actuator : layout.actuators) picture.labels.push_back(actuator.label);
     picture.waveform = &waveform;

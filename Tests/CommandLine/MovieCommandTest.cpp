@@ -2,6 +2,7 @@
 // `physvib render --movie`: its pictures and their times, read from the file itself; ffmpeg by a stand-in
 // that tells how it was called.
 #include "CommandLine/Calls.h"
+#include "Core/EventShaping.h"
 #include "Pictures/RenderMovie.h"
 #include <array>
 #include <cstdint>
@@ -101,6 +102,30 @@ TEST(RenderMovie, AnotherSceneIsDrawnAsInAMovieOfItsOwn) {
         EXPECT_TRUE(drawn(first, second) == drawn(second, second))
             << second.fieldWidthMetres << " x " << second.fieldHeightMetres;
     }
+}
+
+TEST(RenderMovie, TheLightOfAnImpactEndsWithItsSceneRunAndACompensationHasNone) {
+    PictureInput input;
+    input.fieldWidthMetres = input.layout.extentWidthMetres = 8.0;
+    input.fieldHeightMetres = input.layout.extentHeightMetres = 4.0;
+    input.durationSeconds = 1.0;
+    std::vector<CollisionEvent> events(1);
+    events[0].timeNs = 450'000'000;
+    events[0].frequencyHz = 80.0, events[0].decayPerSecond = 34.0, events[0].amplitude = 1.0;
+    events[0].x = 4.0, events[0].y = 2.0;
+    const auto drawn = [&](std::vector<std::int64_t> runStartsNs) {
+        input.runStartsNs = std::move(runStartsNs);
+        return RenderMovie{input}.draw(500'000'000, {}).png();
+    };
+    const auto dark = drawn({});
+    input.events = events;
+    const auto lit = drawn({0, 450'000'000, 600'000'000});
+    EXPECT_TRUE(lit != dark);
+    EXPECT_TRUE(drawn({0, 480'000'000}) == dark);
+    events.push_back(meanCompensation(events[0]));
+    ASSERT_TRUE(isMeanCompensation(events[1]));
+    input.events = events;
+    EXPECT_TRUE(drawn({}) == lit);
 }
 
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {

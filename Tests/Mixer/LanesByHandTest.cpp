@@ -73,8 +73,19 @@ TEST_F(LanesByHand, ANewPointIsDraggedFromWhereItWasAddedAndUndoneWithIt) {
     row->mouseUp(mouseAt(*row, at(0.3f, 0.3f)));
     ASSERT_EQ(lane().size(), 1u);
     EXPECT_NEAR(lane()[0].seconds, 3.0, 0.2);
-    model.undoManager().undo();
-    EXPECT_TRUE(lane().empty());
+    const GainLane dragged = lane();
+    nudge(KeyPress::downKey, 3);
+    const GainLane lowered = lane();
+    press(at(0.8f, 0.2f));
+    const GainLane second = lane();
+    nudge(KeyPress::downKey, 2);
+    const GainLane later = lane();
+    runFor(1.1);
+    nudge(KeyPress::downKey, 1);
+    for (const GainLane& before : {later, second, lowered, dragged, GainLane{}}) {
+        model.undoManager().undo();
+        EXPECT_EQ(lane(), before) << "a run of keys is a step of its own";
+    }
 }
 
 TEST_F(LanesByHand, APointStaysBetweenItsNeighboursAndReturnAddsOneWhereTheLaneIs) {

@@ -114,8 +114,7 @@ TEST_F(PlayingModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
 
 TEST_F(PlayingModel, AHeldFaderIsOneThingToUndo) {
     for (int k = 0; k < 20; ++k)
-        model.change(
-            "Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
+        model.change("Gain of A", k > 0, [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; });
     EXPECT_EQ(model.mix().strips[0].gainDb, -9.5);
     model.undoManager().undo();
     EXPECT_EQ(model.mix().strips[0].gainDb, 0.0);
@@ -126,8 +125,7 @@ TEST_F(PlayingModel, WhatGoesOnAfterAnUndoIsAStepOfItsName) {
     auto& undo = model.undoManager();
     const auto set = [&](bool isOfWorld, double value) { // as a message does, or a key on a point of a lane
         if (isOfWorld) return void(model.world().edit("Sound", SoundAction{0, value, 9.0}, true));
-        model.change(
-            "Strips by message", [=](Mix& mix) { mix.strips[0].delayMs = value; }, true);
+        model.change("Strips by message", true, [=](Mix& mix) { mix.strips[0].delayMs = value; });
     };
     for (const bool isOfWorld : {false, true}) {
         const juce::String name = isOfWorld ? "Sound" : "Strips by message";

@@ -108,6 +108,39 @@ TEST_F(OscOfMixer, StripsAndSilenceAreMovedInTheMixer) {
     EXPECT_TRUE(runUntil([&] { return counts().refused == 3; }));
 }
 
+TEST_F(OscOfMixer, WhatComesDuringADragNeitherSplitsItsStepNorIsUndoneWithIt) {
+    listen();
+    MixerView view{model};
+    auto& world = view.world().view();
+    auto& history = model.undoManager();
+    const auto layout = layoutJson(model.mix().layout);
+    bool isMuted = false;
+    const auto toggleMute = [&] {
+        isMuted = !isMuted;
+        send("/physvib/mute", {{"channel", 2.0}, {"on", isMuted ? 1.0 : 0.0}});
+        return runUntil([&] { return model.mix().strips[1].isMuted == isMuted; });
+    };
+    for (const bool isEscaped : {false, true}) {
+        juce::ModifierKeys::currentModifiers = juce::ModifierKeys::leftButtonModifier;
+        world.onMove(0, {0.3, 0.5});
+        ASSERT_TRUE(toggleMute());
+        world.onMove(0, {0.4, 0.5});
+        isEscaped ? view.world().cancelDrag() : (void)history.undo();
+        juce::ModifierKeys::currentModifiers = {};
+        EXPECT_EQ(layoutJson(model.mix().layout), layout) << isEscaped;
+        EXPECT_EQ(model.mix().strips[1].isMuted, isMuted) << isEscaped;
+        EXPECT_FALSE(history.canUndo()) << isEscaped;
+        EXPECT_TRUE(history.redo() && history.undo());
+        EXPECT_EQ(model.mix().strips[1].isMuted, isMuted) << isEscaped;
+        view.world().mouseUp(mouseAt(world, {}));
+    }
+    ASSERT_TRUE(toggleMute());
+    world.onMove(0, {0.3, 0.5});
+    history.undo();
+    view.world().cancelDrag();
+    EXPECT_EQ(history.getUndoDescription(), "Strips by message") << "of the drag nothing was left";
+}
+
 TEST_F(OscOfMixer, TheSignOfAGainIsTheStripsPolarityAndItsSizeTheFader) {
     listen();
     struct Gain {

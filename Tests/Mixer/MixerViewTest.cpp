@@ -2,6 +2,7 @@
 // The window's components without a display: every control's name and keys, sizes, looks, clicks.
 #include "Contrast.h"
 #include "Live/Documents/Mix.h"
+#include "Mixer/Window/MixerWindow.h"
 #include "MixerTesting.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
@@ -81,6 +82,16 @@ TEST_F(ShownMixer, NoKeyReachesWhatAScreenHides) {
     view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(model.isSilent());
     view.setScreen(nullptr);
+}
+
+TEST(MixerWindow, NoKeyReachesASessionThatAScreenHides) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    juce::Component screen; // it leaves keys, as one with a field for a comment does
+    window.view().setScreen(&screen);
+    for (const char key : {'s', 'o', 'e', 'n'})
+        EXPECT_FALSE(window.keyPressed(KeyPress{key, juce::ModifierKeys::commandModifier, 0})) << key;
+    window.view().setScreen(nullptr);
 }
 
 TEST_F(ShownMixer, EveryControlIsNamedAndReachedByTheKeyboard) {

@@ -67,20 +67,28 @@ TEST_F(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     EXPECT_LE(picturesIn(folder("last.webp")), 22);
 }
 
-TEST_F(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
-    const auto session = someSecond();
+/// What ffmpeg gets to hear.
+struct SessionMovieSound : SessionMovie {
     // the second input becomes the movie
     const OnlyScript ffmpeg{folder, "ffmpeg",
                             "for word; do case $before in -i) sound=$word;; -ac) echo \"$word\" >\"$(dirname "
                             "\"$0\")/channels\";; "
                             "esac; before=$word; done\ncat \"$sound\" >\"$word\"\n"};
-    EXPECT_EQ(movieEnding(), ".mp4");
-    ASSERT_EQ(write(session, 1.0, path("last.mp4"), on), "");
-    EXPECT_EQ(folder("programs/channels").loadFileAsString().trim(), "2");
     juce::MemoryBlock bytes;
-    folder("last.mp4").loadFileAsData(bytes);
-    ASSERT_EQ(bytes.getSize(), 48000U * 2U * sizeof(float));
-    const auto* samples = static_cast<const float*>(bytes.getData());
+    const float* samplesOf(const SavedSession& session, double seconds) {
+        EXPECT_EQ(write(session, seconds, path("last.mp4"), on), "");
+        folder("last.mp4").loadFileAsData(bytes);
+        const auto expectedSize = 2 * sizeof(float) * static_cast<std::size_t>(48000.0 * seconds);
+        EXPECT_EQ(bytes.getSize(), expectedSize);
+        bytes.ensureSize(expectedSize, true);
+        return static_cast<const float*>(bytes.getData());
+    }
+};
+
+TEST_F(SessionMovieSound, IsThatOfTheContacts) {
+    EXPECT_EQ(movieEnding(), ".mp4");
+    const auto* samples = samplesOf(someSecond(), 1.0);
+    EXPECT_EQ(folder("programs/channels").loadFileAsString().trim(), "2");
     float most = 0.0f, apart = 0.0f;
     for (int k = 0; k < 48000; ++k) {
         most = std::max(most, std::abs(samples[2 * k]));
@@ -90,6 +98,23 @@ TEST_F(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
     EXPECT_LE(most, 0.1f) << "a full-scale impact is at -20 dB";
     EXPECT_GT(apart, 0.0f) << "left and right";
     EXPECT_EQ(files(), 1) << "no pictures and no sound";
+}
+
+TEST_F(SessionMovieSound, OfAPartIsAsStrongAsInTheWhole) {
+    SavedSession session = someSecond();
+    session.lengthNs = 1'000'000'000;
+    session.log.runs.resize(1);
+    Scene scene = *session.log.runs[0].scene;
+    scene.bodies.clear(), scene.joints.clear(), scene.script.clear();
+    session.log.runs[0].scene = std::make_shared<const Scene>(scene);
+    auto& method = session.shaping.method;
+    method.fixesAmplitude = method.holdsLevel = true, method.fixedAmplitude = 0.5;
+    CollisionEvent strike;
+    strike.frequencyHz = 200.0, strike.decayPerSecond = 1.0, strike.source.fixture = 0;
+    for (const std::int64_t ms : {100, 600})
+        strike.timeNs = 1'000'000 * ms, session.log.strikes.push_back(strike);
+    const auto* samples = samplesOf(session, 0.5);
+    EXPECT_NEAR(*std::max_element(samples, samples + 48000), 0.0197, 0.001) << "what the first leaves";
 }
 
 TEST_F(SessionMovie, WithoutFfmpegItIsAWebpAndAFailureLeavesNothing) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Pictures/RenderPicture.h"
+#include "Core/EventShaping.h"
 #include "Pictures/Palette.h"
 #include <algorithm>
 #include <array>
@@ -224,6 +225,17 @@ TEST(RenderPicture, WeakerHitsGlowAtTheirPlaces) {
     EXPECT_GT(left.count, 100);
     EXPECT_GT(right.count, 100);
     EXPECT_GT(right.x, left.x + 100.0);
+}
+
+TEST(RenderPicture, WhatCompensatesTheMeanOfAHitIsNoHit) {
+    Render render(1, 2);
+    auto& hit = render.events[0];
+    hit.frequencyHz = 80.0, hit.decayPerSecond = 34.0, hit.amplitude = 1.0;
+    const auto png = drawPicture(render.input).png();
+    render.events.push_back(meanCompensation(render.events[0]));
+    ASSERT_TRUE(isMeanCompensation(render.events.back()));
+    render.input.events = render.events;
+    EXPECT_TRUE(drawPicture(render.input).png() == png) << "neither counted nor drawn";
 }
 
 TEST(RenderPicture, StemsStandAtTheirTimes) {

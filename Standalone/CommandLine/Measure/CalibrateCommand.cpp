@@ -76,7 +76,7 @@ ActuatorProfile makeProfile(const CalibrateOptions& o, const MeasuredActuator& m
     profile.resonanceHz = m.resonator.resonanceHz;
     profile.q = m.resonator.q;
     profile.band = m.bandWithin(bandDecibels, SweepSettings{}.band);
-    if (!o.band.empty()) profile.band = *parseBand(o.band);
+    if (!o.band.empty()) profile.band = parseBand(o.band).value;
     if (!profile.band->isKnown()) profile.band.reset();
     if (o.gPerUnit > 0.0) profile.fullScaleG = std::abs(m.gain) * o.gPerUnit;
     if (o.driveVolts > 0.0) profile.driveLimitVolts = o.driveVolts;
@@ -170,9 +170,7 @@ std::string optionsError(const CalibrateOptions& o) {
         return "--place: expected with --layout and --layout-out";
     if (!o.layoutPath.empty() && o.gPerUnit <= 0.0)
         return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
-    return o.band.empty() || parseBand(o.band)
-               ? std::string{}
-               : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
+    return o.band.empty() ? std::string{} : parseBand(o.band).error;
 }
 
 void declareCalibrate(OptionTable& command, CalibrateOptions& o) {

@@ -177,19 +177,18 @@ int runMaterial(const MaterialOptions& o) {
     if (!o.texturePath.empty())
         return printTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
     const auto band = parseBand(o.band);
-    if (!band)
-        return reportExit(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
+    if (!band) return reportExit(exitUsage, band.error);
     const auto recording = readRecording(o.path);
     if (!recording) return reportExit(exitFailed, recording.error);
     const auto sound = extractMaterial(loudestChannel(recording.value.channels), recording.value.sampleRateHz,
-                                       {band->lowHz, band->highHz},
+                                       {band.value.lowHz, band.value.highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
     if (!sound) return reportExit(exitFailed, o.path + ": " + sound.error);
     const int code =
         writeStudyFiles({StudyFile{o.picturePath, [&] {
                                        return drawContact(loudestChannel(recording.value.channels),
                                                           recording.value.sampleRateHz, sound.value,
-                                                          {band->lowHz, band->highHz});
+                                                          {band.value.lowHz, band.value.highHz});
                                    }}});
     if (code != exitDone) return code;
     const auto rowText = [](double hz, double perSecond) {

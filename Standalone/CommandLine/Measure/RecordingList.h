@@ -9,9 +9,9 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/SceneLimits.h"
+#include <algorithm>
 #include <complex>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,14 +75,13 @@ Result<std::vector<double>> axisLevels(const std::string& path);
 Result<std::vector<std::complex<double>>> channelTones(const RecordingList& list, const CsvRow& row,
                                                        double frequencyHz);
 
-/// Parses a band such as "90-1000" (LO-HI in Hz, 0 < LO < HI); nullopt for any other text. Any thread.
-inline std::optional<FrequencyBand> parseBand(std::string_view text) {
-    const std::size_t dash = text.find('-');
-    if (dash == std::string_view::npos) return std::nullopt;
+/// Parses what --band has: LO-HI in Hz, 0 < LO < HI; or one error line. Any thread.
+inline Result<FrequencyBand> parseBand(std::string_view text) {
+    const std::size_t dash = std::min(text.find('-'), text.size());
     const auto low = parseNumber<double>(text.substr(0, dash)),
-               high = parseNumber<double>(text.substr(dash + 1));
-    if (!low || !high || !FrequencyBand{*low, *high}.isKnown()) return std::nullopt;
-    return FrequencyBand{*low, *high};
+               high = parseNumber<double>(text.substr(std::min(dash + 1, text.size())));
+    if (low && high && FrequencyBand{*low, *high}.isKnown()) return FrequencyBand{*low, *high};
+    return Failure{"--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(text)};
 }
 
 } // namespace physvib

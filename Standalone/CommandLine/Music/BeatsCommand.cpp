@@ -199,21 +199,20 @@ int renderMusic(const MusicOptions& o, const LayoutDescription& layout) {
     if (o.wavPath.empty() || !o.eventsPath.empty())
         return reportExit(exitUsage,
                           "--through: expected --render FILE.wav, and no --out: music has no strikes");
-    const auto band = o.band.empty() ? BandPass::defaultBand : parseBand(o.band);
-    if (!band)
-        return reportExit(exitUsage, "--band: expected LO-HI in Hz like 50-500, found " + inQuotes(o.band));
+    const auto band = o.band.empty() ? Result{BandPass::defaultBand} : parseBand(o.band);
+    if (!band) return reportExit(exitUsage, band.error);
     const int count = layout.geometry.count;
     ActuatorSet actuators;
     actuators.set();
     if (!o.actuators.empty() && !parseActuatorLetters(o.actuators, count, actuators))
         return reportExit(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) +
                                          " actuators, each once, like AC, found " + inQuotes(o.actuators));
-    BandReceiver receiver{o, count, actuators, *band};
+    BandReceiver receiver{o, count, actuators, band.value};
     if (const std::string error = streamRecording(o.music, receiver); !error.empty())
         return reportExit(exitFailed, error);
     if (const std::string error = receiver.finish(); !error.empty()) return reportExit(exitFailed, error);
-    std::cout << o.wavPath << "  " << count << " channels, " << numberText(band->lowHz) << " to "
-              << numberText(band->highHz) << " Hz of the music\n";
+    std::cout << o.wavPath << "  " << count << " channels, " << numberText(band.value.lowHz) << " to "
+              << numberText(band.value.highHz) << " Hz of the music\n";
     return exitDone;
 }
 

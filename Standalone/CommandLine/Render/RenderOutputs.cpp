@@ -236,6 +236,8 @@ PictureInput RenderOutputs::pictureInput() const {
     picture.fieldHeightMetres = job_.fieldHeightMetres();
     picture.scene = job_.scene ? &*job_.scene : nullptr;
     picture.events = events;
+    if (job_.session)
+        for (const SceneRun& run : job_.session->log.runs) picture.runStartsNs.push_back(run.startNs);
     picture.layout = job_.layout.geometry;
     for (const auto& actuator : job_.layout.actuators) picture.labels.push_back(actuator.label);
     picture.waveform = &envelope_;

@@ -104,16 +104,14 @@ std::string MixerInputs::apply(const RenderControl& control) {
                std::to_string(control.channel + 1);
     if (control.kind != Kind::gain && control.kind != Kind::mute)
         return "expected gain, mute or silence; the rest is set at the desk";
-    model_.change(
-        "Strips by message",
-        [&](Mix& mix) {
-            if (control.kind == Kind::mute)
-                mix.strips[strip].isMuted = control.value != 0.0f;
-            else
-                mix.strips[strip].gainDb = faderDbFromGain(control.value),
-                mix.strips[strip].isInverted = control.value < 0.0f;
-        },
-        true);
+    model_.changeByMessage([&](Mix& mix) {
+        if (strip >= mix.strips.size()) return; // the actuator came later
+        if (control.kind == Kind::mute)
+            mix.strips[strip].isMuted = control.value != 0.0f;
+        else
+            mix.strips[strip].gainDb = faderDbFromGain(control.value),
+            mix.strips[strip].isInverted = control.value < 0.0f;
+    });
     return {};
 }
 

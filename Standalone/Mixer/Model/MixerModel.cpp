@@ -3,6 +3,7 @@
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneFile.h"
+#include <juce_gui_basics/juce_gui_basics.h>
 #include <limits>
 
 namespace physvib {
@@ -117,6 +118,7 @@ public:
     }
     bool undo() override { return history_.model->apply(oldMix_), true; }
     int getSizeInUnits() override { return 1; }
+    void rebase(const std::function<void(Mix&)>& change) const { change(oldMix_), change(newMix_); }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* nextAction) override {
         const auto* nextEdit = dynamic_cast<MixEdit*>(nextAction);
         if (nextEdit == nullptr) return nullptr;
@@ -127,7 +129,7 @@ public:
 
 private:
     MixerHistory& history_;
-    Mix oldMix_, newMix_;
+    mutable Mix oldMix_, newMix_; // JUCE lends actions as constants
     bool wasPerformed_ = false;
 };
 
@@ -189,6 +191,17 @@ void MixerModel::edit(const juce::String& name, const Mix& newMix, bool continue
     history_->undo.perform(new MixEdit{*history_, mix_, std::move(adjustedMix)});
     reportNoOutput(*this, withoutOutput);
     reportNoHeadphoneOutput(*this, withoutHeadphone);
+}
+
+void MixerModel::changeByMessage(const std::function<void(Mix&)>& change) {
+    Mix newMix = mix_;
+    change(newMix);
+    if (!juce::Component::isMouseButtonDownAnywhere()) return edit("Strips by message", newMix, true);
+    apply(newMix);
+    juce::Array<const juce::UndoableAction*> heldActions;
+    history_->undo.getActionsInCurrentTransaction(heldActions);
+    for (const auto* action : heldActions)
+        if (const auto* mixEdit = dynamic_cast<const MixEdit*>(action)) mixEdit->rebase(change);
 }
 
 bool MixerModel::apply(const Mix& newMix) {

@@ -32,11 +32,15 @@ public:
     void edit(const juce::String& name, const Mix& newMix, bool continuesEdit = false,
               bool restoresPoses = false);
     template <class Change>
-    void change(const juce::String& name, Change change, bool continuesEdit = false) {
+    void change(const juce::String& name, bool continuesEdit, Change change) {
         Mix newMix = mix_;
         change(newMix);
         edit(name, newMix, continuesEdit);
     }
+    void change(const juce::String& name, auto modify) { change(name, false, modify); }
+    /// A change by a message, as an edit that continues those of messages before. While a mouse button is
+    /// held it belongs to no step: undoing what the hand has done keeps it.
+    void changeByMessage(const std::function<void(Mix&)>& change);
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.
     std::shared_ptr<MixerHistory> history() const { return history_; }

@@ -232,8 +232,7 @@ void MixerScript::apply(const ScriptTrim& trim, bool continuesEdit) {
     auto editedScene = std::make_shared<const Scene>(std::move(scene));
     std::erase_if(sceneTrims_, [](const auto& entry) { return entry.first.expired(); });
     sceneTrims_.emplace_back(editedScene, trim);
-    model_.change(
-        scriptEditName, [&editedScene](Mix& mix) { mix.scene = editedScene; }, continuesEdit);
+    model_.change(scriptEditName, continuesEdit, [&editedScene](Mix& mix) { mix.scene = editedScene; });
 }
 
 const RecordedInputs* MixerScript::recording() const {

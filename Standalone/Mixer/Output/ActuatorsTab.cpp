@@ -126,8 +126,7 @@ ActuatorsTab::ActuatorsTab(MixerModel& model, WorldView& world)
     exponent_.setSkewFactorFromMidPoint(1.0);
     exponent_.setDoubleClickReturnValue(true, 1.0);
     onSliderChange(exponent_, [this](bool continuesEdit) {
-        model_.change(
-            "Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, continuesEdit);
+        model_.change("Exponent", continuesEdit, [this](Mix& mix) { mix.exponent = exponent_.getValue(); });
     });
     list_.setTitle("List of actuators");
     list_.setRowHeight(actuatorRowPixels);

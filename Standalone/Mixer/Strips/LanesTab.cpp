@@ -10,6 +10,7 @@ constexpr int labelWidth = 92, minRowHeight = 34, laneRowGap = 6, footHeight = 1
 
 constexpr float pointSize = 8.0f, pointInset = 5.0f; // keeps points at the edge fully visible
 constexpr double pointStepSeconds = 0.05, pointStepDb = 0.5, largePointStepDb = 3.0;
+constexpr double maxKeyGapMs = 1000.0; // between keys of one undo step
 
 juce::String pointText(const GainPoint& point) {
     return (point.db <= minStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
@@ -187,10 +188,10 @@ int LaneRow::nearestPoint(juce::Point<float> pixel) const {
 
 void LaneRow::edit(const GainLane& lane, bool continuesEdit) {
     if (!isValid()) return;
-    model_.change(
-        "Gain lane of " + name_,
-        [&](Mix& mix) { (isGroup() ? mix.groups[groupIndex()].lane : mix.strips[index_].lane) = lane; },
-        continuesEdit);
+    if (!continuesEdit) lastKeyMs_ = 0.0;
+    model_.change("Gain lane of " + name_, continuesEdit, [&](Mix& mix) {
+        (isGroup() ? mix.groups[groupIndex()].lane : mix.strips[index_].lane) = lane;
+    });
     describeSelectedPoint();
     repaint();
 }
@@ -281,6 +282,8 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
             (mods.isShiftDown() ? largePointStepDb : pointStepDb) * (code == KeyPress::upKey ? 1.0 : -1.0);
     else
         return false;
+    if (nowMs() - std::exchange(lastKeyMs_, nowMs()) > maxKeyGapMs)
+        model_.undoManager().beginNewTransaction();
     move(point, true);
     return true;
 }

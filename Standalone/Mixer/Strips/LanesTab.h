@@ -48,6 +48,7 @@ private:
     double spanSeconds_ = 10.0;
     int selectedPoint_ = -1;
     bool isDragging_ = false, hasMoved_ = false;
+    double lastKeyMs_ = 0.0; // of the last key that moved a point; 0: something else was edited since
 };
 
 /// All gain lanes over one time axis, which grows with the scene. Message thread.

@@ -39,16 +39,14 @@ StripView::StripView(MixerModel& model, int strip)
     , sweep_{Icon::sweep, "Sweep on " + labelOf(model.mix(), index_)} {
     const auto label = labelOf(model.mix(), index_);
     onSliderChange(fader_, [this](bool continuesEdit) {
-        change(
-            "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, continuesEdit);
+        change("Gain", continuesEdit, [this](Strip& s) { s.gainDb = fader_.getValue(); });
     });
     ceiling_.textFromValueFunction = [this](double db) {
         return "at most " + number(db, 1) + " dB, " +
                gText(stripLevelG(model_, index_, static_cast<float>(fromDecibels(db)))) + " g";
     };
     onSliderChange(ceiling_, [this](bool continuesEdit) {
-        change(
-            "Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, continuesEdit);
+        change("Ceiling", continuesEdit, [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); });
     });
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
@@ -67,12 +65,11 @@ StripView::StripView(MixerModel& model, int strip)
     mixChanged();
 }
 
-void StripView::change(const juce::String& name, const std::function<void(Strip&)>& modify,
-                       bool continuesEdit) {
+void StripView::change(const juce::String& name, bool continuesEdit,
+                       const std::function<void(Strip&)>& modify) {
     if (!isValid()) return; // the strip was removed; its view follows
-    model_.change(
-        name + " of " + labelOf(model_.mix(), index_), [&](Mix& mix) { modify(mix.strips[index_]); },
-        continuesEdit);
+    model_.change(name + " of " + labelOf(model_.mix(), index_), continuesEdit,
+                  [&](Mix& mix) { modify(mix.strips[index_]); });
 }
 
 void StripView::fillOutputs() {
@@ -301,12 +298,11 @@ GroupView::GroupView(MixerModel& model, int group)
     level_.setTitle("Gain of the group " + label);
     fader_.configure(minStripDb, maxStripDb, "Gain of the group " + label);
     onSliderChange(fader_, [this](bool continuesEdit) {
-        change(
-            "Gain", [this](StripGroup& g) { g.gainDb = fader_.getValue(); }, continuesEdit);
+        change("Gain", continuesEdit, [this](StripGroup& g) { g.gainDb = fader_.getValue(); });
     });
     describe(mute_, "Mute the group " + label, "Mute all of the group");
     mute_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
-    mute_.onClick = [this] { change("Mute", [](StripGroup& g) { g.isMuted = !g.isMuted; }); };
+    mute_.onClick = [this] { change("Mute", false, [](StripGroup& g) { g.isMuted = !g.isMuted; }); };
     remove_ = makeLinkButton("Ungroup", "Ungroup " + label);
     remove_->setTooltip("The strips take over what the group does to them");
     remove_->onClick = [this] {
@@ -320,9 +316,9 @@ GroupView::GroupView(MixerModel& model, int group)
 }
 
 template <class Change>
-void GroupView::change(const juce::String& name, Change change, bool continuesEdit) {
-    model_.change(
-        name + " of " + utf8(group().name), [&](Mix& mix) { change(mix.groups[index_]); }, continuesEdit);
+void GroupView::change(const juce::String& name, bool continuesEdit, Change change) {
+    model_.change(name + " of " + utf8(group().name), continuesEdit,
+                  [&](Mix& mix) { change(mix.groups[index_]); });
 }
 
 void GroupView::rename() {
@@ -330,7 +326,7 @@ void GroupView::rename() {
     const auto& groups = model_.mix().groups;
     const bool isFree = std::ranges::find(groups, name.toStdString(), &StripGroup::name) == groups.end();
     if (isFree && name.isNotEmpty() && name.getNumBytesAsUTF8() <= limits::maxNameBytes)
-        change("Name", [&](StripGroup& g) { g.name = name.toStdString(); });
+        change("Name", false, [&](StripGroup& g) { g.name = name.toStdString(); });
     else
         name_.setText(utf8(group().name), dontNotify);
 }

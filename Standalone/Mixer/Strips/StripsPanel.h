@@ -32,9 +32,9 @@ private:
     bool isValid() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return model_.mix().strips[index_]; }
     void change(const juce::String& name, const std::function<void(Strip&)>& modify) override {
-        change(name, modify, false);
+        change(name, false, modify);
     }
-    void change(const juce::String& name, const std::function<void(Strip&)>& modify, bool continuesEdit);
+    void change(const juce::String& name, bool continuesEdit, const std::function<void(Strip&)>& modify);
     void fillOutputs();
 
     MixerModel& model_;
@@ -60,7 +60,7 @@ public:
 private:
     const StripGroup& group() const { return model_.mix().groups[index_]; }
     template <class Change>
-    void change(const juce::String& name, Change change, bool continuesEdit = false);
+    void change(const juce::String& name, bool continuesEdit, Change change);
     void rename();
 
     MixerModel& model_;

@@ -18,8 +18,7 @@ MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
     fader_.configure(minStripDb, 0.0, isFlat ? "Master gain, in a row" : "Master gain", defaultLevelDb);
     if (isFlat) fader_.setHorizontal();
     onSliderChange(fader_, [this](bool continuesEdit) {
-        model_.change(
-            "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, continuesEdit);
+        model_.change("Master gain", continuesEdit, [this](Mix& mix) { mix.levelDb = fader_.getValue(); });
     });
     if (!isFlat) addAll(*this, {&meter_, &limiter_});
     addAndMakeVisible(fader_);

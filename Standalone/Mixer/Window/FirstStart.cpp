@@ -201,8 +201,7 @@ void FirstStart::denyPulse() {
 
 void FirstStart::raiseLevel() {
     if (isDetached()) return testNext();
-    model_.change(
-        "Louder", [](Mix& mix) { mix.levelDb = std::min(maxDb, mix.levelDb + stepDb); }, true);
+    model_.change("Louder", true, [](Mix& mix) { mix.levelDb = std::min(maxDb, mix.levelDb + stepDb); });
     pulse();
     updateTexts();
 }

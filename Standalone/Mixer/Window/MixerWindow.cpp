@@ -433,6 +433,10 @@ static int zoomStep(const juce::KeyPress& key) {
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (view_->openCard() != nullptr) return view_->keyPressed(key);
+    if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
+    if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
+    if (const int steps = zoomStep(key); steps != 0) return stepZoom(steps), true;
+    if (!view_->world().isVisible()) return view_->keyPressed(key); // the rest is of what a screen hides
     if (key == KeyPress{'n', command, 0}) return newDocument(), true;
     if (key == KeyPress{'o', command, 0}) return openDocument(), true;
     if (key == KeyPress{'s', command, 0}) return save(), true;
@@ -440,10 +444,7 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'r', command, 0}) return record(), true;
     if (key == KeyPress{'r', command | shift, 0}) return recordScript(), true;
     if (key == KeyPress{'e', command, 0}) return renderOffline(), true;
-    if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
     if (key == KeyPress::F11Key) return setShowMode(!view_->isShowMode()), true;
-    if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
-    if (const int steps = zoomStep(key); steps != 0) return stepZoom(steps), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
     return view_->keyPressed(key);
 }

@@ -57,16 +57,14 @@ WorldPanel::WorldPanel(MixerModel& model)
             model_.eventPlayer().playClipAt(files, share.x, share.y);
     };
     view_.onMove = [this](int actuator, FieldShare newShare) {
-        model_.change(
-            "Move " + labelOf(model_.mix(), actuator),
-            [&](Mix& mix) {
-                auto& layout = mix.layout.geometry;
-                auto& place = nth(layout.places, actuator); // depth and part of the body stay unchanged
-                place.xMetres = newShare.x * layout.extentWidthMetres;
-                place.yMetres = newShare.y * layout.extentHeightMetres;
-                mix.layout.name = "own";
-            },
-            std::exchange(isBadgeMoving_, true));
+        const auto name = "Move " + labelOf(model_.mix(), actuator);
+        model_.change(name, std::exchange(isBadgeMoving_, true), [&](Mix& mix) {
+            auto& layout = mix.layout.geometry;
+            auto& place = nth(layout.places, actuator); // depth and part of the body stay unchanged
+            place.xMetres = newShare.x * layout.extentWidthMetres;
+            place.yMetres = newShare.y * layout.extentHeightMetres;
+            mix.layout.name = "own";
+        });
     };
     view_.addMouseListener(this, false);
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) {
@@ -97,9 +95,8 @@ WorldPanel::WorldPanel(MixerModel& model)
         return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m";
     };
     onSliderChange(drag_, [this](bool continuesEdit) {
-        model_.change(
-            "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
-            continuesEdit);
+        model_.change("Drag strength", continuesEdit,
+                      [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); });
     });
     abButton_.setTitle("Compare A and B");
     abButton_.onClick = [this] { comparison_.toggle(); };
@@ -289,7 +286,8 @@ void WorldPanel::mouseUp(const juce::MouseEvent&) {
 void WorldPanel::cancelDrag() {
     view_.cancelDrag();
     pane_.cancelStroke();
-    if (std::exchange(isBadgeMoving_, false)) model_.undoManager().undo();
+    if (std::exchange(isBadgeMoving_, false) && model_.undoManager().getNumActionsInCurrentTransaction() > 0)
+        model_.undoManager().undo(); // unless the hand has undone it
     if (std::exchange(pointerXMetres_, {}) && player_) sendInput(player_->steer(0));
 }
 
@@ -551,7 +549,6 @@ void ScriptStrip::refresh(bool isHandTool) {
     const bool hasNewScene = std::exchange(shownScene_, model_.mix().scene) != model_.mix().scene,
                hasToggled = std::exchange(isRecordingShown_, script.isRecording()) != script.isRecording();
     if (hasNewScene || hasToggled) showScript();
-    const auto separator = "  " + juce::String::charToString(0x00b7) + "  ";
     if (script.isRecording())
         status_.setText("Recording hands" + separator + number(script.seconds(), 1) + " s" + separator +
                             countText(script.inputs(), "input"),
