@@ -73,9 +73,11 @@ public:
         }
     };
 
-    /// Silences all notes. The pedals stay as the player holds them, so that the next notes are sustained.
+    /// Silences all notes, and lifts the pedals: a song that stops while one is down would hold what is
+    /// played next without an end.
     void clear() noexcept {
         for (Note& note : notes_) note.isOn = false;
+        pedal_.fill(false);
     }
 
     void start(const Note& note) noexcept {
@@ -174,6 +176,7 @@ public:
         if (number != dataEntry || parameter != zoneConfiguration || (channel != 1 && channel != 16)) return;
         int &zone = channel == 1 ? lowerMembers_ : upperMembers_,
             &otherZone = channel == 1 ? upperMembers_ : lowerMembers_;
+        bendRange_[index(channel)].reset(), bendRange_[16 + index(channel)].reset(); // as MPE has it
         zone = std::min(value, 15);
         otherZone = std::min(otherZone, std::max(0, 14 - zone));
     }

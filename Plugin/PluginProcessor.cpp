@@ -9,6 +9,9 @@ namespace physvib {
 
 namespace {
 
+/// What presets and undo set: somebody may have pressed SILENCE meanwhile.
+const auto allButSilence = TouchedParameters{}.set().reset(static_cast<std::size_t>(Parameter::bypass));
+
 /// An error may quote bytes of a broken chunk, and JUCE overruns its memory if a text is not valid UTF-8.
 juce::String asString(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
@@ -142,7 +145,7 @@ void PluginProcessor::stepHistory(Direction direction) {
     }
     if (!target) return;
     // SILENCE is no edit: only its button lifts it
-    target->touched.reset(static_cast<std::size_t>(Parameter::bypass));
+    target->touched &= allButSilence;
     if (applyEdit(target->state)) setParameters(target->state, target->touched);
 }
 
@@ -176,7 +179,7 @@ bool PluginProcessor::applyEdit(PluginState state) {
 void PluginProcessor::open(PluginState state) {
     auto before = this->state();
     if (!applyEdit(state)) return;
-    setParameters(state);
+    setParameters(state, allButSilence);
     recordEdit(std::move(before));
 }
 
@@ -318,7 +321,8 @@ void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->notifyHost();
     if (const auto now = noteKnobs(); now != tailKnobs_)
         tailSeconds_ = tailSeconds(state(), tailKnobs_ = now);
-    if (const int requested = requestedProgram_.exchange(-1), before = program_; requested >= 0) {
+    if (const int requested = requestedProgram_.exchange(-1), before = program_;
+        requested >= 0 && requested != before) { // a song may say it at each start: knobs stay
         setCurrentProgram(requested);
         if (program_ != before)
             updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(true));
@@ -339,7 +343,7 @@ void PluginProcessor::setCurrentProgram(int index) {
     const auto changed = withPreset(index);
     const bool keepsPlaying = canKeepPlaying(before, changed);
     if (!keepsPlaying && !apply(changed)) return;
-    setParameters(changed);
+    setParameters(changed, allButSilence);
     if (keepsPlaying && state().parameters == before.parameters) return; // hosts repeat calls
     followsOutputs_ = true;
     recordEdit(std::move(before));

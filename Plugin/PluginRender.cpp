@@ -303,6 +303,8 @@ void PluginProcessor::handleMidi(const juce::MidiMessageMetadata& message, int f
 // The timer chooses a program; a bounce does not wait for it, unless memory is lacking.
 void PluginProcessor::chooseProgram(int program, int frame) noexcept {
     if (!isNonRealtime()) return requestedProgram_.store(program);
+    requestedProgram_ = -1; // an older one
+    if (program == program_) return;
     try {
         setCurrentProgram(program);
         readParameters();

@@ -279,7 +279,7 @@ std::string PluginRuns::errorText() const {
     const std::lock_guard lock{mutex_};
     for (const auto& run : runs_)
         if (run->session.world().hasFailed() && !run->isReleased)
-            return "the world stands still: std::bad_alloc";
+            return "the world stands still: a step of it failed";
     return errorText_;
 }
 

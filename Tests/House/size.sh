@@ -18,10 +18,10 @@ cpp() { find "$@" -type f \( -name '*.h' -o -name '*.cpp' \); }
 lines() { cpp "$@" | xargs cat | wc -l; }
 bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 
-say "products: lines of C++" "$(lines $products)" 117109
+say "products: lines of C++" "$(lines $products)" 117138
 say "products: files of C++" "$(cpp $products | wc -l)" 643
-say "products: bytes without white space" "$(bytes $products)" 4325842
-say "tests: lines of C++" "$(lines Tests)" 83112
+say "products: bytes without white space" "$(bytes $products)" 4326702
+say "tests: lines of C++" "$(lines Tests)" 83147
 say "tests: files of C++" "$(cpp Tests | wc -l)" 433
 if [ -n "$bin" ]; then
     say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 12

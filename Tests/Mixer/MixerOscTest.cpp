@@ -134,6 +134,14 @@ TEST_F(OscOfMixer, WhatComesDuringADragNeitherSplitsItsStepNorIsUndoneWithIt) {
         EXPECT_EQ(model.mix().strips[1].isMuted, isMuted) << isEscaped;
         view.world().mouseUp(mouseAt(world, {}));
     }
+    for (const double x : {0.3, 0.4, 0.5}) world.onMove(0, {x, 0.5}), history.beginNewTransaction();
+    history.undo();
+    juce::ModifierKeys::currentModifiers = juce::ModifierKeys::leftButtonModifier;
+    ASSERT_TRUE(toggleMute());
+    juce::ModifierKeys::currentModifiers = {};
+    while (history.undo()) EXPECT_EQ(model.mix().strips[1].isMuted, isMuted);
+    while (history.redo()) EXPECT_EQ(model.mix().strips[1].isMuted, isMuted);
+    view.world().mouseUp(mouseAt(world, {}));
     ASSERT_TRUE(toggleMute());
     world.onMove(0, {0.3, 0.5});
     history.undo();

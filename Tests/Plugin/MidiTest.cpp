@@ -368,6 +368,10 @@ TEST(Midi, AProgramChangeOfABounceActsAtItsFrameInAnyBlocks) {
                                     played.event.decayPerSecond);
             EXPECT_EQ(struck, (decltype(struck){{699, 12.0}, {0, 4.0}})) << block << isListed;
             EXPECT_EQ(host.plugin->getCurrentProgram(), presetPlace("Bass"));
+            auto& knob = host.plugin->parameter(Parameter::strikeLevel);
+            knob.setValueNotifyingHost(0.25f);
+            host.block(block, oneMessage(program));
+            EXPECT_EQ(knob.getValue(), 0.25f) << "a song may say it at each start";
         }
 }
 

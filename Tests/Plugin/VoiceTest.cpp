@@ -264,6 +264,8 @@ TEST(Voice, ABendRangeIsToldToAChannelOrToAllMembersOfAZone) {
     EXPECT_EQ(semitones(1), 3.0);
     for (const int member : {2, 3, 6}) EXPECT_EQ(semitones(member), 24.0 + 3.0) << member;
     EXPECT_EQ(semitones(7), 12.0);
+    say(channels, {{101, 0}, {100, 6}, {6, 5}});
+    EXPECT_EQ(semitones(2), 12.0 + 2.0) << "another controller's zone";
 }
 
 TEST(Voice, AllNotesOffIsOfItsChannelOrOfTheZoneThatItLeads) {

@@ -541,6 +541,27 @@ TEST(SceneDrawing, WhatIsSavedWhileItHangsRestsWhereItWouldHaveRested) {
         }
 }
 
+// A seed moves bodies a little at the start, and what has turned for long is told without whole turns.
+TEST(SceneDrawing, WhatIsSavedHasRigidJointsAtRestAndNoWholeTurns) {
+    Scene scene = blank();
+    for (const double x : {1.0, 1.4}) {
+        scene.bodies.push_back(makeBall({x, 2.0}, {x + 0.1, 2.0}).value);
+        scene.bodies.back().name = x == 1.0 ? "a" : "b";
+    }
+    scene.joints = {{"rod", "a", "b", DistanceJoint{{1.0, 2.0}, {1.4, 2.0}}},
+                    {"spring", "a", "b", DistanceJoint{{1.0, 2.0}, {1.4, 2.0}, 2.0, 0.5}},
+                    {"rigid", "a", "b", WeldJoint{{1.2, 2.0}}},
+                    {"soft", "a", "b", WeldJoint{{1.2, 2.0}, 3.0, 0.5}}};
+    const double fullTurns = 318.0 * std::numbers::pi;
+    const Scene now = sceneNow(scene, [&](const std::string& body) {
+        return std::optional{body == "a" ? BodyPose{1.0, 2.0, 0.0} : BodyPose{1.5, 2.0, fullTurns + 0.1}};
+    });
+    EXPECT_EQ(std::get<DistanceJoint>(now.joints[0].joint).restMetres, 0.0);
+    EXPECT_NEAR(std::get<DistanceJoint>(now.joints[1].joint).restMetres, -0.1, 1e-9);
+    EXPECT_EQ(std::get<WeldJoint>(now.joints[2].joint).restRadians, 0.0);
+    EXPECT_NEAR(std::get<WeldJoint>(now.joints[3].joint).restRadians, -0.1, 1e-9);
+}
+
 TEST_F(Car, ACopyHasTheJointsBetweenItsBodies) {
     ASSERT_EQ(join(WheelJoint{pin, {0.0, 1.0}}), "");
     ASSERT_EQ(join(DistanceJoint{top, pin}, "car", "rod"), "");

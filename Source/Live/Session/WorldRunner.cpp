@@ -317,11 +317,16 @@ void SessionWorld::reset(std::int64_t sessionNs) {
 
 void SessionWorld::step(std::vector<CollisionEvent>& events) {
     const std::size_t oldSize = events.size();
-    world_->step(events);
-    world_->dropExecutedInputs();
-    ++steps_;
-    for (std::size_t i = oldSize; i < events.size(); ++i) events[i].timeNs += originNs_;
-    shaper_.shape(events, oldSize);
+    try {
+        world_->step(events);
+        world_->dropExecutedInputs();
+        ++steps_;
+        for (std::size_t i = oldSize; i < events.size(); ++i) events[i].timeNs += originNs_;
+        shaper_.shape(events, oldSize);
+    } catch (...) {
+        events.resize(oldSize); // half of a step is not played
+        throw;
+    }
 }
 
 void SessionWorld::addStall(std::int64_t lengthNs) {

@@ -16,9 +16,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -150,14 +150,15 @@ public:
         return hasFailed() || (slowness() == 0 && requestedSteps_.load(std::memory_order_relaxed) == 0);
     }
 
-    /// True if a step had no memory: the world stands still until it starts anew. Any thread, wait-free.
+    /// True if a step failed: the world stands still until it starts anew. Any thread, wait-free.
     bool hasFailed() const noexcept { return hasFailed_.load(std::memory_order_relaxed); }
-    /// Calls `step`; if it has no memory, this world alone fails. The threads that step it.
+    /// Calls `step`; if it throws (at worst for lack of memory), this world alone fails. The threads that
+    /// step it.
     template <class Step>
     void tryTo(Step step) noexcept {
         try {
             step();
-        } catch (const std::bad_alloc&) {
+        } catch (const std::exception&) {
             hasFailed_.store(true, std::memory_order_relaxed);
         }
     }

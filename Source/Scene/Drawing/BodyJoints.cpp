@@ -4,6 +4,7 @@
 #include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace physvib {
@@ -174,6 +175,8 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
     const auto shift = [](std::optional<Interval>& limits, double by) {
         if (limits) limits = {limits->lower + by, limits->upper + by};
     };
+    // a rigid joint rests as it is: what it differs by is where the seed put the bodies
+    const auto yields = [](const auto& kind, double rest) { return kind.springHz > 0.0 || rest != 0.0; };
     std::map<std::string, Motion> motions;
     for (BodyDescription& body : scene.bodies) {
         const auto pose = findPose ? findPose(body.name) : std::nullopt;
@@ -189,10 +192,11 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
         std::visit(
             [&](auto& kind) {
                 if constexpr (requires { kind.anchorAMetres; }) {
-                    kind.restMetres += distance(kind.anchorAMetres, kind.anchorBMetres);
+                    const double wasMetres = distance(kind.anchorAMetres, kind.anchorBMetres);
                     kind.anchorAMetres = a->second(kind.anchorAMetres);
                     kind.anchorBMetres = b->second(kind.anchorBMetres);
-                    kind.restMetres -= distance(kind.anchorAMetres, kind.anchorBMetres);
+                    if (yields(kind, kind.restMetres) || kind.isSlack)
+                        kind.restMetres += wasMetres - distance(kind.anchorAMetres, kind.anchorBMetres);
                 } else {
                     const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
                     const double turnRadians = b->second.angleRadians() - a->second.angleRadians();
@@ -207,7 +211,10 @@ Scene sceneNow(const Scene& drawn, const CurrentPose& findPose) {
                         shift(kind.travelMetres, -slidMetres);
                         if constexpr (isWheel) kind.restMetres -= slidMetres;
                     }
-                    if constexpr (requires { kind.restRadians; }) kind.restRadians -= turnRadians;
+                    if constexpr (requires { kind.restRadians; })
+                        if (yields(kind, kind.restRadians)) // whole turns are none: poses lack them, too
+                            kind.restRadians =
+                                std::remainder(kind.restRadians - turnRadians, 2.0 * std::numbers::pi);
                     if constexpr (requires { kind.limitsRadians; }) shift(kind.limitsRadians, -turnRadians);
                 }
             },

@@ -105,31 +105,32 @@ Mix MixerModel::defaultMix() {
 }
 
 /// An undoable edit of the mixer state; repeated edits of one fader merge into one.
-class MixerModel::MixEdit final : public juce::UndoableAction {
+class MixerModel::MixEdit final : public juce::UndoableAction, public MixStates {
 public:
     MixEdit(MixerHistory& history, Mix oldMix, Mix newMix)
-        : history_{history}
-        , oldMix_{std::move(oldMix)}
-        , newMix_{std::move(newMix)} {}
+        : MixStates{std::move(oldMix), std::move(newMix)}
+        , history_{history} {
+        history_.mixEdits.insert(this);
+    }
+    ~MixEdit() override { history_.mixEdits.erase(this); }
+    MixEdit(const MixEdit&) = delete;
     // JUCE keeps no step of an action that fails at first, but forgets all steps if one fails later
     bool perform() override {
-        const bool isDone = history_.model->apply(newMix_);
+        const bool isDone = history_.model->apply(after);
         return std::exchange(wasPerformed_, true) || isDone;
     }
-    bool undo() override { return history_.model->apply(oldMix_), true; }
+    bool undo() override { return history_.model->apply(before), true; }
     int getSizeInUnits() override { return 1; }
-    void rebase(const std::function<void(Mix&)>& change) const { change(oldMix_), change(newMix_); }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* nextAction) override {
         const auto* nextEdit = dynamic_cast<MixEdit*>(nextAction);
         if (nextEdit == nullptr) return nullptr;
-        auto* mergedEdit = new MixEdit{history_, oldMix_, nextEdit->newMix_};
+        auto* mergedEdit = new MixEdit{history_, before, nextEdit->after};
         mergedEdit->wasPerformed_ = true;
         return mergedEdit;
     }
 
 private:
     MixerHistory& history_;
-    mutable Mix oldMix_, newMix_; // JUCE lends actions as constants
     bool wasPerformed_ = false;
 };
 
@@ -198,10 +199,9 @@ void MixerModel::changeByMessage(const std::function<void(Mix&)>& change) {
     change(newMix);
     if (!juce::Component::isMouseButtonDownAnywhere()) return edit("Strips by message", newMix, true);
     apply(newMix);
-    juce::Array<const juce::UndoableAction*> heldActions;
-    history_->undo.getActionsInCurrentTransaction(heldActions);
-    for (const auto* action : heldActions)
-        if (const auto* mixEdit = dynamic_cast<const MixEdit*>(action)) mixEdit->rebase(change);
+    for (MixStates* edit : history_->mixEdits)
+        for (Mix* mix : {&edit->before, &edit->after})
+            if (mix->count() == mix_.count()) change(*mix); // else its channels are others
 }
 
 bool MixerModel::apply(const Mix& newMix) {

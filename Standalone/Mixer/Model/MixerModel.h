@@ -39,7 +39,7 @@ public:
     }
     void change(const juce::String& name, auto modify) { change(name, false, modify); }
     /// A change by a message, as an edit that continues those of messages before. While a mouse button is
-    /// held it belongs to no step: undoing what the hand has done keeps it.
+    /// held it belongs to no step: undoing whatever the hand did keeps it.
     void changeByMessage(const std::function<void(Mix&)>& change);
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// The undo steps, which another model with the same mix and drawing can take over.

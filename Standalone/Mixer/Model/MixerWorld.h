@@ -13,6 +13,7 @@
 #include <juce_data_structures/juce_data_structures.h>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -46,12 +47,18 @@ private:
     std::int64_t sessionNs_ = 0, behindNs_ = 0;
 };
 
+/// Between which a step of undo goes.
+struct MixStates {
+    Mix before, after;
+};
+
 /// The undo steps. They act on `model`, which need not be the one that made them: a model that is opened with
 /// another output takes them over. Message thread.
 struct MixerHistory {
     MixerModel* model = nullptr;
     /// Pairs of a scene and the same scene after later drawing.
     std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawnScenes;
+    std::set<MixStates*> mixEdits; ///< of the steps below
     juce::UndoManager undo{1000, 30};
 
     /// Begins a step of that name, unless it has begun and the edit continues it.
