@@ -56,7 +56,8 @@ rm -f build/tests-*-again.xml # of another run
 build release all
 # Three at once on two cores: many wait for a program or a disk.
 tests release quiet -j3 --progress -LE "live|display|$at_night"
-twice release display -j2 -L display
+# Each has a display of its own, and waits most of the time.
+twice release display -j4 -L display
 # What plays in real time waits most of the time: each of these takes the place of two.
 twice release live -j6 -L live -LE "$at_night"
 # Nothing is left out in silence.
